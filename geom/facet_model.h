@@ -1,0 +1,41 @@
+// A model made of the skin of a mesh, for meshes that have no CAD: the same interface, facets instead of splines.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hextwist/geom/model.h"
+
+namespace hextwist {
+
+/// Which piece of the facet model each piece of the skin became.
+struct FacetClassification {
+  std::vector<int> quad_surface;                  ///< per quad: surface id
+  std::vector<std::array<std::int32_t, 2>> edges; ///< feature edges (a < b), lexicographic
+  std::vector<int> edge_curve;                    ///< per feature edge: curve id
+  std::vector<std::int32_t> vertex_nodes;         ///< per vertex id - 1: node
+};
+
+struct FacetModelOptions {
+  /// An edge whose two quads' normals differ by more than this is a feature. Degrees, 0..180.
+  double feature_angle = 35;
+};
+
+struct FacetImport {
+  std::shared_ptr<const Model> model;
+  FacetClassification classification;
+};
+
+/// points: all nodes of the mesh. quads: its skin and the interfaces between its volumes, each once, corners in
+/// cyclic order, seen from outside counter-clockwise with respect to quad_volumes[i][0].
+/// quad_volumes: per quad the volume behind it and the one in front (0: none); 1-based, contiguous.
+/// Features: edges at an angle, edges where more or fewer than two quads meet, edges between quads with different
+/// volumes. Vertices: nodes where other than two features meet, where two meet at an angle, and cone tips.
+/// Surfaces are numbered by their first quad, curves by their lowest edge, vertices by their node.
+/// Curves that are closed and have no vertex are periodic. Curve parameter: arc length.
+FacetImport facet_model(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
+                        std::span<const std::array<int, 2>> quad_volumes, const FacetModelOptions& options = {});
+
+}  // namespace hextwist

@@ -1,0 +1,41 @@
+// CAD from files or from memory through OpenCASCADE.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hextwist/geom/model.h"
+
+class TopoDS_Shape;  // OpenCASCADE's; no header of its is reached from here
+
+namespace hextwist {
+
+struct CadOptions {
+  /// Make touching solids of an assembly share their common faces, edges and vertices (a STEP file with several
+  /// solids keeps them apart). What was merged is reported in `notices`.
+  bool glue = false;
+  /// Distance in model units within which faces count as touching; 0: the tolerance of the CAD itself.
+  double glue_tolerance = 0;
+};
+
+/// A model and what had to be said while it was made (units, merged faces, healed edges): one line each.
+struct CadImport {
+  std::shared_ptr<const Model> model;
+  std::vector<std::string> notices;
+};
+
+/// Reads .step/.stp, .brep, .iges/.igs (by extension, case ignored; by content where it is missing).
+/// Entity ids: 1-based per kind in the order of TopExp::MapShapes over the shape as read (after gluing, if asked).
+/// Throws Error naming the file when it is missing, unreadable, truncated, empty or has no solid.
+CadImport read_cad(const std::filesystem::path& file, const CadOptions& options = {});
+
+/// The same for a shape in memory. The shape is shared, not copied, and must not be changed while the model lives.
+CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options = {});
+
+/// Writes the shape behind a model made by the functions above; format by extension (.step, .brep, .iges).
+/// Throws Error if the model did not come from OpenCASCADE or the file can't be written.
+void write_cad(const std::filesystem::path& file, const Model& model);
+
+}  // namespace hextwist

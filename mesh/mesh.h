@@ -1,0 +1,89 @@
+// The mesh is arrays: points, hexes, blocks, sets, fields. Functions over them live one topic per header.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hextwist/geom/types.h"
+
+namespace hextwist {
+
+/// Position in an array, 0-based. Ids shown to users are 1-based or come from the file (node_id(), hex_id()).
+using Index = std::int32_t;
+
+/// Corner c lies at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube (see corners.h). Positive volume when that
+/// frame is right-handed.
+using Hex = std::array<Index, 8>;
+
+/// One of the six sides of a hex: face 2 * axis + side (see corners.h).
+struct Side {
+  Index hex = -1;
+  std::int32_t face = 0;
+
+  auto operator<=>(const Side&) const = default;
+};
+
+/// Named groups. Ids are positive and unique per kind; members ascending, each once. Groups of a kind may overlap,
+/// and nothing need belong to any.
+struct Block {
+  int id = 0;
+  std::string name;
+  std::vector<Index> hexes;
+  bool operator==(const Block&) const = default;
+};
+struct NodeSet {
+  int id = 0;
+  std::string name;
+  std::vector<Index> nodes;
+  bool operator==(const NodeSet&) const = default;
+};
+struct SideSet {
+  int id = 0;
+  std::string name;
+  std::vector<Side> sides;
+  bool operator==(const SideSet&) const = default;
+};
+
+/// Values per node or per hex: values[i * components + c].
+struct Field {
+  enum class On { node, hex };
+  std::string name;
+  On on = On::node;
+  int components = 1;
+  std::vector<double> values;
+  bool operator==(const Field&) const = default;
+};
+
+struct Mesh {
+  std::vector<Vec3> points;
+  std::vector<Hex> hexes;
+  /// Ids as users know them, strictly ascending; empty: index + 1.
+  std::vector<std::int64_t> node_ids;
+  std::vector<std::int64_t> hex_ids;
+  std::vector<Block> blocks;
+  std::vector<NodeSet> node_sets;
+  std::vector<SideSet> side_sets;
+  std::vector<Field> fields;
+
+  Index n_nodes() const { return static_cast<Index>(points.size()); }
+  Index n_hexes() const { return static_cast<Index>(hexes.size()); }
+  bool operator==(const Mesh&) const = default;
+};
+
+/// Id of a node or hex as the user knows it.
+std::int64_t node_id(const Mesh& mesh, Index node);
+std::int64_t hex_id(const Mesh& mesh, Index hex);
+/// Index of an id, -1 when there is none. Logarithmic.
+Index find_node(const Mesh& mesh, std::int64_t id);
+Index find_hex(const Mesh& mesh, std::int64_t id);
+
+/// Box of all points.
+Box box(const Mesh& mesh);
+/// Volume of one hex (trilinear map, exact) and of the whole mesh.
+double volume(const Mesh& mesh, Index hex);
+double volume(const Mesh& mesh);
+
+}  // namespace hextwist

@@ -1,0 +1,62 @@
+// Edges, faces and incidences of a mesh, derived on demand.
+//
+// Guarantees:
+//  1. edges are sorted by (lower node, higher node), faces by (lowest node, diagonal node, lower neighbour), so their
+//     numbers depend on the mesh alone, not on threads; a user's edge and face ids are these numbers + 1;
+//  2. a face is stored with its nodes in bit-frame order of its first hex (the lowest index), see corners.h;
+//  3. every list is flat: the items of x are items[first[x]] .. items[first[x + 1]].
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+using Edge = std::array<Index, 2>;  ///< nodes, lower first
+using Quad = std::array<Index, 4>;  ///< nodes; bit frame or cycle, as the context says
+
+/// Lists of varying length in two arrays.
+struct Lists {
+  std::vector<Index> first;  ///< n + 1
+  std::vector<Index> items;
+  std::span<const Index> operator[](Index i) const {
+    return {items.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
+  }
+  Index size() const { return static_cast<Index>(first.size()) - 1; }
+};
+
+struct Edges {
+  std::vector<Edge> nodes;                    ///< per edge, sorted
+  std::vector<std::array<Index, 12>> of_hex;  ///< per hex: edges in the order of corners.h
+  std::vector<Index> first_of_node;           ///< n_nodes + 1: edges whose lower node is i
+};
+struct Faces {
+  std::vector<Quad> nodes;                   ///< per face, bit frame of sides[face][0]
+  std::vector<std::array<Side, 2>> sides;    ///< per face: its one or two hexes (hex -1: none)
+  std::vector<std::array<Index, 6>> of_hex;  ///< per hex: faces in the order of corners.h
+  std::vector<Index> first_of_node;          ///< n_nodes + 1: faces whose lowest node is i
+};
+
+Edges edges(const Mesh& mesh);
+/// Precondition: no face has more than two hexes (validate() reports that); asserts otherwise.
+Faces faces(const Mesh& mesh);
+
+/// Edge between two nodes, face with four nodes (any order), -1 when there is none.
+Index find_edge(const Edges& edges, Index a, Index b);
+Index find_face(const Faces& faces, const Quad& nodes);
+
+/// Hexes around each node; hexes around each edge; both ascending.
+Lists node_hexes(const Mesh& mesh);
+Lists edge_hexes(const Edges& edges, Index n_hexes);
+
+/// Sides with no hex behind them, ascending by (hex, face).
+std::vector<Side> boundary_sides(const Faces& faces);
+
+/// The sides that these quads (any corner order) are, one per quad: the side of the hex with the lower index where
+/// there are two; hex -1 where no hex has such a face.
+std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads);
+
+}  // namespace hextwist

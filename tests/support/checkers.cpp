@@ -1,0 +1,108 @@
+#include "support/checkers.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "hextwist/mesh/corners.h"
+
+namespace hextwist::test {
+namespace {
+
+testing::AssertionResult no(const std::string& what) { return testing::AssertionFailure() << what; }
+
+}  // namespace
+
+testing::AssertionResult conformal(const Mesh& mesh) {
+  struct Seen {
+    Index hex;
+    std::array<Index, 4> cycle;
+    int count;
+  };
+  std::map<std::array<Index, 4>, Seen> quads;
+  std::set<Hex> hexes;
+  std::vector<char> used(mesh.points.size(), 0);
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    Hex sorted = mesh.hexes[h];
+    std::ranges::sort(sorted);
+    if (sorted[0] < 0 || sorted[7] >= mesh.n_nodes()) return no("hex " + std::to_string(h) + " has a node that is not");
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) return no("hex " + std::to_string(h) + " repeats a node");
+    if (!hexes.insert(sorted).second) return no("hex " + std::to_string(h) + " is there twice");
+    for (const Index n : sorted) used[n] = 1;
+    for (int f = 0; f < n_hex_faces; ++f) {
+      const auto cycle = face_node_cycle(mesh.hexes[h], f);
+      auto key = cycle;
+      std::ranges::sort(key);
+      const auto [at, fresh] = quads.try_emplace(key, Seen{h, cycle, 1});
+      if (fresh) continue;
+      if (++at->second.count > 2) return no("three hexes at a face of hex " + std::to_string(h));
+      // The neighbour must see the same cycle backwards.
+      auto reversed = cycle;
+      std::ranges::reverse(reversed);
+      std::ranges::rotate(reversed, std::ranges::find(reversed, at->second.cycle[0]));
+      if (reversed != at->second.cycle)
+        return no("hexes " + std::to_string(at->second.hex) + " and " + std::to_string(h) + " disagree on their face");
+    }
+  }
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (!used[n]) return no("node " + std::to_string(n) + " is unused");
+  // The skin of a conformal mesh is closed, and none of its quads is covered by smaller ones: a hanging node would
+  // leave the big quad and the small ones as skin inside the body. Those would share their rim: an edge of the big
+  // quad that is cut on the other side occurs once, an odd number.
+  std::map<std::array<Index, 2>, int> rim;
+  for (const auto& [key, seen] : quads)
+    if (seen.count == 1)
+      for (int i = 0; i < 4; ++i) {
+        const auto [a, b] = std::minmax(seen.cycle[i], seen.cycle[(i + 1) % 4]);
+        ++rim[{a, b}];
+      }
+  for (const auto& [edge, count] : rim)
+    if (count % 2) return no("open skin at edge " + std::to_string(edge[0]) + " " + std::to_string(edge[1]));
+  return testing::AssertionSuccess();
+}
+
+testing::AssertionResult uninverted(const Mesh& mesh) {
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    for (int c = 0; c < 8; ++c) {
+      const auto& hex = mesh.hexes[h];
+      std::array<Vec3, 3> e;
+      for (int axis = 0; axis < 3; ++axis)
+        e[axis] = (mesh.points[hex[c | 1 << axis]] - mesh.points[hex[c & ~(1 << axis)]]);
+      Eigen::Matrix3d a;
+      a << e[0], e[1], e[2];
+      const double det = a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) -
+                         a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+                         a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+      if (!(det > 0)) return no("hex " + std::to_string(h) + " is inverted at corner " + std::to_string(c));
+    }
+  return testing::AssertionSuccess();
+}
+
+testing::AssertionResult sets_valid(const Mesh& mesh) {
+  const auto ascending = [](const auto& items) {
+    return std::ranges::adjacent_find(items, std::ranges::greater_equal{}) == items.end();
+  };
+  for (const Block& block : mesh.blocks) {
+    if (!ascending(block.hexes)) return no("block " + std::to_string(block.id) + " is not ascending");
+    if (!block.hexes.empty() && (block.hexes.front() < 0 || block.hexes.back() >= mesh.n_hexes()))
+      return no("block " + std::to_string(block.id) + " has a hex that is not");
+  }
+  for (const NodeSet& set : mesh.node_sets) {
+    if (!ascending(set.nodes)) return no("node set " + std::to_string(set.id) + " is not ascending");
+    if (!set.nodes.empty() && (set.nodes.front() < 0 || set.nodes.back() >= mesh.n_nodes()))
+      return no("node set " + std::to_string(set.id) + " has a node that is not");
+  }
+  for (const SideSet& set : mesh.side_sets) {
+    if (!ascending(set.sides)) return no("side set " + std::to_string(set.id) + " is not ascending");
+    for (const Side& side : set.sides)
+      if (side.hex < 0 || side.hex >= mesh.n_hexes() || side.face < 0 || side.face > 5)
+        return no("side set " + std::to_string(set.id) + " has a side that is not");
+  }
+  for (const Field& field : mesh.fields) {
+    const std::size_t n = field.on == Field::On::node ? mesh.points.size() : mesh.hexes.size();
+    if (field.values.size() != n * field.components) return no("field " + field.name + " has the wrong length");
+  }
+  return testing::AssertionSuccess();
+}
+
+}  // namespace hextwist::test

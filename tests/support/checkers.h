@@ -1,0 +1,22 @@
+// Independent checkers: the specification of a good mesh. They share no code with the library beyond mesh.h and
+// corners.h, are simple instead of fast, and report the first offence by id.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist::test {
+
+/// Every node used, none repeated in a hex; every quad shared by at most two hexes, in opposite sense; no node of
+/// the skin lies inside an edge or quad of another hex (so the skin is closed: each of its edges has an even number
+/// of its quads).
+testing::AssertionResult conformal(const Mesh& mesh);
+
+/// Every corner Jacobian of every hex positive.
+testing::AssertionResult uninverted(const Mesh& mesh);
+
+/// Sets, blocks and fields have members that exist, ascending and once each; fields the right length.
+testing::AssertionResult sets_valid(const Mesh& mesh);
+
+}  // namespace hextwist::test
