@@ -40,15 +40,17 @@ struct Faces {
   std::vector<Index> first_of_node;          ///< n_nodes + 1: faces whose lowest node is i
 };
 
+/// All of these throw Error naming the first hex that names a node that does not exist. Hexes may otherwise be as bad
+/// as they like (a node named twice, ...): what such a mesh gives is deterministic.
 Edges edges(const Mesh& mesh);
-/// Precondition: no face has more than two hexes (validate() reports that); asserts otherwise.
+/// Throws Error naming three hexes when they share one face.
 Faces faces(const Mesh& mesh);
 
-/// Edge between two nodes, face with four nodes (any order), -1 when there is none.
+/// Edge between two nodes, face with four nodes (any order), -1 when there is none. Any integers may be asked for.
 Index find_edge(const Edges& edges, Index a, Index b);
 Index find_face(const Faces& faces, const Quad& nodes);
 
-/// Hexes around each node; hexes around each edge; both ascending.
+/// Hexes around each node; hexes around each edge; both ascending (a hex that names a node twice stands twice).
 Lists node_hexes(const Mesh& mesh);
 Lists edge_hexes(const Edges& edges, Index n_hexes);
 

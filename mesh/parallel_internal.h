@@ -1,0 +1,49 @@
+// Loops over index ranges on all threads, and the fixed chunks that make sums independent of their number.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+/// Calls f(begin, end) for pieces of 0..n, on all threads. What f writes must not depend on how the range is cut.
+template <class F>
+void parallel_ranges(Index n, F&& f, Index grain = 2048) {
+  if (n <= grain) {
+    if (n > 0) f(Index{0}, n);
+    return;
+  }
+  tbb::parallel_for(tbb::blocked_range<Index>(0, n, grain), [&](const auto& range) { f(range.begin(), range.end()); });
+}
+
+/// Pieces of 0..n of a fixed size, whatever the threads: f(chunk, begin, end), for results kept per chunk and then
+/// joined in order. n_chunks(n, size) of them.
+inline Index n_chunks(Index n, Index size) {
+  return n / size + (n % size != 0);
+}
+template <class F>
+void parallel_chunks(Index n, Index size, F&& f) {
+  parallel_ranges(
+      n_chunks(n, size),
+      [&](Index begin, Index end) {
+        for (Index chunk = begin; chunk < end; ++chunk)
+          f(chunk, chunk * size, std::min(n - chunk * size, size) + chunk * size);
+      },
+      1);
+}
+
+/// Lowers target to value if that is less; order of callers does not matter.
+template <class T>
+void atomic_min(T& target, T value) {
+  std::atomic_ref<T> shared(target);
+  T seen = shared.load(std::memory_order_relaxed);
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+}
+
+}  // namespace hextwist

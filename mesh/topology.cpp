@@ -1,0 +1,316 @@
+// All arrays here are made alike: the places where hexes name a node are listed per node (count, prefix sum, scatter,
+// sort); an edge or face belongs to its lowest node, so each node can then sort and number its own few on its own.
+#include "hextwist/mesh/topology.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/mesh/topology_internal.h"
+
+namespace hextwist {
+namespace {
+
+constexpr Index max_hexes = std::numeric_limits<Index>::max() / 12;  // edge uses fit an Index
+
+/// Turns counts into starts: first[i] = sum of the counts before i. The last entry must be 0 and gets the total.
+void counts_to_starts(std::vector<Index>& first) {
+  Index sum = 0;
+  for (Index& entry : first) {
+    const Index count = entry;
+    entry = sum;
+    sum += count;
+  }
+}
+
+/// Counts to ends, for scattering backwards: every item then lowers the entry of its list by one, after which the
+/// entries are starts.
+void counts_to_ends(std::vector<Index>& first) {
+  Index sum = 0;
+  for (Index& entry : first) entry = sum += entry;
+}
+
+Index fetch_add(Index& counter, Index step) {
+  return std::atomic_ref<Index>(counter).fetch_add(step, std::memory_order_relaxed);
+}
+
+void sort_lists(Lists& lists) {
+  parallel_ranges(lists.size(), [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      std::sort(lists.items.begin() + lists.first[i], lists.items.begin() + lists.first[i + 1]);
+  });
+}
+
+/// One use of an edge by a hex, at the edge's lower node: the other node, and which use it is (3 * place + axis,
+/// place in the list of the node's corners). In one integer, so that sorting is quick.
+using EdgeUse = std::uint64_t;
+
+/// Edges that belong to a node: those to higher nodes. One from the node to itself (of a hex that names a node twice)
+/// is taken at its lower corner only.
+void collect_edges(const Mesh& mesh, Index node, std::span<const Index> corners, std::vector<EdgeUse>& uses) {
+  uses.clear();
+  std::uint64_t use = 0;
+  for (const Index corner : corners) {
+    const Hex& hex = mesh.hexes[corner >> 3];
+    for (int axis = 0; axis < 3; ++axis, ++use) {
+      const Index other = hex[(corner & 7) ^ (1 << axis)];
+      if (other > node || (other == node && !(corner >> axis & 1)))
+        uses.push_back(static_cast<EdgeUse>(other) << 32 | use);
+    }
+  }
+  std::ranges::sort(uses);
+}
+
+/// One use of a face by a hex, at the face's lowest node.
+struct FaceUse {
+  Index diagonal, low, high;  ///< node across; the two neighbours, lower first
+  Index corner;               ///< 8 * hex + corner of the lowest node
+  int axis;                   ///< normal axis
+
+  auto key() const { return std::tie(diagonal, low, high); }
+  auto operator<=>(const FaceUse&) const = default;
+  Side side() const { return {corner >> 3, 2 * axis + (corner >> axis & 1)}; }
+};
+
+void collect_faces(const Mesh& mesh, Index node, std::span<const Index> corners, std::vector<FaceUse>& uses) {
+  uses.clear();
+  for (const Index corner : corners) {
+    const Hex& hex = mesh.hexes[corner >> 3];
+    const int c = corner & 7;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
+      const std::array<int, 3> at = {c ^ u, c ^ v, c ^ u ^ v};
+      // A node that the face names twice keeps the face where it stands first.
+      if (!std::ranges::all_of(at, [&](int d) { return hex[d] > node || (hex[d] == node && d > c); })) continue;
+      const auto [low, high] = std::minmax(hex[at[0]], hex[at[1]]);
+      uses.push_back({hex[at[2]], low, high, corner, axis});
+    }
+  }
+  std::ranges::sort(uses);
+}
+
+/// Calls f(first, last) for each run of equal items in a sorted list.
+template <class T, class Same, class F>
+void for_runs(const std::vector<T>& items, Same same, F f) {
+  for (std::size_t begin = 0, end; begin < items.size(); begin = end) {
+    for (end = begin + 1; end < items.size() && same(items[begin], items[end]);) ++end;
+    f(std::span(items).subspan(begin, end - begin));
+  }
+}
+constexpr auto same_edge = [](EdgeUse a, EdgeUse b) { return a >> 32 == b >> 32; };
+constexpr auto same_face = [](const FaceUse& a, const FaceUse& b) { return a.key() == b.key(); };
+
+}  // namespace
+
+Lists node_corners(const Mesh& mesh) {
+  if (mesh.hexes.size() > max_hexes)
+    throw Error("a mesh of " + std::to_string(mesh.hexes.size()) + " hexes: more than " + std::to_string(max_hexes) +
+                " cannot be numbered");
+  Lists corners;
+  corners.first.assign(mesh.points.size() + 1, 0);
+  Index bad = mesh.n_hexes();
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (const Index node : mesh.hexes[h])
+        if (node >= 0 && node < mesh.n_nodes())
+          fetch_add(corners.first[node], 1);
+        else
+          atomic_min(bad, h);
+  });
+  if (bad < mesh.n_hexes())
+    throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
+  counts_to_ends(corners.first);
+  corners.items.resize(8 * mesh.hexes.size());
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (int c = 0; c < 8; ++c) corners.items[fetch_add(corners.first[mesh.hexes[h][c]], -1) - 1] = 8 * h + c;
+  });
+  sort_lists(corners);
+  return corners;
+}
+
+Edges edges(const Mesh& mesh) {
+  const Lists corners = node_corners(mesh);
+  Edges result;
+  result.first_of_node.assign(mesh.points.size() + 1, 0);
+  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
+    std::vector<EdgeUse> uses;
+    for (Index node = begin; node < end; ++node) {
+      collect_edges(mesh, node, corners[node], uses);
+      for_runs(uses, same_edge, [&](auto) { ++result.first_of_node[node]; });
+    }
+  });
+  counts_to_starts(result.first_of_node);
+  result.nodes.resize(result.first_of_node.back());
+  result.of_hex.resize(mesh.hexes.size());
+  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
+    std::vector<EdgeUse> uses;
+    for (Index node = begin; node < end; ++node) {
+      collect_edges(mesh, node, corners[node], uses);
+      Index edge = result.first_of_node[node];
+      for_runs(uses, same_edge, [&](std::span<const EdgeUse> run) {
+        result.nodes[edge] = {node, static_cast<Index>(run[0] >> 32)};
+        for (const EdgeUse use : run) {
+          const std::uint32_t place = static_cast<std::uint32_t>(use) / 3, axis = static_cast<std::uint32_t>(use) % 3;
+          const Index corner = corners[node][place];
+          const int c = corner & 7;
+          result.of_hex[corner >> 3][edge_between(c, c ^ (1 << axis))] = edge;
+        }
+        ++edge;
+      });
+    }
+  });
+  return result;
+}
+
+LooseFaces loose_faces(const Mesh& mesh) {
+  const Lists corners = node_corners(mesh);
+  LooseFaces result;
+  Faces& faces = result.faces;
+  faces.first_of_node.assign(mesh.points.size() + 1, 0);
+  std::atomic<bool> crowded = false;
+  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
+    std::vector<FaceUse> uses;
+    for (Index node = begin; node < end; ++node) {
+      collect_faces(mesh, node, corners[node], uses);
+      for_runs(uses, same_face, [&](auto run) {
+        ++faces.first_of_node[node];
+        if (run.size() > 2) crowded = true;
+      });
+    }
+  });
+  counts_to_starts(faces.first_of_node);
+  faces.nodes.resize(faces.first_of_node.back());
+  faces.sides.resize(faces.first_of_node.back());
+  faces.of_hex.resize(mesh.hexes.size());
+  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
+    std::vector<FaceUse> uses;
+    for (Index node = begin; node < end; ++node) {
+      collect_faces(mesh, node, corners[node], uses);
+      Index face = faces.first_of_node[node];
+      for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
+        for (std::size_t i = 0; i < run.size(); ++i) {
+          const Side side = run[i].side();
+          if (i < 2) faces.sides[face][i] = side;
+          faces.of_hex[side.hex][side.face] = face;
+        }
+        const Side first = run[0].side();
+        faces.nodes[face] = face_nodes(mesh.hexes[first.hex], first.face);
+        ++face;
+      });
+    }
+  });
+  if (crowded)
+    for (Index h = 0; h < mesh.n_hexes(); ++h)
+      for (int f = 0; f < n_hex_faces; ++f) {
+        const Index face = faces.of_hex[h][f];
+        const auto& sides = faces.sides[face];
+        if (sides[0] != Side{h, f} && sides[1] != Side{h, f}) result.more.push_back({face, {h, f}});
+      }
+  std::ranges::sort(result.more);
+  return result;
+}
+
+Faces faces(const Mesh& mesh) {
+  LooseFaces loose = loose_faces(mesh);
+  if (!loose.more.empty()) {
+    const auto& [face, third] = loose.more.front();
+    const auto& sides = loose.faces.sides[face];
+    throw Error("hexes " + std::to_string(hex_id(mesh, sides[0].hex)) + ", " +
+                std::to_string(hex_id(mesh, sides[1].hex)) + " and " + std::to_string(hex_id(mesh, third.hex)) +
+                " share one face: at most two can");
+  }
+  return std::move(loose.faces);
+}
+
+Index find_edge(const Edges& edges, Index a, Index b) {
+  const auto [low, high] = std::minmax(a, b);
+  if (low < 0 || low + 1 >= std::ssize(edges.first_of_node)) return -1;
+  const auto bucket = edges.nodes.begin();
+  const auto end = bucket + edges.first_of_node[low + 1];
+  const auto found = std::lower_bound(bucket + edges.first_of_node[low], end, Edge{low, high});
+  return found != end && *found == Edge{low, high} ? static_cast<Index>(found - edges.nodes.begin()) : -1;
+}
+
+Index find_face(const Faces& faces, const Quad& nodes) {
+  Quad wanted = nodes;
+  std::ranges::sort(wanted);
+  if (wanted[0] < 0 || wanted[0] + 1 >= std::ssize(faces.first_of_node)) return -1;
+  for (Index face = faces.first_of_node[wanted[0]]; face < faces.first_of_node[wanted[0] + 1]; ++face) {
+    Quad quad = faces.nodes[face];
+    std::ranges::sort(quad);
+    if (quad == wanted) return face;
+  }
+  return -1;
+}
+
+Lists node_hexes(const Mesh& mesh) {
+  Lists lists = node_corners(mesh);
+  parallel_ranges(static_cast<Index>(lists.items.size()), [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) lists.items[i] >>= 3;
+  });
+  return lists;
+}
+
+Lists edge_hexes(const Edges& edges, Index n_hexes) {
+  Lists lists;
+  lists.first.assign(edges.nodes.size() + 1, 0);
+  parallel_ranges(n_hexes, [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (const Index edge : edges.of_hex[h]) fetch_add(lists.first[edge], 1);
+  });
+  counts_to_ends(lists.first);
+  lists.items.resize(lists.first.back());
+  parallel_ranges(n_hexes, [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (const Index edge : edges.of_hex[h]) lists.items[fetch_add(lists.first[edge], -1) - 1] = h;
+  });
+  sort_lists(lists);
+  return lists;
+}
+
+std::vector<Side> boundary_sides(const Faces& faces) {
+  std::vector<Side> sides;
+  for (Index h = 0; h < std::ssize(faces.of_hex); ++h)
+    for (int f = 0; f < n_hex_faces; ++f)
+      if (faces.sides[faces.of_hex[h][f]][1].hex < 0) sides.push_back({h, f});
+  return sides;
+}
+
+std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads) {
+  // Quads by lowest node; then every face of every hex looks there, which is nothing in most places.
+  const auto known = [&](Index node) { return node >= 0 && node < mesh.n_nodes(); };
+  std::vector<Quad> sorted(quads.begin(), quads.end());
+  Lists of_node;
+  of_node.first.assign(mesh.points.size() + 1, 0);
+  for (Quad& quad : sorted) {
+    std::ranges::sort(quad);
+    if (known(quad[0])) ++of_node.first[quad[0]];
+  }
+  counts_to_ends(of_node.first);
+  of_node.items.resize(of_node.first.back());
+  for (std::size_t q = 0; q < sorted.size(); ++q)
+    if (known(sorted[q][0])) of_node.items[--of_node.first[sorted[q][0]]] = static_cast<Index>(q);
+
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::vector<std::int64_t> found(quads.size(), none);  // 6 * hex + face, the lowest
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (int f = 0; f < n_hex_faces; ++f) {
+        Quad face = face_nodes(mesh.hexes[h], f);
+        const Index lowest = std::ranges::min(face);
+        if (!known(lowest) || of_node[lowest].empty()) continue;
+        std::ranges::sort(face);
+        for (const Index q : of_node[lowest])
+          if (sorted[q] == face) atomic_min(found[q], std::int64_t{6} * h + f);
+      }
+  });
+  std::vector<Side> sides(quads.size());
+  for (std::size_t q = 0; q < quads.size(); ++q)
+    if (found[q] != none) sides[q] = {static_cast<Index>(found[q] / 6), static_cast<std::int32_t>(found[q] % 6)};
+  return sides;
+}
+
+}  // namespace hextwist
