@@ -1,0 +1,69 @@
+// Arithmetic on several hexes at once, one per lane, written once for any number of lanes so that one hex alone gets
+// the same bits as a million.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+#include "hextwist/mesh/corners.h"
+
+namespace hextwist {
+
+template <int N>
+using Lanes = Eigen::Array<double, N, 1>;
+
+template <int N>
+struct LaneVec {
+  Lanes<N> x, y, z;
+
+  LaneVec operator-(const LaneVec& b) const { return {x - b.x, y - b.y, z - b.z}; }
+  LaneVec operator+(const LaneVec& b) const { return {x + b.x, y + b.y, z + b.z}; }
+  Lanes<N> squared() const { return x * x + y * y + z * z; }
+};
+
+template <int N>
+Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
+  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+
+template <int N>
+using LaneHex = std::array<LaneVec<N>, 8>;
+
+inline LaneHex<1> load(std::span<const Vec3, 8> corners) {
+  LaneHex<1> lanes;
+  for (int c = 0; c < 8; ++c) {
+    lanes[c].x[0] = corners[c].x();
+    lanes[c].y[0] = corners[c].y();
+    lanes[c].z[0] = corners[c].z();
+  }
+  return lanes;
+}
+/// Hexes `first` to first + N - 1.
+template <int N>
+LaneHex<N> load(const Mesh& mesh, Index first) {
+  LaneHex<N> lanes;
+  for (int lane = 0; lane < N; ++lane)
+    for (int c = 0; c < 8; ++c) {
+      const Vec3& p = mesh.points[mesh.hexes[first + lane][c]];
+      lanes[c].x[lane] = p.x();
+      lanes[c].y[lane] = p.y();
+      lanes[c].z[lane] = p.z();
+    }
+  return lanes;
+}
+
+/// The edges of a hex by direction, all pointing up; edge k of an axis as in corners.h.
+template <int N>
+struct LaneEdges {
+  std::array<std::array<LaneVec<N>, 4>, 3> along;
+
+  explicit LaneEdges(const LaneHex<N>& x) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 4; ++k) along[axis][k] = x[edge_corner(4 * axis + k, 1)] - x[edge_corner(4 * axis + k, 0)];
+  }
+  /// The edge of an axis at a corner.
+  const LaneVec<N>& at(int axis, int c) const { return along[axis][gather_bits(axis, c)]; }
+};
+
+}  // namespace hextwist
