@@ -8,12 +8,13 @@
 
 namespace hextwist {
 
-struct SplitTable;  // split_table.h: the templates of a pass
+struct SplitTable;  // split_table.h: the templates of a pass, and what the codes below mean
 
 /// An edge of the old mesh that got new nodes, numbered from its lower node to its higher one.
 struct CutEdge {
   Index a, b;       ///< old nodes, a < b
-  Index first_node; ///< new nodes first_node, first_node + 1, ... (as many as the pass puts on such an edge)
+  Index first_node; ///< new nodes first_node, ... in the direction from a to b
+  std::uint16_t code; ///< edge code seen from a: SplitTable says how many nodes, and where
 };
 
 /// A face of the old mesh that got new nodes inside.
