@@ -12,17 +12,18 @@ struct SplitTable;  // split_table.h: the templates of a pass, and what the code
 
 /// An edge of the old mesh that got new nodes, numbered from its lower node to its higher one.
 struct CutEdge {
-  Index a, b;       ///< old nodes, a < b
-  Index first_node; ///< new nodes first_node, ... in the direction from a to b
-  std::uint16_t code; ///< edge code seen from a: SplitTable says how many nodes, and where
+  Index a, b;          ///< old nodes, a < b
+  Index first_node;    ///< new nodes first_node, ... in the direction from a to b
+  Index hex;           ///< old hex with the lowest index that has it
+  std::uint16_t code;  ///< edge code seen from a: SplitTable says how many nodes, and where
 };
 
 /// A face of the old mesh that got new nodes inside.
 struct CutFace {
-  Side side;          ///< where it was: the old hex with the lowest index that has it
-  Quad corners;       ///< old nodes, bit frame turned so that corners[0] is the lowest, corners[1] < corners[2]
+  Side side;     ///< where it was: the old hex with the lowest index that has it
+  Quad corners;  ///< old nodes, bit frame turned so that corners[0] is the lowest, corners[1] < corners[2]
   Index first_node;
-  std::uint16_t code; ///< face code in that frame; SplitTable says how many nodes lie inside, and where
+  std::uint16_t code;  ///< face code in that frame; SplitTable says how many nodes lie inside, and where
 };
 
 /// A hex of the old mesh that was split.

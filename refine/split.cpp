@@ -25,22 +25,17 @@ struct Occurrence {
 };
 
 /// Gives equal edges (or faces) one number: bucket by lowest node, sort each bucket, count.
-/// Returns the number per item, the first item of each number in `representative`.
-struct Numbering {
-  std::vector<Index> of_item;         // -1 where the item's code is 0
-  std::vector<Index> representative;  // lowest item of each number
-};
-
-template <int n_per_hex, typename Key>
-Numbering number_shared(std::size_t n_cut, Index n_nodes, const Key& key) {
+/// of_hex: number per item, -1 where there is nothing. Returns the lowest item of each number.
+template <std::size_t n_per_hex, typename Key>
+std::vector<Index> number_shared(std::size_t n_cut, Index n_nodes, const Key& key,
+                                 std::vector<std::array<Index, n_per_hex>>& of_hex) {
   // key(item) -> {lowest node, key}, lowest node -1: nothing there
   std::vector<Index> first(static_cast<std::size_t>(n_nodes) + 1, 0);
-  Numbering result;
-  result.of_item.resize(n_cut * n_per_hex);
+  of_hex.resize(n_cut);
   for_each_index(n_cut, [&](std::size_t i) {
     for (std::size_t item = i * n_per_hex; item < (i + 1) * n_per_hex; ++item) {
       const Index lowest = key(item).first;
-      result.of_item[item] = -1;
+      of_hex[i][item - i * n_per_hex] = -1;
       if (lowest >= 0) std::atomic_ref(first[lowest + 1]).fetch_add(1, std::memory_order_relaxed);
     }
   });
@@ -67,17 +62,18 @@ Numbering number_shared(std::size_t n_cut, Index n_nodes, const Key& key) {
     n_distinct[n + 1] = count;
   });
   for (Index n = 0; n < n_nodes; ++n) n_distinct[n + 1] += n_distinct[n];
-  result.representative.resize(n_distinct[n_nodes]);
+  std::vector<Index> representative(n_distinct[n_nodes]);
   for_each_index(n_nodes, [&](std::size_t n) {
     Index number = n_distinct[n] - 1;
     const Index begin = n ? first[n - 1] : 0;
     for (Index at = begin; at < first[n]; ++at) {
       if (at == begin || occurrences[at].key != occurrences[at - 1].key)
-        result.representative[++number] = occurrences[at].item;
-      result.of_item[occurrences[at].item] = number;
+        representative[++number] = occurrences[at].item;
+      const std::size_t item = occurrences[at].item;
+      of_hex[item / n_per_hex][item % n_per_hex] = number;
     }
   });
-  return result;
+  return representative;
 }
 
 /// The cut hexes with what their codes bring.
@@ -103,34 +99,36 @@ Index checked(std::int64_t n) {
 }
 
 /// Numbers of the edges on cut hexes; lineage.edges gets their nodes.
-Numbering number_edges(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Lineage& lineage,
-                       std::int64_t& n_nodes) {
+void number_edges(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split,
+                  std::int64_t& n_nodes) {
+  Lineage& lineage = split.lineage;
   const auto ends = [&](std::size_t item) {
     const std::size_t e = item % n_hex_edges;
     const Hex& hex = hexes[cut.hex[item / n_hex_edges]];
     return std::array{hex[edge_corner(static_cast<int>(e), 0)], hex[edge_corner(static_cast<int>(e), 1)]};
   };
-  Numbering numbering = number_shared<n_hex_edges>(cut.hex.size(), lineage.n_old_nodes, [&](std::size_t item) {
+  const auto key = [&](std::size_t item) {
     if (cut.of[item / n_hex_edges]->edge_code[item % n_hex_edges] == 0) return std::pair{Index{-1}, std::uint64_t{0}};
     const auto [a, b] = ends(item);
     return std::pair{std::min(a, b), static_cast<std::uint64_t>(std::max(a, b))};
-  });
-  lineage.edges.resize(numbering.representative.size());
+  };
+  const auto representative = number_shared(cut.hex.size(), lineage.n_old_nodes, key, split.hex_edges);
+  lineage.edges.resize(representative.size());
   for (std::size_t i = 0; i < lineage.edges.size(); ++i) {
-    const std::size_t item = numbering.representative[i];
+    const std::size_t item = representative[i];
     const auto [a, b] = ends(item);
     std::uint16_t code = cut.of[item / n_hex_edges]->edge_code[item % n_hex_edges];
     if (a > b) code = table.edge[code].reversed;
-    lineage.edges[i] = {std::min(a, b), std::max(a, b), static_cast<Index>(n_nodes), code};
+    lineage.edges[i] = {std::min(a, b), std::max(a, b), static_cast<Index>(n_nodes), cut.hex[item / n_hex_edges], code};
     n_nodes = checked(n_nodes + static_cast<std::int64_t>(table.edge[code].at.size()));
   }
-  return numbering;
 }
 
 /// Numbers of the faces on cut hexes that get nodes inside; lineage.faces gets their nodes.
-Numbering number_faces(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Lineage& lineage,
-                       std::int64_t& n_nodes) {
-  Numbering numbering = number_shared<n_hex_faces>(cut.hex.size(), lineage.n_old_nodes, [&](std::size_t item) {
+void number_faces(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split,
+                  std::int64_t& n_nodes) {
+  Lineage& lineage = split.lineage;
+  const auto key = [&](std::size_t item) {
     const int f = static_cast<int>(item % n_hex_faces);
     const std::size_t i = item / n_hex_faces;
     if (table.face[cut.of[i]->face_code[f]].at.empty()) return std::pair{Index{-1}, std::uint64_t{0}};
@@ -138,10 +136,11 @@ Numbering number_faces(std::span<const Hex> hexes, const CutList& cut, const Spl
     const int symmetry = face_symmetry(nodes);
     const auto turned = [&](int k) { return nodes[turned_corner(symmetry, k)]; };
     return std::pair{turned(0), static_cast<std::uint64_t>(turned(3)) << 32 | static_cast<std::uint32_t>(turned(1))};
-  });
-  lineage.faces.resize(numbering.representative.size());
+  };
+  const auto representative = number_shared(cut.hex.size(), lineage.n_old_nodes, key, split.hex_faces);
+  lineage.faces.resize(representative.size());
   for (std::size_t i = 0; i < lineage.faces.size(); ++i) {
-    const std::size_t item = numbering.representative[i];
+    const std::size_t item = representative[i];
     const int f = static_cast<int>(item % n_hex_faces);
     const Index hex = cut.hex[item / n_hex_faces];
     const auto nodes = face_nodes(hexes[hex], f);
@@ -153,10 +152,15 @@ Numbering number_faces(std::span<const Hex> hexes, const CutList& cut, const Spl
     face.first_node = static_cast<Index>(n_nodes);
     n_nodes = checked(n_nodes + static_cast<std::int64_t>(table.face[face.code].at.size()));
   }
-  return numbering;
 }
 
 }  // namespace
+
+Index Split::cut_index(Index old_hex) const {
+  const auto found = std::ranges::lower_bound(lineage.hexes, old_hex, {}, &CutHex::hex);
+  assert(found != lineage.hexes.end() && found->hex == old_hex);
+  return static_cast<Index>(found - lineage.hexes.begin());
+}
 
 Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const SplitTable> table,
             std::span<const std::uint16_t> codes) {
@@ -170,8 +174,8 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
 
   // Count: new nodes on edges, on faces, in hexes; children.
   std::int64_t node = n_nodes;
-  const Numbering edge = number_edges(hexes, cut, *table, lineage, node);
-  const Numbering face = number_faces(hexes, cut, *table, lineage, node);
+  number_edges(hexes, cut, *table, result, node);
+  number_faces(hexes, cut, *table, result, node);
   const Index n_kept = lineage.n_old_hexes - static_cast<Index>(cut.hex.size());
   std::int64_t child = n_kept;
   lineage.hexes.resize(cut.hex.size());
@@ -201,17 +205,16 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
       local.resize(std::max<std::size_t>(local.size(), table->inside_node(static_cast<int>(of.inside.size()))));
       std::ranges::copy(hex, local.begin());
       for (int e = 0; e < n_hex_edges; ++e) {
-        const Index number = edge.of_item[i * n_hex_edges + e];
+        const Index number = result.hex_edges[i][e];
         if (number < 0) continue;
         const CutEdge& shared = lineage.edges[number];
         const int n = static_cast<int>(table->edge[shared.code].at.size());
         const bool backwards = hex[edge_corner(e, 0)] > hex[edge_corner(e, 1)];
         assert((backwards ? table->edge[shared.code].reversed : shared.code) == of.edge_code[e]);
-        for (int s = 0; s < n; ++s)
-          local[table->edge_node(e, s)] = shared.first_node + (backwards ? n - 1 - s : s);
+        for (int s = 0; s < n; ++s) local[table->edge_node(e, s)] = shared.first_node + (backwards ? n - 1 - s : s);
       }
       for (int f = 0; f < n_hex_faces; ++f) {
-        const Index number = face.of_item[i * n_hex_faces + f];
+        const Index number = result.hex_faces[i][f];
         if (number < 0) continue;
         const FacePattern& pattern = table->face[of.face_code[f]];
         const int symmetry = face_symmetry(face_nodes(hex, f));

@@ -17,10 +17,15 @@ struct Split {
   std::vector<Hex> hexes;          ///< all of the new mesh
   std::vector<Index> first_child;  ///< per old hex: its index now, or that of its first child
   Lineage lineage;
+  /// Per cut hex (as in lineage.hexes): where its edges and faces stand in lineage.edges and lineage.faces, -1 for
+  /// those that got no nodes.
+  std::vector<std::array<Index, n_hex_edges>> hex_edges;
+  std::vector<std::array<Index, n_hex_faces>> hex_faces;
 
-  bool is_cut(Index old_hex) const {  ///< kept hexes come first, so a child never has a lower index than they
-    return first_child[old_hex] >= static_cast<Index>(lineage.n_old_hexes) - static_cast<Index>(lineage.hexes.size());
-  }
+  Index n_kept() const { return lineage.n_old_hexes - static_cast<Index>(lineage.hexes.size()); }
+  bool is_cut(Index old_hex) const { return first_child[old_hex] >= n_kept(); }
+  /// Position of a cut hex in lineage.hexes, hex_edges, hex_faces.
+  Index cut_index(Index old_hex) const;
 };
 
 /// codes: one per hex, 0 to leave it alone. Precondition (asserted): hexes that share an edge or face agree on its

@@ -35,7 +35,7 @@ inline constexpr int n_face_symmetries = 8;
 /// What a code means for a face: nodes strictly inside, at (u, v) of its bit frame.
 struct FacePattern {
   std::vector<std::array<double, 2>> at;
-  std::array<std::uint16_t, n_face_symmetries> turned{};            ///< code after the symmetry
+  std::array<std::uint16_t, n_face_symmetries> turned{};              ///< code after the symmetry
   std::array<std::vector<LocalNode>, n_face_symmetries> turned_slot;  ///< slot after the symmetry, per slot
 };
 
@@ -48,8 +48,8 @@ struct ChildSide {
 struct HexTemplate {
   std::array<std::uint8_t, n_hex_edges> edge_code{};
   std::array<std::uint16_t, n_hex_faces> face_code{};
-  std::vector<Vec3> inside;                          ///< nodes strictly inside, in the unit cube
-  std::vector<std::array<LocalNode, 8>> children;    ///< positively oriented
+  std::vector<Vec3> inside;                              ///< nodes strictly inside, in the unit cube
+  std::vector<std::array<LocalNode, 8>> children;        ///< positively oriented
   std::array<std::vector<ChildSide>, n_hex_faces> side;  ///< children that make up each face of the parent
 };
 

@@ -12,10 +12,10 @@ namespace hextwist {
 namespace {
 
 // Where the nodes of templates go in the unit cube.
-constexpr double depth = 0.66;         // how far the inner nodes of the one-edge pattern lie across the face
-constexpr double inner_margin = 0.3;   // the inner hex of concave templates is [m, 1 - m]^3
+constexpr double depth = 0.66;              // how far the inner nodes of the one-edge pattern lie across the face
+constexpr double inner_margin = 0.3;        // the inner hex of concave templates is [m, 1 - m]^3
 constexpr double central_margin = 1.0 / 3;  // the central quad of L and U patterns is [m, 1 - m]^2
-constexpr double central_depth = 0.5;  // how far down its block goes in the frustum
+constexpr double central_depth = 0.5;       // how far down its block goes in the frustum
 
 /// How the four parallel edges k (bit frame of the other two axes) of a direction are cut, in a form that the
 /// templates (a), (b), (c) can use: extent[b] 0: cut at both ends of the other axis b; +1 or -1: only at its low or
@@ -28,22 +28,35 @@ struct Turn {
 
 Turn turn_of(int mask4) {
   switch (mask4) {
-    case 0: return {};
-    case 0b1111: return {true, true, {0, 0}};
-    case 0b0011: return {true, true, {0, +1}};
-    case 0b1100: return {true, true, {0, -1}};
-    case 0b0101: return {true, true, {+1, 0}};
-    case 0b1010: return {true, true, {-1, 0}};
-    case 0b0001: return {true, true, {+1, +1}};
-    case 0b0010: return {true, true, {-1, +1}};
-    case 0b0100: return {true, true, {+1, -1}};
-    case 0b1000: return {true, true, {-1, -1}};
-    default: return {true, false, {}};
+    case 0:
+      return {};
+    case 0b1111:
+      return {true, true, {0, 0}};
+    case 0b0011:
+      return {true, true, {0, +1}};
+    case 0b1100:
+      return {true, true, {0, -1}};
+    case 0b0101:
+      return {true, true, {+1, 0}};
+    case 0b1010:
+      return {true, true, {-1, 0}};
+    case 0b0001:
+      return {true, true, {+1, +1}};
+    case 0b0010:
+      return {true, true, {-1, +1}};
+    case 0b0100:
+      return {true, true, {+1, -1}};
+    case 0b1000:
+      return {true, true, {-1, -1}};
+    default:
+      return {true, false, {}};
   }
 }
 
 /// The axes other than `axis`, lower first.
-std::array<int, 2> other_axes(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
+std::array<int, 2> other_axes(int axis) {
+  return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
+}
 
 /// Templates (a), (b), (c) of figure 5 in the unit cube for cuts along one axis.
 CubeMesh sheet_template(int axis, const Turn& turn) {
@@ -84,7 +97,9 @@ CubeMesh sheet_template(int axis, const Turn& turn) {
   return mesh;
 }
 
-bool is_at(double x, int end) { return std::abs(x - end) < 1e-9; }
+bool is_at(double x, int end) {
+  return std::abs(x - end) < 1e-9;
+}
 
 /// Which of the four edges of a piece along an axis are cut, given which edges of the cube are. An edge in the
 /// interior of a face (or of the cube) is cut when all parallel edges of the cube around it are; one that does not
@@ -193,9 +208,10 @@ CubeMesh concave_template(int edge_mask) {
       corners[c] = c == on_face ? unit_corners()[c] : inner(on_face);
     }
     const int cuts = edge_mask & edges_of_face(face);
-    add_mapped(mesh,
-               is_corner_pattern(trisect_face_code(edge_mask, face)) ? corner_frustum(face, cuts) : convex_template(cuts),
-               corners);
+    add_mapped(
+        mesh,
+        is_corner_pattern(trisect_face_code(edge_mask, face)) ? corner_frustum(face, cuts) : convex_template(cuts),
+        corners);
   }
   return mesh;
 }

@@ -40,7 +40,9 @@ TEST(trisect_table, every_marking_of_the_twelve_nodes_of_two_hexes_is_conformal)
 }
 
 TEST(trisect_table, a_hex_has_the_counts_of_the_paper) {
-  const auto n_children = [](int corners) { return trisect_table()->hex(edge_mask_of_corners(corners)).children.size(); };
+  const auto n_children = [](int corners) {
+    return trisect_table()->hex(edge_mask_of_corners(corners)).children.size();
+  };
   EXPECT_EQ(n_children(0b11111111), 27u);
   EXPECT_EQ(n_children(0b00001111), 13u);
   EXPECT_EQ(n_children(0b00000011), 5u);

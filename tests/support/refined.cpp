@@ -20,8 +20,7 @@ Mesh refined(const Mesh& mesh, const Split& split) {
     for (std::size_t s = 0; s < at.size(); ++s) {
       const auto [u, v] = at[s];
       const auto p = [&](int k) { return mesh.points[face.corners[k]]; };
-      result.points[face.first_node + s] =
-          (1 - v) * ((1 - u) * p(0) + u * p(1)) + v * ((1 - u) * p(2) + u * p(3));
+      result.points[face.first_node + s] = (1 - v) * ((1 - u) * p(0) + u * p(1)) + v * ((1 - u) * p(2) + u * p(3));
     }
   }
   for (const CutHex& hex : lineage.hexes) {

@@ -1,0 +1,245 @@
+#include "hextwist/refine/carry.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "hextwist/refine/origin.h"
+
+namespace hextwist {
+namespace {
+
+template <typename Body>
+void parallel(std::size_t n, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+  });
+}
+
+/// Calls per_node(new node, its origin) for all new nodes, in parallel.
+template <typename Body>
+void for_each_new_node(const Mesh& old_mesh, const Lineage& lineage, const Body& per_node) {
+  parallel(lineage.edges.size(), [&](std::size_t i) { for_each_node(lineage, lineage.edges[i], per_node); });
+  parallel(lineage.faces.size(), [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], per_node); });
+  parallel(lineage.hexes.size(),
+           [&](std::size_t i) { for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node); });
+}
+
+std::vector<std::int64_t> carried_ids(const std::vector<std::int64_t>& kept, std::int64_t next, std::size_t n) {
+  std::vector<std::int64_t> ids = kept;
+  ids.reserve(n);
+  while (ids.size() < n) ids.push_back(next++);
+  return ids;
+}
+
+/// Node ids stay with the nodes. Hex ids of hexes that were cut are gone for good.
+void carry_ids(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
+  if (!old_mesh.node_ids.empty())
+    mesh.node_ids = carried_ids(old_mesh.node_ids, old_mesh.node_ids.back() + 1, mesh.points.size());
+  if (split.lineage.hexes.empty()) {
+    mesh.hex_ids = old_mesh.hex_ids;
+    return;
+  }
+  std::vector<std::int64_t> kept(split.n_kept());
+  parallel(kept.size(), [&](std::size_t i) { kept[i] = hex_id(old_mesh, split.lineage.parent[i]); });
+  mesh.hex_ids = carried_ids(kept, hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1, mesh.hexes.size());
+}
+
+/// Calls use(new hex) for the hex itself or its children.
+template <typename Use>
+void for_each_child(const Split& split, Index old_hex, const Use& use) {
+  const Index first = split.first_child[old_hex];
+  if (!split.is_cut(old_hex)) return use(first);
+  const Index cut = split.cut_index(old_hex);
+  const Index end = cut + 1 < static_cast<Index>(split.lineage.hexes.size())
+                        ? split.lineage.hexes[cut + 1].first_child
+                        : static_cast<Index>(split.lineage.parent.size());
+  for (Index child = first; child < end; ++child) use(child);
+}
+
+/// Calls use(new side) for the side itself or the sides of the children that make it up.
+template <typename Use>
+void for_each_child_side(const Split& split, Side old_side, const Use& use) {
+  const Index first = split.first_child[old_side.hex];
+  if (!split.is_cut(old_side.hex)) return use(Side{first, old_side.face});
+  const HexTemplate& of = split.lineage.table->hex(split.lineage.hexes[split.cut_index(old_side.hex)].code);
+  for (const ChildSide& child : of.side[old_side.face]) use(Side{first + child.child, child.face});
+}
+
+void carry_blocks(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
+  for (const Block& block : old_mesh.blocks) {
+    Block carried{block.id, block.name, {}};
+    for (const Index h : block.hexes) for_each_child(split, h, [&](Index child) { carried.hexes.push_back(child); });
+    std::ranges::sort(carried.hexes);
+    mesh.blocks.push_back(std::move(carried));
+  }
+}
+
+void carry_side_sets(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
+  for (const SideSet& set : old_mesh.side_sets) {
+    SideSet carried{set.id, set.name, {}};
+    for (const Side side : set.sides)
+      for_each_child_side(split, side, [&](Side child) { carried.sides.push_back(child); });
+    std::ranges::sort(carried.sides);
+    mesh.side_sets.push_back(std::move(carried));
+  }
+}
+
+void carry_node_sets(const Mesh& old_mesh, const Lineage& lineage, Mesh& mesh) {
+  std::vector<std::uint8_t> member(mesh.points.size());
+  for (const NodeSet& set : old_mesh.node_sets) {
+    std::ranges::fill(member, 0);
+    for (const Index n : set.nodes) member[n] = 1;
+    for_each_new_node(old_mesh, lineage, [&](Index node, const Origin& origin) {
+      member[node] = std::ranges::all_of(origin.nodes(), [&](Index n) { return member[n] != 0; });
+    });
+    NodeSet carried{set.id, set.name, set.nodes};
+    for (Index n = lineage.n_old_nodes; n < mesh.n_nodes(); ++n)
+      if (member[n]) carried.nodes.push_back(n);
+    mesh.node_sets.push_back(std::move(carried));
+  }
+}
+
+void carry_fields(const Mesh& old_mesh, const Lineage& lineage, Mesh& mesh) {
+  for (const Field& field : old_mesh.fields) {
+    Field carried{field.name, field.on, field.components, {}};
+    const std::size_t width = field.components;
+    if (field.on == Field::On::node) {
+      carried.values = field.values;
+      carried.values.resize(mesh.points.size() * width);
+      for_each_new_node(old_mesh, lineage, [&](Index node, const Origin& origin) {
+        for (std::size_t c = 0; c < width; ++c) {
+          double sum = 0;
+          for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * field.values[origin.node[i] * width + c];
+          carried.values[node * width + c] = sum;
+        }
+      });
+    } else {
+      carried.values.resize(mesh.hexes.size() * width);
+      parallel(mesh.hexes.size(), [&](std::size_t h) {
+        std::copy_n(field.values.begin() + static_cast<std::ptrdiff_t>(lineage.parent[h] * width), width,
+                    carried.values.begin() + static_cast<std::ptrdiff_t>(h * width));
+      });
+    }
+    mesh.fields.push_back(std::move(carried));
+  }
+}
+
+/// Owners of the nodes on cut edges and faces: volume of their hex, unless the face or the edge is on the CAD.
+void carry_node_owners(const Association& old, const Split& split, Association& association) {
+  const Lineage& lineage = split.lineage;
+  const auto set_nodes = [&](Index first, std::size_t n, Owner owner) {
+    for (std::size_t s = 0; s < n; ++s) association.node_owner[first + s] = owner;
+  };
+  const auto n_edge_nodes = [&](const CutEdge& edge) { return lineage.table->edge[edge.code].at.size(); };
+  parallel(lineage.edges.size(), [&](std::size_t i) {
+    const CutEdge& edge = lineage.edges[i];
+    set_nodes(edge.first_node, n_edge_nodes(edge), {3, old.hex_volume[edge.hex]});
+  });
+  parallel(lineage.faces.size(), [&](std::size_t i) {
+    const CutFace& face = lineage.faces[i];
+    set_nodes(face.first_node, lineage.table->face[face.code].at.size(), {3, old.hex_volume[face.side.hex]});
+  });
+  parallel(lineage.hexes.size(), [&](std::size_t i) {
+    const CutHex& hex = lineage.hexes[i];
+    set_nodes(hex.first_node, lineage.table->hex(hex.code).inside.size(), {3, old.hex_volume[hex.hex]});
+  });
+  for (std::size_t i = 0; i < old.surface_faces.size(); ++i) {
+    const Side side = old.surface_faces[i];
+    if (!split.is_cut(side.hex)) continue;
+    const Index cut = split.cut_index(side.hex);
+    const Owner owner{2, old.face_surface[i]};
+    for (int j = 0; j < 4; ++j)
+      if (const Index number = split.hex_edges[cut][face_edge(side.face, j)]; number >= 0)
+        set_nodes(lineage.edges[number].first_node, n_edge_nodes(lineage.edges[number]), owner);
+    if (const Index number = split.hex_faces[cut][side.face]; number >= 0)
+      set_nodes(lineage.faces[number].first_node, lineage.table->face[lineage.faces[number].code].at.size(), owner);
+  }
+}
+
+/// Curve edges and their nodes.
+void carry_curve_edges(const Association& old, const Lineage& lineage, Association& association) {
+  struct Owned {
+    Edge edge;
+    int curve;
+  };
+  std::vector<Owned> owned;
+  const auto add = [&](Index a, Index b, int curve) { owned.push_back({{std::min(a, b), std::max(a, b)}, curve}); };
+  for (std::size_t i = 0; i < old.curve_edges.size(); ++i) {
+    const auto [a, b] = old.curve_edges[i];
+    const int curve = old.edge_curve[i];
+    const auto found =
+        std::ranges::lower_bound(lineage.edges, Edge{a, b}, {}, [](const CutEdge& edge) { return Edge{edge.a, edge.b}; });
+    if (found == lineage.edges.end() || found->a != a || found->b != b) {
+      add(a, b, curve);
+      continue;
+    }
+    const Index n = static_cast<Index>(lineage.table->edge[found->code].at.size());
+    for (Index s = 0; s < n; ++s) association.node_owner[found->first_node + s] = {1, curve};
+    for (Index s = 0; s <= n; ++s)
+      add(s == 0 ? a : found->first_node + s - 1, s == n ? b : found->first_node + s, curve);
+  }
+  std::ranges::sort(owned, {}, &Owned::edge);
+  for (const Owned& item : owned) {
+    association.curve_edges.push_back(item.edge);
+    association.edge_curve.push_back(item.curve);
+  }
+}
+
+void carry_surface_faces(const Association& old, const Split& split, Association& association) {
+  struct Owned {
+    Side side;
+    int surface;
+  };
+  std::vector<Owned> owned;
+  for (std::size_t i = 0; i < old.surface_faces.size(); ++i)
+    for_each_child_side(split, old.surface_faces[i], [&](Side side) { owned.push_back({side, old.face_surface[i]}); });
+  std::ranges::sort(owned, {}, &Owned::side);
+  association.surface_faces.reserve(owned.size());
+  association.face_surface.reserve(owned.size());
+  for (const Owned& item : owned) {
+    association.surface_faces.push_back(item.side);
+    association.face_surface.push_back(item.surface);
+  }
+}
+
+Association carried_association(const Association& old, const Split& split) {
+  Association association;
+  if (old.empty()) return association;
+  association.node_owner = old.node_owner;
+  association.node_owner.resize(split.n_nodes);
+  association.node_parameters = old.node_parameters;
+  association.node_parameters.resize(split.n_nodes);
+  association.hex_volume.resize(split.lineage.parent.size());
+  parallel(split.lineage.parent.size(),
+           [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
+  carry_node_owners(old, split, association);
+  carry_curve_edges(old, split.lineage, association);
+  carry_surface_faces(old, split, association);
+  return association;
+}
+
+}  // namespace
+
+Carried carry(const Mesh& old_mesh, const Association& old_association, Split& split) {
+  Carried carried;
+  carried.association = carried_association(old_association, split);
+  Mesh& mesh = carried.mesh;
+  mesh.hexes = std::move(split.hexes);
+  mesh.points.resize(split.n_nodes);
+  std::ranges::copy(old_mesh.points, mesh.points.begin());
+  for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];
+    mesh.points[node] = sum;
+  });
+  carry_ids(old_mesh, split, mesh);
+  carry_blocks(old_mesh, split, mesh);
+  carry_side_sets(old_mesh, split, mesh);
+  carry_node_sets(old_mesh, split.lineage, mesh);
+  carry_fields(old_mesh, split.lineage, mesh);
+  return carried;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,26 @@
+// From marked nodes to codes of the trisecting pass, and the closing of concave places.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+/// One code per hex: an edge is cut when both its nodes are marked. marked: one byte per node, 0 or 1.
+std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
+
+/// Concave filling (section 4.3): a hex whose marking is concave, so that the paper's templates do not suffice, gets
+/// all its nodes marked; repeated until nothing changes. Only ever adds marks; the result does not depend on the
+/// order. Returns how many hexes became fully marked.
+Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked);
+
+/// Marks the nodes of these hexes.
+void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std::span<std::uint8_t> marked);
+
+/// Hexes with at least one marked node, ascending.
+std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
+
+}  // namespace hextwist
