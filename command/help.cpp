@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <string>
+
+#include "hextwist/command/reader.h"
+#include "hextwist/command/syntax.h"
+
+namespace hextwist {
+namespace {
+
+constexpr std::size_t line_width = 100;
+
+/// Breaks text at blanks; continued lines are indented.
+std::string wrapped(std::string_view text, std::size_t first_indent, std::size_t indent) {
+  std::string result(first_indent, ' ');
+  std::size_t column = first_indent;
+  bool fresh = true;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    if (!fresh && column + 1 + word.size() > line_width) {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+      fresh = true;
+    }
+    result += (fresh ? "" : " ") + std::string(word);
+    column += word.size() + (fresh ? 0 : 1);
+    fresh = false;
+    if (end < text.size() && text[end] == '\n') {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+      fresh = true;
+    }
+    at = end + 1;
+  }
+  return result + "\n";
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  return std::string(text) + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+constexpr std::string_view range_text = R"(range: which entities a command is about
+
+  1 3 5              these ids, each of which must exist
+  3 to 17            all existing ids from 3 to 17; the ends must not lie beyond the ids in use
+  3 to 17 by 2       every second one ('step' is the same)
+  all                every entity of the kind
+  "name"             all entities of that name (volumes, surfaces, ..., blocks, node sets, side sets)
+  ... except 5 7     without these
+  ... in volume 2    those that lie in, or touch, the others: up and down, across mesh, CAD, blocks and sets
+                     (hex in volume 2, node in face in surface 7, curve in surface 3, block in hex 10);
+                     several kinds may follow: face in surface 3 curve 1 2
+  'except' and 'in' belong to the list before them: in 'hex in volume all except 5' that is volume 5.
+)";
+
+}  // namespace
+
+std::string help() {
+  std::string result = "Commands (words may be cut short; # starts a comment; ; separates commands):\n\n";
+  for (const CommandSpec& spec : language())
+    if (!spec.syntax.empty()) result += "  " + padded(spec.name, 12) + std::string(spec.summary) + "\n";
+  return result + "  " + padded("help range", 12) + "how to say which entities\n" +
+         "\n'help <command>' shows syntax, options and examples.\n";
+}
+
+std::string help(std::string_view word) {
+  if (same_word(word, "range")) return std::string(range_text);
+  std::vector<const CommandSpec*> found;
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    if (same_word(spec.name, word)) {
+      found = {&spec};
+      break;
+    }
+    if (begins_word(word, spec.name)) found.push_back(&spec);
+  }
+  if (found.empty()) throw Error("there is no command '" + printable(word) + "'; 'help' lists them");
+  std::string result;
+  for (const CommandSpec* spec : found) {
+    if (!result.empty()) result += "\n";
+    result += std::string(spec->name) + ": " + std::string(spec->summary) + "\n\n";
+    result += wrapped(shown_syntax(*spec), 2, 6);
+    bool any = false;
+    for (const ArgumentSpec& argument : spec->arguments) {
+      if (argument.help.empty()) continue;
+      result += (any ? "" : "\n") +
+                wrapped(padded("<" + std::string(argument.name) + ">", 14) + std::string(argument.help), 2, 16);
+      any = true;
+    }
+    if (!spec->details.empty()) result += "\n" + wrapped(spec->details, 2, 2);
+    if (!spec->examples.empty()) result += "\n  examples\n";
+    for (const auto example : spec->examples) result += "    " + std::string(example) + "\n";
+  }
+  return result;
+}
+
+}  // namespace hextwist

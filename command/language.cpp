@@ -1,0 +1,99 @@
+// The table of all commands. Adding one means adding a row here and a function in the session.
+
+#include "hextwist/command/syntax.h"
+
+namespace hextwist {
+namespace {
+
+using Kind = ArgumentSpec::Kind;
+
+constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ..., in <kind> <range>; see 'help range'";
+
+// clang-format off
+const std::vector<CommandSpec> table = {
+    {"block", "", "define a block of hexes", "", {}, {}},
+    {"check", "check", "verify the mesh: conformity, orientation, ownership, distance from the CAD, volume",
+     "Prints what was checked and fails when the mesh breaks a promise, naming ids.", {},
+     {"check"}},
+    {"create",
+     "create {brick x <width> [y <depth>] [z <height>]|cylinder {radius <radius> height <height>|height <height> radius <radius>}|sphere radius <radius>} [interval <n>]",
+     "make a small CAD solid with a hex mesh on it",
+     "A brick stands with one corner at the origin (y and z default to x) and gets a mapped mesh; a cylinder stands on "
+     "the origin along z and gets an O-grid; a sphere around the origin gets seven blocks. What was there before is replaced.",
+     {{"width", Kind::number, 0, 1e100, true, "length along x"},
+      {"depth", Kind::number, 0, 1e100, true, "length along y"},
+      {"height", Kind::number, 0, 1e100, true, "length along z"},
+      {"radius", Kind::number, 0, 1e100, true, ""},
+      {"n", Kind::integer, 1, 400, false, "hexes along each edge of a block; default 4"}},
+     {"create brick x 10 y 5 z 2 interval 6", "create cylinder radius 2 height 10", "create sphere radius 1 interval 5"}},
+    {"draw", "", "draw the mesh into a file", "", {}, {}},
+    {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit} <file> [overwrite]", "write the mesh to a file",
+     "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
+     "something fails, as it was. An existing file is kept unless 'overwrite' is said.",
+     {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
+     {"export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
+    {"help", "help [<command>]", "list the commands, or show one",
+     "", {{"command", Kind::word, 0, 0, false, "a command, or 'range'"}}, {"help", "help refine"}},
+    {"import", "import {mesh|exodus|gmsh|abaqus|vtk|medit|geometry|step|brep|iges} <file>", "read a mesh or CAD",
+     "'mesh' and 'geometry' choose the format by the file's extension; the other words insist on one. CAD comes first, "
+     "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one.",
+     {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
+     {"import step \"part.step\"", "import mesh \"part.msh\""}},
+    {"list",
+     "list [{model|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range>}]",
+     "show entities and their properties", "Without arguments: the model and mesh as a whole.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"list", "list curve all", "list hex in sheet 3", "list sheet in hex 17"}},
+    {"node", "", "fix or free nodes", "", {}, {}},
+    {"nodeset", "", "define a node set", "", {}, {}},
+    {"playback", "playback <file>", "run the commands in a journal file",
+     "Stops at the first error; what the commands before it did stays done.",
+     {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
+    {"quality",
+     "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> [{shape|scaled [jacobian]|=scaled_jacobian|all}] [~histogram] [~low] [~high]",
+     "print the quality of hexes",
+     "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
+     "the entities. 1 is perfect, 0 degenerate. Without a metric: shape; 'all': both.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all"}},
+    {"quit", "quit", "end the session", "", {}, {"quit"}},
+    {"record", "", "write commands to a journal", "", {}, {}},
+    {"redo", "", "do again what was undone", "", {}, {}},
+    {"refine",
+     "refine {node|edge|face|hex|vertex|curve|surface|volume|~sheet} <range> "
+     "[numsplit <splits>] [depth <layers>] [bias <bias>] [concave {template|fill}] [{smooth|no_smooth}] [dry_run] "
+     "[~size] [~radius] [~sizing_function] [~method] [~direction]",
+     "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
+     "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
+     "every hex that touches it, with 2 one layer more; the default is 0 for hexes and volumes, 1 for everything else. "
+     "All volumes of the model together are refined uniformly instead: each edge in numsplit + 1 pieces.\n"
+     "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
+     "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
+      {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
+      {"bias", Kind::number, 1, 1e100, false, "accepted when 1"}},
+     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine volume all numsplit 1"}},
+    {"reset", "reset", "forget the mesh and the CAD", "", {}, {"reset"}},
+    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <tolerance>|threads <count>}", "change a setting",
+     "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
+     "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
+     "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores.",
+     {{"degrees", Kind::number, 0, 180, false, "angle in degrees"},
+      {"tolerance", Kind::number, 0, 1, true, "relative to the model size"},
+      {"count", Kind::integer, 0, 1024, false, "number of threads"}},
+     {"set glue on", "set feature_angle 20"}},
+    {"sideset", "", "define a side set", "", {}, {}},
+    {"smooth", "", "improve the shape of hexes", "", {}, {}},
+    {"undo", "", "take back a command", "", {}, {}},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const CommandSpec> language() {
+  return table;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,122 @@
+#include "hextwist/command/reader.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace hextwist {
+namespace {
+
+char lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// Edits (insert, drop, replace, swap of neighbours) from one short word to another.
+int distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = static_cast<int>(i + j);
+        continue;
+      }
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same ? 0 : 1)});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+std::string found(const Token& token) {
+  if (token.kind == Token::Kind::end) return "the end of the command";
+  if (token.kind == Token::Kind::string) return "\"" + printable(token.text) + "\"";
+  return "'" + printable(token.text) + "'";
+}
+
+std::string joined(std::span<const std::string> words) {
+  std::string result;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    result += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  return result;
+}
+
+}  // namespace
+
+bool same_word(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && begins_word(a, b);
+}
+
+bool begins_word(std::string_view beginning, std::string_view word) {
+  return beginning.size() <= word.size() && std::equal(beginning.begin(), beginning.end(), word.begin(),
+                                                       [](char a, char b) { return lower(a) == lower(b); });
+}
+
+const Token& Reader::peek() const {
+  const Token& token = statement_.tokens[at_];
+  if (token.kind == Token::Kind::bad) throw error_at(statement_, token, token.text);
+  return token;
+}
+
+Token Reader::take() {
+  Token token = peek();
+  if (token.kind != Token::Kind::end) ++at_;
+  expected_.clear();
+  return token;
+}
+
+std::optional<std::size_t> Reader::match(std::span<const Keyword> words) {
+  const Token& token = peek();
+  if (token.kind == Token::Kind::word) {
+    std::vector<std::size_t> candidates;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (same_word(token.text, words[i].word)) return i;
+      const bool known = std::ranges::any_of(candidates, [&](std::size_t c) { return words[c].word == words[i].word; });
+      if (words[i].may_be_short && begins_word(token.text, words[i].word) && !known) candidates.push_back(i);
+    }
+    if (candidates.size() == 1) return candidates.front();
+    if (candidates.size() > 1) {
+      std::vector<std::string> names;
+      for (const std::size_t c : candidates) names.emplace_back(words[c].word);
+      fail(token, "'" + token.text + "' is short for " + joined(names) + ": please write more of it");
+    }
+  }
+  for (const Keyword& keyword : words)
+    if (keyword.shown) expect(std::string(keyword.word));
+  return std::nullopt;
+}
+
+bool Reader::accept(std::string_view word, std::size_t least) {
+  const Token& token = peek();
+  const bool fits =
+      token.kind == Token::Kind::word &&
+      (same_word(token.text, word) || (least > 0 && token.text.size() >= least && begins_word(token.text, word)));
+  if (fits)
+    take();
+  else
+    expect(std::string(word));
+  return fits;
+}
+
+void Reader::expect(std::string what) {
+  if (std::ranges::find(expected_, what) == expected_.end()) expected_.push_back(std::move(what));
+}
+
+void Reader::fail() const {
+  const Token& token = peek();
+  if (token.kind == Token::Kind::symbol && token.text == "{")
+    fail(token, "expressions in braces are not supported yet");
+  std::string message = "expected " + joined(expected_) + ", found " + found(token);
+  if (token.kind == Token::Kind::word && token.text.size() >= 3 && token.text.size() <= 30) {
+    const auto best =
+        std::ranges::min_element(expected_, {}, [&](const std::string& word) { return distance(token.text, word); });
+    if (best != expected_.end() && distance(token.text, *best) <= (token.text.size() > 5 ? 2 : 1))
+      message += " (did you mean '" + *best + "'?)";
+  }
+  fail(token, message);
+}
+
+void Reader::fail(const Token& token, const std::string& message) const {
+  throw error_at(statement_, token, message);
+}
+
+}  // namespace hextwist

@@ -1,0 +1,64 @@
+// Reads the tokens of a statement one by one and keeps account of what could have stood at the current one, so that
+// an error can say so. Words are compared without case and may be cut short while they are unambiguous.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hextwist/command/command_error.h"
+#include "hextwist/command/range.h"
+#include "hextwist/command/token.h"
+
+namespace hextwist {
+
+struct Keyword {
+  std::string_view word;
+  bool shown = true;  ///< in error messages
+  bool may_be_short = true;
+};
+
+class Reader {
+ public:
+  explicit Reader(const Statement& statement) : statement_(statement) {}
+
+  const Statement& statement() const { return statement_; }
+  /// The current token; a bad one throws the CommandError that it stands for.
+  const Token& peek() const;
+  bool at_end() const { return peek().kind == Token::Kind::end; }
+  /// The same, without throwing for bad tokens.
+  bool stopped_at_end() const { return statement_.tokens[at_].kind == Token::Kind::end; }
+  /// Takes the current token; forgets what could have stood there.
+  Token take();
+
+  /// Which of the words the current token is: the exact one, else the only one that it is the beginning of.
+  /// nullopt when none (they are remembered as expected). Throws where several begin like it. Does not take it.
+  std::optional<std::size_t> match(std::span<const Keyword> words);
+  /// Takes the current token if it is this word, cut to no fewer than `least` letters (0: not cut at all).
+  bool accept(std::string_view word, std::size_t least = 0);
+
+  /// Remembers that this could stand here.
+  void expect(std::string what);
+  const std::vector<std::string>& expected() const { return expected_; }
+  /// Throws: the current token is none of what was expected.
+  [[noreturn]] void fail() const;
+  [[noreturn]] void fail(const Token& token, const std::string& message) const;
+
+ private:
+  const Statement& statement_;
+  std::size_t at_ = 0;
+  std::vector<std::string> expected_;
+};
+
+/// Reads a range of ids of a kind. Throws CommandError at the first token that fits neither it nor what may follow.
+Range read_range(Reader& reader, EntityKind kind);
+/// Reads a kind of entity, nullopt if the current token is none.
+std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short = true);
+
+/// Without case.
+bool same_word(std::string_view a, std::string_view b);
+bool begins_word(std::string_view beginning, std::string_view word);
+
+}  // namespace hextwist

@@ -1,0 +1,282 @@
+#include "hextwist/command/syntax.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "hextwist/command/pattern_internal.h"
+#include "hextwist/command/reader.h"
+
+namespace hextwist {
+namespace {
+
+const Pattern& pattern_of(const CommandSpec& spec) {
+  static const std::map<std::string_view, Pattern> patterns = [] {
+    std::map<std::string_view, Pattern> result;
+    for (const CommandSpec& each : language()) result.emplace(each.name, compile_pattern(each.syntax));
+    return result;
+  }();
+  return patterns.at(spec.name);
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+std::string bounds_text(const ArgumentSpec& argument) {
+  const bool low = std::isfinite(argument.min), high = argument.max < 1e100;
+  const std::string least = number_text(argument.min), most = number_text(argument.max);
+  if (low && high) return argument.open ? " above " + least + ", at most " + most : " from " + least + " to " + most;
+  if (low) return (argument.open ? " above " : " of at least ") + least;
+  return high ? " of at most " + most : "";
+}
+
+class Matcher {
+ public:
+  Matcher(Reader& reader, const CommandSpec& spec, Command& out) : reader_(reader), spec_(spec), out_(out) {}
+
+  void sequence(const Pattern& pattern) {
+    for (const PatternNode& node : pattern) one(node);
+  }
+
+ private:
+  Reader& reader_;
+  const CommandSpec& spec_;
+  Command& out_;
+
+  const ArgumentSpec& argument(const std::string& name) const {
+    const auto found = std::ranges::find(spec_.arguments, name, &ArgumentSpec::name);
+    assert(found != spec_.arguments.end());
+    return *found;
+  }
+
+  /// Words that a sequence can begin with.
+  static void first_words(const Pattern& pattern, std::size_t choice, std::vector<Keyword>& words,
+                          std::vector<std::size_t>& choices) {
+    assert(!pattern.empty());
+    const PatternNode& first = pattern.front();
+    if (first.kind == PatternNode::Kind::word) {
+      words.push_back({first.name, !first.planned && !first.hidden, !first.hidden});
+      choices.push_back(choice);
+    } else {
+      for (const Pattern& inner : first.choices) first_words(inner, choice, words, choices);
+    }
+  }
+
+  /// The choice that the current token begins, by word, else by argument.
+  std::optional<std::size_t> choose(const PatternNode& node, const std::vector<bool>& said = {}) {
+    std::vector<Keyword> words;
+    std::vector<std::size_t> of_word;
+    for (std::size_t i = 0; i < node.choices.size(); ++i) first_words(node.choices[i], i, words, of_word);
+    for (std::size_t w = 0; w < words.size() && !said.empty(); ++w) words[w].shown &= !said[of_word[w]];
+    if (const auto found = reader_.match(words)) return of_word[*found];
+    for (std::size_t i = 0; i < node.choices.size(); ++i) {
+      const PatternNode& first = node.choices[i].front();
+      if (first.kind == PatternNode::Kind::argument && could_be(argument(first.name))) return i;
+    }
+    return std::nullopt;
+  }
+
+  bool could_be(const ArgumentSpec& spec) {
+    const Token& token = reader_.peek();
+    using Kind = ArgumentSpec::Kind;
+    switch (spec.kind) {
+      case Kind::range:
+        return token.kind == Token::Kind::number || token.kind == Token::Kind::string;
+      case Kind::integer:
+      case Kind::number:
+        if (token.kind == Token::Kind::number) return true;
+        reader_.expect(spec.kind == Kind::integer ? "a whole number" : "a number");
+        return false;
+      case Kind::string:
+        if (token.kind == Token::Kind::string) return true;
+        reader_.expect("a text in quotes");
+        return false;
+      case Kind::file:
+        // A plain path needs no quotes, but a single word might be an option in the wrong place.
+        if (token.kind == Token::Kind::string) return true;
+        if (token.kind == Token::Kind::word && token.text.find_first_of("./") != std::string::npos) return true;
+        reader_.expect("a file name in quotes");
+        return false;
+      case Kind::word:
+        if (token.kind == Token::Kind::word) return true;
+        reader_.expect("a word");
+        return false;
+    }
+    return false;
+  }
+
+  void one(const PatternNode& node) {
+    switch (node.kind) {
+      case PatternNode::Kind::word:
+        return word(node);
+      case PatternNode::Kind::argument:
+        return value(argument(node.name));
+      case PatternNode::Kind::one_of: {
+        const auto choice = choose(node);
+        if (!choice) reader_.fail();
+        return sequence(node.choices[*choice]);
+      }
+      case PatternNode::Kind::options:
+        return options(node);
+    }
+  }
+
+  void word(const PatternNode& node) {
+    const Keyword keyword{node.name, !node.planned && !node.hidden, !node.hidden};
+    if (!reader_.match({&keyword, 1})) reader_.fail();
+    Item item;
+    item.is_word = true;
+    item.name = node.name;
+    item.token = reader_.take();
+    if (node.planned) reader_.fail(item.token, "'" + node.name + "' is not supported yet");
+    out_.items.push_back(std::move(item));
+  }
+
+  void options(const PatternNode& node) {
+    std::vector<bool> said(node.choices.size());
+    while (const auto choice = choose(node, said)) {
+      if (said[*choice]) reader_.fail(reader_.peek(), "'" + reader_.peek().text + "' was said already");
+      said[*choice] = true;
+      sequence(node.choices[*choice]);
+    }
+  }
+
+  void value(const ArgumentSpec& spec) {
+    Item item;
+    item.name = spec.name;
+    item.token = reader_.peek();
+    if (spec.kind == ArgumentSpec::Kind::range) {
+      item.kind = kind_before();
+      item.range = read_range(reader_, item.kind);
+    } else {
+      if (!could_be(spec)) reader_.fail();
+      reader_.take();
+      item.text = item.token.text;
+      item.number = item.token.value;
+      check(spec, item);
+    }
+    out_.items.push_back(std::move(item));
+  }
+
+  void check(const ArgumentSpec& spec, const Item& item) const {
+    const bool integer = spec.kind == ArgumentSpec::Kind::integer;
+    if (spec.kind == ArgumentSpec::Kind::file && item.text.empty()) reader_.fail(item.token, "this file name is empty");
+    if (!integer && spec.kind != ArgumentSpec::Kind::number) return;
+    const bool low = spec.open ? item.number > spec.min : item.number >= spec.min;
+    if (low && item.number <= spec.max && !(integer && item.number != std::floor(item.number))) return;
+    const std::string_view option = out_.items.empty() ? "" : std::string_view(out_.items.back().name);
+    reader_.fail(item.token,
+                 std::string(option) + " must be a " + (integer ? "whole " : "") + "number" + bounds_text(spec));
+  }
+
+  /// The kind of entity named last.
+  EntityKind kind_before() const {
+    for (auto item = out_.items.rbegin(); item != out_.items.rend(); ++item)
+      for (int k = 0; item->is_word && k < n_entity_kinds; ++k)
+        if (item->name == name(static_cast<EntityKind>(k))) return static_cast<EntityKind>(k);
+    assert(false && "a <range> without a kind before it");
+    return EntityKind::hex;
+  }
+};
+
+const CommandSpec& command_named(Reader& reader) {
+  std::vector<Keyword> names;
+  for (const CommandSpec& spec : language()) names.push_back({spec.name, !spec.syntax.empty(), true});
+  const auto found = reader.match(names);
+  if (!found) reader.fail();
+  return language()[*found];
+}
+
+Command parse(Reader& reader) {
+  const CommandSpec& spec = command_named(reader);
+  if (spec.syntax.empty()) reader.fail(reader.peek(), "'" + std::string(spec.name) + "' is not supported yet");
+  Command command{&spec, reader.statement(), {}};
+  Matcher(reader, spec, command).sequence(pattern_of(spec));
+  if (!reader.at_end()) {
+    reader.expect("the end of the command");
+    reader.fail();
+  }
+  return command;
+}
+
+}  // namespace
+
+const Item* Command::find(std::string_view name) const {
+  const auto found = std::ranges::find(items, name, &Item::name);
+  return found == items.end() ? nullptr : &*found;
+}
+
+Command parse(const Statement& statement) {
+  Reader reader(statement);
+  return parse(reader);
+}
+
+std::string to_string(const Command& command) {
+  std::string result;
+  for (const Item& item : command.items) {
+    if (!result.empty()) result += ' ';
+    const auto argument = std::ranges::find(command.spec->arguments, item.name, &ArgumentSpec::name);
+    if (item.is_word || argument == command.spec->arguments.end()) {
+      result += item.name;
+      continue;
+    }
+    switch (argument->kind) {
+      case ArgumentSpec::Kind::range:
+        result += to_string(item.range);
+        break;
+      case ArgumentSpec::Kind::integer:
+      case ArgumentSpec::Kind::number:
+        result += number_text(item.number);
+        break;
+      case ArgumentSpec::Kind::word:
+        result += item.text;
+        break;
+      case ArgumentSpec::Kind::string:
+      case ArgumentSpec::Kind::file: {
+        const char quote = item.text.find('"') == std::string::npos ? '"' : '\'';
+        result += quote + item.text + quote;
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> completions(std::string_view line) {
+  std::vector<Statement> statements = split_statements(line);
+  const bool fresh = line.empty() || std::string_view(" \t;\n").find(line.back()) != std::string_view::npos;
+  const bool separated = line.find_last_not_of(" \t") == std::string_view::npos ||
+                         std::string_view(";\n").find(line[line.find_last_not_of(" \t")]) != std::string_view::npos;
+  std::string beginning;
+  Statement statement{std::make_shared<const Source>(), {Token{}}};
+  if (!separated && !statements.empty()) {
+    statement = std::move(statements.back());
+    if (!fresh) {
+      beginning = statement.tokens[statement.tokens.size() - 2].text;
+      statement.tokens.erase(statement.tokens.end() - 2);
+    }
+  }
+  Reader reader(statement);
+  std::vector<std::string> result;
+  try {
+    parse(reader);
+  } catch (const CommandError&) {
+    // Wrong before its end: nothing to offer. Wrong at its end: that is where the word goes.
+    if (!reader.stopped_at_end()) return {};
+  }
+  for (const std::string& word : reader.expected())
+    if (word.find(' ') == std::string::npos && begins_word(beginning, word)) result.push_back(word);
+  std::ranges::sort(result);
+  return result;
+}
+
+std::string shown_syntax(const CommandSpec& command) {
+  return to_string(pattern_of(command));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,139 @@
+#include "hextwist/command/token.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <utility>
+
+namespace hextwist {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+// Dots, slashes and the like belong to words, so that a plain file name needs no quotes. Bytes of other alphabets too.
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80 ||
+         std::string_view("_./-~:@%").find(c) != std::string_view::npos;
+}
+
+/// Length of a backslash, blanks and a line end at `at`; 0 if something else stands there.
+std::size_t continuation(std::string_view text, std::size_t at) {
+  if (at >= text.size() || text[at] != '\\') return 0;
+  std::size_t end = at + 1;
+  while (end < text.size() && is_blank(text[end])) ++end;
+  return end < text.size() && text[end] == '\n' ? end + 1 - at : 0;
+}
+
+Token quoted(std::string_view text, std::size_t at) {
+  const std::size_t close = text.find_first_of(std::string(1, text[at]) + '\n', at + 1);
+  if (close == std::string_view::npos || text[close] == '\n') {
+    const std::size_t end = close == std::string_view::npos ? text.size() : close;
+    return {Token::Kind::bad, "this quote is not closed on its line", 0, at, end - at};
+  }
+  return {Token::Kind::string, std::string(text.substr(at + 1, close - at - 1)), 0, at, close + 1 - at};
+}
+
+/// A number when everything up to the next blank or symbol reads as one, else a word ("3rd_part.msh", "1to3").
+Token number_or_word(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size()) {
+    const char c = text[end];
+    const char before = end > at ? text[end - 1] : 'e';
+    const bool sign = (c == '+' || c == '-') && (end == at || before == 'e' || before == 'E');
+    if (!is_word(c) && !sign) break;
+    ++end;
+  }
+  const std::string_view run = text.substr(at, end - at);
+  const std::string_view digits = run.front() == '+' ? run.substr(1) : run;
+  Token token{Token::Kind::number, std::string(run), 0, at, run.size()};
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), token.value);
+  if (rest != digits.data() + digits.size()) {
+    token.kind = Token::Kind::word;
+  } else if (error == std::errc::result_out_of_range) {
+    token.kind = Token::Kind::bad;
+    token.text = "this number is out of range";
+  }
+  return token;
+}
+
+Token next_token(std::string_view text, std::size_t at) {
+  const char c = text[at];
+  const char after = at + 1 < text.size() ? text[at + 1] : ' ';
+  if (c == '"' || c == '\'') return quoted(text, at);
+  const bool sign_or_dot = c == '+' || c == '-' || c == '.';
+  const char second_after = at + 2 < text.size() ? text[at + 2] : ' ';
+  if (is_digit(c) || (sign_or_dot && (is_digit(after) || (c != '.' && after == '.' && is_digit(second_after)))))
+    return number_or_word(text, at);
+  if (is_word(c) && c != '-') {
+    std::size_t end = at;
+    while (end < text.size() && is_word(text[end])) ++end;
+    return {Token::Kind::word, std::string(text.substr(at, end - at)), 0, at, end - at};
+  }
+  const std::string_view two = text.substr(at, 2);
+  if (two == "<=" || two == ">=" || two == "<>" || two == "==")
+    return {Token::Kind::symbol, std::string(two), 0, at, 2};
+  if (std::string_view("(){}[],<>=+-*^!&|$?").find(c) != std::string_view::npos)
+    return {Token::Kind::symbol, std::string(1, c), 0, at, 1};
+  return {Token::Kind::bad,
+          c == '\\' ? "a backslash must be the last of its line" : "this character has no meaning here", 0, at, 1};
+}
+
+}  // namespace
+
+std::vector<Statement> split_statements(std::string_view input, std::string_view source_name) {
+  const auto source = std::make_shared<const Source>(Source{std::string(source_name), std::string(input)});
+  const std::string_view text = source->text;
+  std::vector<Statement> result;
+  Statement statement{source, {}};
+  const auto finish = [&](std::size_t at) {
+    if (statement.tokens.empty()) return;
+    // Behind the last token rather than at the line end, so that the caret stays close to the words.
+    const Token& last = statement.tokens.back();
+    statement.tokens.push_back({Token::Kind::end, "", 0, std::min(at, last.offset + last.length), 0});
+    result.push_back(std::exchange(statement, Statement{source, {}}));
+  };
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (is_blank(c)) {
+      ++at;
+    } else if (c == '\n' || c == ';') {
+      finish(at++);
+    } else if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (const std::size_t joined = continuation(text, at)) {
+      at += joined;
+    } else {
+      statement.tokens.push_back(next_token(text, at));
+      at += statement.tokens.back().length;
+    }
+  }
+  finish(text.size());
+  return result;
+}
+
+bool wants_more(std::string_view text) {
+  std::size_t end = text.size();
+  while (end > 0 && (is_blank(text[end - 1]) || text[end - 1] == '\n')) --end;
+  if (end == 0 || text[end - 1] != '\\') return false;
+  const std::size_t line = text.rfind('\n', end - 1) + 1;
+  return text.substr(line == std::string_view::npos ? 0 : line, end - line).find('#') == std::string_view::npos;
+}
+
+std::string text_of(const Statement& statement) {
+  std::string result;
+  std::size_t end = 0;
+  for (const Token& token : statement.tokens) {
+    if (token.kind == Token::Kind::end) break;
+    if (!result.empty() && token.offset > end) result += ' ';
+    result += statement.source->text.substr(token.offset, token.length);
+    end = token.offset + token.length;
+  }
+  return result;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,52 @@
+// From text to commands: statements of tokens that remember where they stood.
+//
+// `;` and line ends separate statements, `#` starts a comment, a backslash at the end of a line joins the next one.
+// Strings stand between single or double quotes and may hold anything but a line end.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hextwist {
+
+/// Text of commands and what to call it in messages: a journal's file name, or "" for text typed in.
+struct Source {
+  std::string name;
+  std::string text;
+};
+
+struct Token {
+  enum class Kind {
+    word,    ///< starts with a letter or so: refine, x_coord, part.step
+    number,  ///< 3, -2.5, 1e-3
+    string,  ///< text holds what is between the quotes
+    symbol,  ///< one of ( ) { } , < > = + * ...
+    bad,     ///< could not be read; text says why
+    end,     ///< behind the last token of a statement
+  };
+  Kind kind = Kind::end;
+  std::string text;
+  double value = 0;        ///< of a number
+  std::size_t offset = 0;  ///< bytes into the source
+  std::size_t length = 0;  ///< bytes; 0 for the end
+};
+
+/// One command. The last token is the end; there is at least one other.
+struct Statement {
+  std::shared_ptr<const Source> source;
+  std::vector<Token> tokens;
+};
+
+/// Splits text into statements. Never throws on any input: what can't be read becomes a bad token, so that the
+/// commands before it can run first.
+std::vector<Statement> split_statements(std::string_view text, std::string_view source_name = "");
+
+/// Does the text end in a backslash that asks for another line?
+bool wants_more(std::string_view text);
+
+/// The statement as written, on one line: line ends become spaces, comments go.
+std::string text_of(const Statement& statement);
+
+}  // namespace hextwist

@@ -1,0 +1,249 @@
+// What commands look like: what is accepted, and where errors point.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hextwist/command/command_error.h"
+#include "hextwist/command/syntax.h"
+
+namespace hextwist {
+namespace {
+
+Command parsed(std::string_view text) {
+  const auto statements = split_statements(text);
+  EXPECT_EQ(statements.size(), 1u);
+  return parse(statements.at(0));
+}
+
+/// The error of a text, or one with an empty message.
+CommandError error_of(std::string_view text, std::string_view source = "") {
+  try {
+    for (const Statement& statement : split_statements(text, source)) parse(statement);
+  } catch (const CommandError& error) {
+    return error;
+  }
+  return {"", "", 0, 0};
+}
+
+struct Row {
+  const char* said;
+  const char* means;
+};
+
+TEST(Grammar, WordsMayBeShortAndInAnyCase) {
+  for (const auto& [said, means] : std::vector<Row>{
+           {"refine curve 3", "refine curve 3"},
+           {"REF Cur 3 NUMSPL 2", "refine curve 3 numsplit 2"},
+           {"refine vol all depth 1 numsplit 2", "refine volume all depth 1 numsplit 2"},
+           {"refine hex 1,2, 3 to 7 by 2", "refine hex 1 2 3 to 7 by 2"},
+           {"refine hex 3 to 7 step 2", "refine hex 3 to 7 by 2"},
+           {"refine hex 3 to 7 by 1", "refine hex 3 to 7"},
+           {"refine hex all exc 3", "refine hex all except 3"},
+           {"refine hex in volume 2", "refine hex in volume 2"},
+           {"refine node in face in surf 7 curve 1 2", "refine node in face in surface 7 curve 1 2"},
+           {"refine surface inlet 3", "refine surface \"inlet\" 3"},
+           {"refine surface 'a \"b\"'", "refine surface 'a \"b\"'"},
+           {"refine volume all numsplit 1 bias 1.0 depth 1 smooth",
+            "refine volume all numsplit 1 bias 1 depth 1 smooth"},
+           {"refine hex 1 concave fill dry no_smooth", "refine hex 1 concave fill dry_run no_smooth"},
+           {"import mesh part.msh", "import mesh \"part.msh\""},
+           {"export gene \"a b.g\" over", "export genesis \"a b.g\" overwrite"},
+           {"quality hex all scaled jac", "quality hex all scaled jacobian"},
+           {"quality hex all scaled_jacobian", "quality hex all scaled_jacobian"},
+           {"list", "list"},
+           {"list mod", "list model"},
+           {"list sheet in hex 3", "list sheet in hex 3"},
+           {"create cyl height 2 radius 1 int 3", "create cylinder height 2 radius 1 interval 3"},
+           {"set gl on", "set glue on"},
+           {"h", "help"},
+           {"exit", "exit"},
+       }) {
+    EXPECT_EQ(to_string(parsed(said)), means) << said;
+    EXPECT_EQ(to_string(parsed(means)), means) << "not a fixed point";
+  }
+}
+
+TEST(Grammar, ValuesArriveWithTheirNames) {
+  const Command command = parsed("refine curve 3 to 9 by 2 except 5 in surface 1 numsplit 2");
+  ASSERT_TRUE(command.has("splits"));
+  EXPECT_EQ(command.find("splits")->number, 2);
+  EXPECT_FALSE(command.has("depth"));
+  const Item& item = *command.find("range");
+  EXPECT_EQ(item.kind, EntityKind::curve);
+  ASSERT_EQ(item.range.items.size(), 1u);
+  EXPECT_EQ(item.range.items[0].step, 2);
+  ASSERT_EQ(item.range.except.size(), 1u);
+  ASSERT_EQ(item.range.in.size(), 1u);
+  EXPECT_EQ(item.range.in[0].kind, EntityKind::surface);
+}
+
+struct Wrong {
+  const char* text;
+  int column;
+  const char* message;  // part of it
+};
+
+TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
+  for (const auto& [text, column, message] : std::vector<Wrong>{
+           {"foo", 1, "expected check, create, exit, export, help, import, list"},
+           {"refine crve 3", 8,
+            "expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you mean 'curve'?)"},
+           {"refine", 7, "expected node, edge, face"},
+           {"refine curve", 13, "expected an id, a name, all, except or in, found the end of the command"},
+           {"refine curve ; reset", 13, "expected an id"},
+           {"refine hex bogus", 12, "expected an id, all, except or in, found 'bogus'"},
+           {"refine hex \"a\"", 12, "found \"a\""},
+           {"refine hex 0", 12, "ids start at 1"},
+           {"refine hex -3", 12, "ids start at 1"},
+           {"refine hex 1.5", 12, "ids are whole numbers"},
+           {"refine hex 99999999999999999", 12, "out of range"},
+           {"refine hex 1e999", 12, "out of range"},
+           {"refine hex 5 to 3", 17, "this range runs backwards: 5 to 3"},
+           {"refine hex 5 to", 16, "expected an id"},
+           {"refine hex 5 to 9 by 0", 22, "steps start at 1"},
+           {"refine hex 5 to 9 by x", 22, "expected a step"},
+           {"refine hex 1,", 14, "expected an id"},
+           {"refine hex except 3", 12, "'except' needs something to take away from"},
+           {"refine hex all except", 22, "expected an id"},
+           {"refine hex in", 14,
+            "expected node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset or sheet"},
+           {"refine hex in volume", 21, "expected an id"},
+           {"refine hex with x_coord > 3", 12, "'with' is not supported yet"},
+           {"refine hex 3 common_to volume 1 2", 14, "'common_to' is not supported yet"},
+           {"refine vertex (at 1 2 3)", 15, "is not supported yet"},
+           {"refine hex {n}", 12, "expressions in braces are not supported yet"},
+           {"{n = 3}", 1, "expressions in braces are not supported yet"},
+           {"refine curve 3 nunsplit 2", 16, "(did you mean 'numsplit'?)"},
+           {"refine curve 3 numsplit", 24, "expected a whole number, found the end"},
+           {"refine curve 3 numsplit x", 25, "expected a whole number, found 'x'"},
+           {"refine curve 3 numsplit 0", 25, "numsplit must be a whole number from 1 to 29"},
+           {"refine curve 3 numsplit 1.5", 25, "numsplit must be a whole number from 1 to 29"},
+           {"refine curve 3 numsplit 1 numsplit 2", 27, "'numsplit' was said already"},
+           {"refine curve 3 smooth no_smooth", 23, "'no_smooth' was said already"},
+           {"refine curve 3 depth -1", 22, "depth must be a whole number"},
+           {"refine curve 3 bias 0.5", 21, "bias must be a number of at least 1"},
+           {"refine curve 3 concave", 23, "expected template or fill"},
+           {"refine curve 3 s", 16, "'s' is short for smooth, size or sizing_function"},
+           {"refine curve 3 size 0.5", 16, "'size' is not supported yet"},
+           {"refine curve 3 radius 2", 16, "'radius' is not supported yet"},
+           {"refine curve 3 sizing_function f", 16, "'sizing_function' is not supported yet"},
+           {"refine curve 3 method auto", 16, "'method' is not supported yet"},
+           {"refine sheet edge 3", 8, "'sheet' is not supported yet"},
+           {"smooth volume all", 1, "'smooth' is not supported yet"},
+           {"undo", 1, "'undo' is not supported yet"},
+           {"q volume 1", 1, "'q' is short for quality or quit"},
+           {"quality volume 1 shap all", 22, "'all' was said already"},
+           {"quality volume 1 volume", 18, "expected"},
+           {"quality volume 1 histogram", 18, "'histogram' is not supported yet"},
+           {"import step foo", 13, "expected a file name in quotes, found 'foo'"},
+           {"import step \"\"", 13, "this file name is empty"},
+           {"import step \"foo", 13, "this quote is not closed"},
+           {"import \"foo.step\"", 8, "expected mesh, exodus"},
+           {"import mesh \"a.msh\" \"b\"", 21, "expected the end of the command, found \"b\""},
+           {"reset all", 7, "expected the end of the command, found 'all'"},
+           {"create sphere radius 0", 22, "radius must be a number above 0"},
+           {"create cylinder radius 1", 25, "expected height"},
+           {"set glue maybe", 10, "expected auto, on or off"},
+           {"refine hex 1 \\ x", 14, "a backslash must be the last of its line"},
+           {"refine hex 1 \x01", 14, "this character has no meaning here"},
+       }) {
+    const CommandError error = error_of(text);
+    EXPECT_EQ(error.column(), column) << text << "\n" << error.what();
+    EXPECT_EQ(error.line(), 1) << text;
+    EXPECT_NE(error.message().find(message), std::string::npos) << text << "\n" << error.what();
+  }
+}
+
+TEST(Grammar, TheCaretStandsUnderTheWord) {
+  EXPECT_STREQ(error_of("reset\nrefine crve 3\n", "part.jou").what(),
+               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you "
+               "mean 'curve'?)\n  refine crve 3\n         ^~~~");
+  EXPECT_STREQ(error_of("import\tmésh 3").what(),
+               "expected mesh, exodus, gmsh, abaqus, vtk, medit, geometry, step, brep or iges, found 'mésh' (did you "
+               "mean 'mesh'?)\n  import mésh 3\n         ^~~~");
+  // The line of a joined command on which the word stands, not the first.
+  EXPECT_STREQ(error_of("refine \\\n  hex x").what(),
+               "expected an id, all, except or in, found 'x'\n    hex x\n        ^");
+}
+
+TEST(Grammar, AVeryLongLineShowsTheEnvironsOfTheWord) {
+  std::string text = "refine hex";
+  for (int i = 1; i < 5000; ++i) text += " " + std::to_string(i);
+  const CommandError error = error_of(text + " bogus 1 2 3");
+  EXPECT_EQ(error.column(), static_cast<int>(text.size()) + 2);
+  EXPECT_LT(std::string(error.what()).size(), 600u);
+}
+
+TEST(Grammar, RangesCannotBeNestedWithoutEnd) {
+  std::string text = "refine hex in";
+  for (int i = 0; i < 100000; ++i) text += " hex in";
+  EXPECT_NE(error_of(text).message().find("nested too deeply"), std::string::npos);
+}
+
+TEST(Grammar, CompletionOffersWhatCouldStandThere) {
+  using List = std::vector<std::string>;
+  EXPECT_EQ(completions("re"), (List{"refine", "reset"}));
+  EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
+  EXPECT_EQ(completions("refine cu"), (List{"curve"}));
+  EXPECT_EQ(completions("refine curve 3 nu"), (List{"numsplit"}));
+  EXPECT_EQ(completions("refine curve 3 concave "), (List{"fill", "template"}));
+  EXPECT_EQ(completions("refine curve 3 numsplit "), List{});
+  EXPECT_EQ(completions("refine bogus 3 "), List{});
+  EXPECT_EQ(completions("").size(), completions("  ").size());
+  EXPECT_GT(completions("").size(), 10u);
+  EXPECT_EQ(completions("import mesh \"a"), List{});
+}
+
+TEST(Grammar, EveryCommandHasHelpAndItsExamplesParse) {
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    EXPECT_FALSE(spec.summary.empty()) << spec.name;
+    EXPECT_FALSE(spec.examples.empty()) << spec.name;
+    for (const auto example : spec.examples) EXPECT_EQ(to_string(parsed(example)), example);
+    EXPECT_NE(help().find(spec.summary), std::string::npos);
+    EXPECT_NE(help(spec.name).find(spec.examples.front()), std::string::npos);
+    EXPECT_EQ(help(spec.name).find('~'), std::string::npos) << "shows what is not supported yet";
+  }
+  EXPECT_NE(help("range").find("except"), std::string::npos);
+  EXPECT_THROW(help("bogus"), Error);
+}
+
+TEST(Grammar, GarbageGivesAnErrorWithAPlaceOrParsesAndNeverCrashes) {
+  const unsigned seed = std::random_device{}();
+  RecordProperty("seed", static_cast<int>(seed));
+  std::mt19937 random(seed);
+  const std::vector<std::string> pieces = {
+      "refine", "curve",  "hex",    "3",    "to",    "by",       "all",   "except", "in",
+      "volume", "\"x\"",  "'",      "\"",   ",",     "numsplit", "depth", "-1",     "1e9",
+      "0",      "{",      "}",      "(",    ")",     "\\",       "\\\n",  "\n",     ";",
+      "#",      "\t",     "import", "mesh", "a.msh", "quality",  "list",  "set",    "glue",
+      "help",   "create", "brick",  "x",    "\xff",  "\x01",     "é",     "<=",     std::string(1, '\0')};
+  int n_errors = 0;
+  for (int run = 0; run < 20000; ++run) {
+    std::string text;
+    const int n = 1 + static_cast<int>(random() % 12);
+    for (int i = 0; i < n; ++i) {
+      if (random() % 8 == 0)
+        text += static_cast<char>(random() % 256);
+      else
+        text += pieces[random() % pieces.size()];
+      if (random() % 4) text += ' ';
+    }
+    for (const Statement& statement : split_statements(text)) {
+      try {
+        const std::string once = to_string(parse(statement));
+        EXPECT_EQ(to_string(parsed(once)), once) << "seed " << seed;
+      } catch (const CommandError& error) {
+        ++n_errors;
+        EXPECT_GE(error.column(), 1) << "seed " << seed;
+        EXPECT_GE(error.line(), 1) << "seed " << seed;
+        EXPECT_FALSE(error.message().empty());
+      }
+    }
+    completions(text);
+  }
+  EXPECT_GT(n_errors, 1000);
+}
+
+}  // namespace
+}  // namespace hextwist
