@@ -141,7 +141,7 @@ class Matcher {
   void options(const PatternNode& node) {
     std::vector<bool> said(node.choices.size());
     while (const auto choice = choose(node, said)) {
-      if (said[*choice]) reader_.fail(reader_.peek(), "'" + reader_.peek().text + "' was said already");
+      if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
       sequence(node.choices[*choice]);
     }
