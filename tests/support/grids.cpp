@@ -6,10 +6,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace hextwist::test {
 
-Mesh grid(int a, int b, int c) { return grid(a, b, c, Vec3::Ones()); }
+Mesh grid(int a, int b, int c) {
+  return grid(a, b, c, Vec3::Ones());
+}
 
 Mesh grid(int a, int b, int c, const Vec3& size) {
   Mesh mesh;
@@ -89,6 +92,34 @@ Mesh pinwheel(int valence, int n, int layers) {
           for (int c = 0; c < 8; ++c) hex[c] = node(s, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
           mesh.hexes.push_back(hex);
         }
+  return mesh;
+}
+
+Mesh ring(int m, int n, int quarter_turns) {
+  Mesh mesh;
+  const double radius = 2 * m;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j <= m; ++j)
+      for (int i = 0; i <= m; ++i) {
+        const double around = 2 * std::numbers::pi * k / n, twist = -around * quarter_turns / 4;
+        const double x = i - m / 2.0, y = j - m / 2.0;
+        const double out = x * std::cos(twist) - y * std::sin(twist), up = x * std::sin(twist) + y * std::cos(twist);
+        mesh.points.emplace_back((radius + out) * std::cos(around), up, (radius + out) * std::sin(around));
+      }
+  const auto node = [&](int i, int j, int k) {
+    if (k == n) {
+      k = 0;
+      for (int turn = 0; turn < quarter_turns % 4; ++turn) i = std::exchange(j, m - i);
+    }
+    return i + (m + 1) * (j + (m + 1) * k);
+  };
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < m; ++j)
+      for (int i = 0; i < m; ++i) {
+        Hex hex;
+        for (int c = 0; c < 8; ++c) hex[c] = node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
+        mesh.hexes.push_back(hex);
+      }
   return mesh;
 }
 

@@ -19,6 +19,10 @@ Mesh shuffled(const Mesh& mesh, std::mt19937& random);
 /// Irregular: hexes around a vertical line of the given valence (3, 5, ...), `layers` high, each sector n x n.
 Mesh pinwheel(int valence, int n, int layers);
 
+/// A closed ring of n >= 3 layers of m x m hexes, whose section has turned by so many quarter turns when it meets
+/// itself again. Node (i, j) of layer k has index i + (m + 1) * (j + (m + 1) * k), hexes likewise.
+Mesh ring(int m, int n, int quarter_turns);
+
 /// Folder of real CAD and meshes; empty where it does not exist (the test should then GTEST_SKIP()).
 std::filesystem::path data_folder();
 /// Folder for files that tests write, made anew per test name.
