@@ -169,8 +169,9 @@ void carry_curve_edges(const Association& old, const Lineage& lineage, Associati
   for (std::size_t i = 0; i < old.curve_edges.size(); ++i) {
     const auto [a, b] = old.curve_edges[i];
     const int curve = old.edge_curve[i];
-    const auto found =
-        std::ranges::lower_bound(lineage.edges, Edge{a, b}, {}, [](const CutEdge& edge) { return Edge{edge.a, edge.b}; });
+    const auto found = std::ranges::lower_bound(lineage.edges, Edge{a, b}, {}, [](const CutEdge& edge) {
+      return Edge{edge.a, edge.b};
+    });
     if (found == lineage.edges.end() || found->a != a || found->b != b) {
       add(a, b, curve);
       continue;

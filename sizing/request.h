@@ -14,6 +14,7 @@
 #include "hextwist/mesh/quality.h"
 #include "hextwist/mesh/validate.h"
 #include "hextwist/refine/lineage.h"
+#include "hextwist/refine/place.h"
 
 namespace hextwist {
 
@@ -53,13 +54,6 @@ struct StageTime {
   double seconds = 0;
 };
 
-/// A node that could not be put where its owner is: moved back towards the straight-sided parent.
-struct Disappointment {
-  Index node = -1;
-  Owner owner;
-  double distance = 0;  ///< from the owner, model units
-};
-
 struct Report {
   std::int64_t hexes_before = 0, hexes_after = 0;
   std::int64_t nodes_before = 0, nodes_after = 0;
@@ -68,12 +62,12 @@ struct Report {
   Summary scaled_jacobian_before, scaled_jacobian_after;
   OffModel off_cad;
   double volume_before = 0, volume_after = 0;
-  std::vector<Disappointment> off_nodes;   ///< nodes that were left off their owner
-  std::vector<Violation> violations;       ///< of the result; empty unless something is wrong with it
-  std::vector<std::string> notices;        ///< decisions taken, one line each
+  std::vector<Disappointment> off_nodes;  ///< nodes that were left off their owner
+  std::vector<Violation> violations;      ///< of the result; empty unless something is wrong with it
+  std::vector<std::string> notices;       ///< decisions taken, one line each
   std::vector<StageTime> seconds;
   double total_seconds = 0;
-  std::size_t peak_memory_bytes = 0;       ///< of the process so far
+  std::size_t peak_memory_bytes = 0;  ///< of the process so far
 };
 
 /// Called now and then with a stage name and its progress 0..1; returns false to cancel (the call then throws

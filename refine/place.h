@@ -1,0 +1,40 @@
+// Puts the new nodes of a refinement where they belong: on their curves and surfaces, and between them.
+#pragma once
+
+#include <vector>
+
+#include "hextwist/geom/model.h"
+#include "hextwist/mesh/association.h"
+#include "hextwist/refine/split.h"
+
+namespace hextwist {
+
+/// Moves the new nodes of `mesh` (as carry() left them: in straight-sided parents) to their places:
+///  1. on a curve: by curve parameter, in the same proportion between the ends of the cut edge;
+///  2. on a surface: the straight (then, for nodes inside faces, blended) place projected, starting from the
+///     parameters of the nearest old node;
+///  3. elsewhere: the straight place plus the displacements of the edges and faces around, blended (transfinite
+///     interpolation of Gordon and Hall, 1973), so that fine cells follow a curved coarse boundary.
+/// Parameters of nodes on curves and surfaces are set. Old nodes do not move. No node depends on the order or on
+/// threads. split.hexes is not used (it has moved into the mesh).
+void place(const Mesh& old_mesh, const Association& old_association, const Split& split, const Model& model, Mesh& mesh,
+           Association& association);
+
+/// A node that is not where its owner is.
+struct Disappointment {
+  Index node = -1;
+  Owner owner;
+  double distance = 0;  ///< from the owner, model units
+};
+
+/// Hexes among those with index >= first whose smallest corner Jacobian is not positive, ascending.
+std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
+
+/// Turns inverted children right again: first by moving the new nodes inside volumes around them, then, where that
+/// does not help, by moving new nodes back towards their place in the straight-sided parent, off their curve or
+/// surface if need be. Nodes that end up off their owner come back as rows; hexes that are still inverted are left for
+/// the caller to find (inverted_hexes).
+std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
+                                            Association& association);
+
+}  // namespace hextwist
