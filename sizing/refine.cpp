@@ -140,8 +140,8 @@ RefineResult refine(const MeshedModel& input, const Request& request, const Prog
         if (request.concave == Concave::fill) report.filled_hexes += fill_concave(current->mesh, marked);
         codes = trisect_codes(current->mesh.hexes, marked);
       }
-      RefineResult next =
-          run_pass(*current, uniform ? uniform_table(request.numsplit + 1) : trisect_table(), codes, stages, fraction);
+      RefineResult next = run_pass(*current, uniform ? uniform_table(request.numsplit + 1) : trisect_table(), codes,
+                                   request.dry_run, stages, fraction);
       std::ranges::move(next.report.off_nodes, std::back_inserter(report.off_nodes));
       if (pass + 1 < n_passes) {
         targets = children_of(next.lineage, targets);
