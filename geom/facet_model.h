@@ -1,4 +1,7 @@
 // A model made of the skin of a mesh, for meshes that have no CAD: the same interface, facets instead of splines.
+//
+// A facet is the bilinear patch of a quad, not a pair of triangles: corners, edges and all points where a refinement
+// puts the children of the quad lie exactly on it, and areas and volumes are those of the trilinear hexes.
 #pragma once
 
 #include <array>
@@ -12,14 +15,15 @@ namespace hextwist {
 
 /// Which piece of the facet model each piece of the skin became.
 struct FacetClassification {
-  std::vector<int> quad_surface;                  ///< per quad: surface id
-  std::vector<std::array<std::int32_t, 2>> edges; ///< feature edges (a < b), lexicographic
-  std::vector<int> edge_curve;                    ///< per feature edge: curve id
-  std::vector<std::int32_t> vertex_nodes;         ///< per vertex id - 1: node
+  std::vector<int> quad_surface;                   ///< per quad: surface id
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< feature edges (a < b), lexicographic
+  std::vector<int> edge_curve;                     ///< per feature edge: curve id
+  std::vector<std::int32_t> vertex_nodes;          ///< per vertex id - 1: node
 };
 
 struct FacetModelOptions {
-  /// An edge whose two quads' normals differ by more than this is a feature. Degrees, 0..180.
+  /// An edge whose two quads' normals differ by more than this is a feature, a node where two features turn by more
+  /// is a vertex. Degrees, 0..180.
   double feature_angle = 35;
 };
 
@@ -32,9 +36,16 @@ struct FacetImport {
 /// cyclic order, seen from outside counter-clockwise with respect to quad_volumes[i][0].
 /// quad_volumes: per quad the volume behind it and the one in front (0: none); 1-based, contiguous.
 /// Features: edges at an angle, edges where more or fewer than two quads meet, edges between quads with different
-/// volumes. Vertices: nodes where other than two features meet, where two meet at an angle, and cone tips.
+/// volumes. Vertices: nodes where other than two features meet, where two meet at an angle or the surfaces beside
+/// them change, where two parts of the skin touch in the node alone, and cone tips.
 /// Surfaces are numbered by their first quad, curves by their lowest edge, vertices by their node.
-/// Curves that are closed and have no vertex are periodic. Curve parameter: arc length.
+///
+/// Curves are straight between nodes; their parameter is the arc length, from the end from which their lowest edge
+/// runs to its higher node. Closed curves are periodic, whether they have a vertex (where they start) or not (they
+/// start at their lowest node). Surface parameters: u = 2 * facet + s, v = t with s, t in [0, 1] on the facet.
+/// Types: "vertex", "polyline", "facets", "volume"; tolerance() is 0; names are "".
+/// project() is global with and without seeds: a seed only makes it faster, so one that is far off does no harm.
+/// Throws Error when the angle is out of range.
 FacetImport facet_model(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
                         std::span<const std::array<int, 2>> quad_volumes, const FacetModelOptions& options = {});
 
