@@ -77,7 +77,7 @@ Owner owner_of_face(const Association& association, const Faces& faces, Index fa
 /// Nodes whose owner is the entity; with closure also those of the entities that bound it (a surface's curves and
 /// vertices). Ascending.
 std::vector<Index> nodes_owned_by(const Association& association, Owner entity);
-std::vector<Index> nodes_on(const Association& association, const Model& model, const Mesh& mesh, Owner entity);
+std::vector<Index> nodes_on(const Association& association, const Model& model, Owner entity);
 
 /// Distance of boundary nodes (owners of dimension 0..2) from their owners.
 struct OffModel {

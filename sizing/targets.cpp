@@ -60,7 +60,7 @@ void mark_target_nodes(const MeshedModel& input, const Request& request, std::ve
   }
   const int dim = cad_dimension(request.kind);
   for (const Index id : request.targets) {
-    const std::vector<Index> nodes = nodes_on(input.association, *input.model, mesh, {dim, id});
+    const std::vector<Index> nodes = nodes_on(input.association, *input.model, {dim, id});
     if (nodes.empty())
       throw Error("no node of the mesh lies on " + to_string(Owner{dim, id}) +
                   ": the mesh does not resolve it, so there is nothing to refine");
