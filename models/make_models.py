@@ -82,7 +82,8 @@ def make(model):
            "exercises": model.exercises, "volume": model.volume, "area": model.area, "exact": model.exact,
            "solids": count[3], "faces": count[2], "edges": count[1], "vertices": count[0],
            "hexes": len(mesh[1]), "nodes": len(points), "mesh_volume": round(hexes.volume(points, mesh[1]), 6),
-           "min_scaled_jacobian": round(float(quality.min()), 4), "splines": model.splines} | groups
+           "min_scaled_jacobian": round(float(quality.min()), 4), "splines": model.splines,
+           "measure_error": model.measure_error} | groups
     print(f"{model.name:16} {row['hexes']:5} hexes  volume {row['volume']:.9g} (mesh {row['mesh_volume']:.9g})  "
           f"min scaled Jacobian {row['min_scaled_jacobian']}")
     return row

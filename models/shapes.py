@@ -28,7 +28,7 @@ class Shape:
     groups: list = dataclasses.field(default_factory=list)
     binary: bool = False
     splines: bool = False
-    measure_error: float = 1e-9  # by which OpenCASCADE's own integration may differ
+    measure_error: float = 1e-9  # relative; by which OpenCASCADE's own integration and curves may differ
 
 
 def occ():
