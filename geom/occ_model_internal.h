@@ -1,0 +1,82 @@
+// The model behind occ_model.h. Included by geom/occ_*.cpp only.
+#pragma once
+
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hextwist/geom/occ_curve_internal.h"
+#include "hextwist/geom/occ_surface_internal.h"
+
+namespace hextwist::occ {
+
+/// Names per dimension and 1-based id (entry 0 unused); may be shorter than the number of entities.
+using Names = std::array<std::vector<std::string>, 4>;
+
+/// Entities per dimension in the order of TopExp::MapShapes, which defines the ids.
+using ShapeMaps = std::array<TopTools_IndexedMapOfShape, 4>;
+ShapeMaps entity_maps(const TopoDS_Shape& shape);
+
+class OccModel final : public Model {
+ public:
+  OccModel(const TopoDS_Shape& shape, Names names);
+
+  const TopoDS_Shape& shape() const { return shape_; }
+  const Names& names() const { return names_; }
+
+  int count(int dim) const override;
+  std::string name(Owner entity) const override;
+  std::string type(Owner entity) const override;
+  Box box(Owner entity) const override;
+  Box box() const override;
+  double measure(Owner entity) const override;
+  std::vector<int> adjacent(Owner entity, int dim) const override;
+  double tolerance(Owner entity) const override;
+  CurveRange range(int curve) const override;
+  Vec3 point(Owner entity, Parameters at) const override;
+  Vec3 tangent(int curve, double t) const override;
+  Vec3 normal(int surface, Parameters at) const override;
+  void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
+               std::span<Projection> out) const override;
+  bool contains(int volume, const Vec3& point) const override;
+  std::vector<int> near(int dim, const Vec3& p, double distance) const override;
+
+  using Model::project;
+
+ private:
+  /// Classifiers keep state and take long to make: a pool hands each to one thread at a time.
+  struct Classifiers {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<BRepClass3d_SolidClassifier>> idle;
+  };
+
+  const TopoDS_Shape& entity(Owner owner) const;
+  void build_adjacency();
+  double compute_measure(Owner entity) const;
+  double signed_volume(int volume) const;
+  const std::vector<Box>& boxes(int dim) const;
+  const std::vector<char>& flipped() const;
+
+  TopoDS_Shape shape_;
+  Names names_;
+  ShapeMaps maps_;
+  std::vector<Vec3> vertices_;
+  std::vector<std::unique_ptr<Curve>> curves_;
+  std::vector<std::unique_ptr<Surface>> surfaces_;
+  std::array<std::array<std::vector<std::vector<int>>, 4>, 4> adjacent_;  // [dim][other dim][id - 1]
+
+  mutable std::array<std::once_flag, 4> boxes_made_;
+  mutable std::array<std::vector<Box>, 4> boxes_;
+  mutable std::array<std::vector<std::atomic<double>>, 4> measures_;  // NaN until asked for
+  mutable std::once_flag flipped_made_;
+  mutable std::vector<char> flipped_;  // per surface: natural normal points into its (first) volume
+  mutable std::vector<Classifiers> classifiers_;
+};
+
+}  // namespace hextwist::occ

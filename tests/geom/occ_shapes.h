@@ -1,0 +1,57 @@
+// OpenCASCADE solids made in memory, with slow and independent answers to compare with. No OpenCASCADE header is
+// reached from here, so the tests compile like those of any other layer.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hextwist/geom/occ_model.h"
+
+namespace hextwist::test {
+
+/// A shape, the model of it, and brute force.
+class OccShape {
+ public:
+  static OccShape cylinder(double r, double h);
+  /// The part of a cylinder between two angles, away from the seam or across it.
+  static OccShape cylinder_sector(double r, double h, double from, double to);
+  static OccShape sphere(double r);
+  static OccShape sphere_patch(double r, double from_latitude, double to_latitude, double longitude);
+  static OccShape cone(double r_bottom, double r_top, double h);
+  static OccShape torus(double major, double minor);
+  static OccShape brick(double x, double y, double z);
+  /// Brick with a cylindrical hole along z in its middle.
+  static OccShape brick_with_hole(double x, double y, double z, double r);
+  /// Smooth loft through circles and ellipses: a closed B-spline side.
+  static OccShape loft();
+  /// Surface of revolution of a spline that starts on the axis: a pole on a general surface.
+  static OccShape vase();
+  /// Two bricks side by side (separate solids that touch), named in no file.
+  static OccShape two_bricks();
+  /// A brick inside a brick's hole, sharing nothing, as loose faces.
+  static OccShape loose_faces_with_cavity();
+  static OccShape open_shell();
+  static OccShape brep(const std::filesystem::path& file);
+
+  /// The same solid with every curve and surface a NURBS.
+  OccShape as_nurbs() const;
+  OccShape moved(const Vec3& by, double angle) const;
+  OccShape reversed() const;
+
+  CadImport import(const CadOptions& options = {}) const;
+  /// Writes through OpenCASCADE directly, in the given unit ("MM", "M", "INCH") for STEP and IGES.
+  void write(const std::filesystem::path& file, const std::string& unit = "MM") const;
+  /// Distance from an entity (ids as in the model), by OpenCASCADE's general algorithm.
+  double distance(Owner entity, const Vec3& p) const;
+  /// Distance of p from the surface's or curve's own boundary-aware point set, and whether the point lies in it.
+  int count(int dim) const;
+
+ private:
+  struct Impl;
+  explicit OccShape(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace hextwist::test
