@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 
 #include "hextwist/mesh/topology.h"
@@ -11,9 +12,12 @@
 namespace hextwist {
 namespace {
 
+/// What a marking needs: the paper's templates, or for an L or U on a face, or for a concave direction, more.
+enum class Marking : std::uint8_t { convex, corner, concave };
+
 struct CornerTable {
   std::array<std::uint16_t, 256> edges;
-  std::array<bool, 256> concave;
+  std::array<Marking, 256> marking;
 };
 
 const CornerTable& corner_table() {
@@ -21,7 +25,9 @@ const CornerTable& corner_table() {
     CornerTable made;
     for (int corners = 0; corners < 256; ++corners) {
       made.edges[corners] = static_cast<std::uint16_t>(edge_mask_of_corners(corners));
-      made.concave[corners] = !is_convex(made.edges[corners]);
+      made.marking[corners] = is_concave_in_a_direction(made.edges[corners]) ? Marking::concave
+                              : is_convex(made.edges[corners])               ? Marking::convex
+                                                                             : Marking::corner;
     }
     return made;
   }();
@@ -47,31 +53,43 @@ std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<c
 
 Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
   const CornerTable& table = corner_table();
-  const auto is_concave = [&](Index h) { return table.concave[corner_mask(mesh.hexes[h], marked)]; };
-  const auto n_full = [&] {
-    Index count = 0;
-    for (const Hex& hex : mesh.hexes) count += corner_mask(hex, marked) == 255;
-    return count;
+  const auto state = [&](Index h) { return table.marking[corner_mask(mesh.hexes[h], marked)]; };
+  const auto hexes_with = [&](Marking wanted) {
+    std::vector<Index> found;
+    for (Index h = 0; h < mesh.n_hexes(); ++h)
+      if (state(h) >= wanted) found.push_back(h);
+    return found;
   };
-  std::vector<Index> worklist;
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    if (is_concave(h)) worklist.push_back(h);
-  if (worklist.empty()) return 0;
+  const auto n_full = [&] {
+    return std::ranges::count_if(mesh.hexes, [&](const Hex& hex) { return corner_mask(hex, marked) == 255; });
+  };
+  std::vector<Index> rest = hexes_with(Marking::corner);
+  if (rest.empty()) return 0;
 
-  const Index n_before = n_full();
+  const auto n_before = n_full();
   const Lists hexes_of_node = node_hexes(mesh);
-  while (!worklist.empty()) {
-    const Index h = worklist.back();
-    worklist.pop_back();
-    if (!is_concave(h)) continue;
+  std::vector<Index> worklist;
+  const auto mark_all_nodes = [&](Index h) {
     for (const Index n : mesh.hexes[h]) {
       if (marked[n]) continue;
       marked[n] = 1;
       for (const Index neighbour : hexes_of_node[n])
-        if (is_concave(neighbour)) worklist.push_back(neighbour);
+        if (state(neighbour) == Marking::concave) worklist.push_back(neighbour);
     }
+  };
+  // A direction once concave stays so until all eight nodes are marked, so the order of the worklist does not matter.
+  // An L may still become a full face: those have to wait until the worklist is empty, and go all at once.
+  worklist = hexes_with(Marking::concave);
+  while (true) {
+    while (!worklist.empty()) {
+      const Index h = worklist.back();
+      worklist.pop_back();
+      if (state(h) == Marking::concave) mark_all_nodes(h);
+    }
+    rest = hexes_with(Marking::corner);
+    if (rest.empty()) return static_cast<Index>(n_full() - n_before);
+    for (const Index h : rest) mark_all_nodes(h);
   }
-  return n_full() - n_before;
 }
 
 void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std::span<std::uint8_t> marked) {

@@ -12,9 +12,10 @@ namespace hextwist {
 /// One code per hex: an edge is cut when both its nodes are marked. marked: one byte per node, 0 or 1.
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
 
-/// Concave filling (section 4.3): a hex whose marking is concave, so that the paper's templates do not suffice, gets
-/// all its nodes marked; repeated until nothing changes. Only ever adds marks; the result does not depend on the
-/// order. Returns how many hexes became fully marked.
+/// Concave filling (section 4.3): a hex that is concave in a direction gets all its nodes marked, until there is none;
+/// then all hexes that still have an L or U on a face (three marked corners, say) do, and so on until the paper's
+/// templates suffice everywhere. Only ever adds marks; the result does not depend on the order. Returns how many hexes
+/// became fully marked.
 Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked);
 
 /// Marks the nodes of these hexes.

@@ -190,8 +190,10 @@ CubeMesh corner_frustum(int face, int edge_mask) {
   return mesh;
 }
 
-/// A smaller hex inside and a frustum under each face.
+/// A smaller hex inside and a frustum under each face; one frustum alone where all cuts are on one face.
 CubeMesh concave_template(int edge_mask) {
+  for (int face = 0; face < n_hex_faces; ++face)
+    if ((edge_mask & ~edges_of_face(face)) == 0) return corner_frustum(face, edge_mask);
   const auto inner = [](int c) {
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) p[axis] = c >> axis & 1 ? 1 - inner_margin : inner_margin;
@@ -274,9 +276,14 @@ int trisect_face_code(int edge_mask, int face) {
   return code;
 }
 
-bool is_convex(int edge_mask) {
+bool is_concave_in_a_direction(int edge_mask) {
   for (int axis = 0; axis < 3; ++axis)
-    if (!turn_of(edge_mask >> 4 * axis & 0b1111).convex) return false;
+    if (!turn_of(edge_mask >> 4 * axis & 0b1111).convex) return true;
+  return false;
+}
+
+bool is_convex(int edge_mask) {
+  if (is_concave_in_a_direction(edge_mask)) return false;
   for (int face = 0; face < n_hex_faces; ++face)
     if (is_corner_pattern(trisect_face_code(edge_mask, face))) return false;
   return true;

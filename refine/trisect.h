@@ -10,6 +10,7 @@
 // so a hex is cut independently of all others. Hexes without an L or U that are convex in each direction get the
 // paper's templates (a), (b), (c), direction after direction: 27, 13, 9, 5, 4, 3 hexes. All other masks get a smaller
 // hex inside and a frustum under each face; a frustum has cuts on its outer face only (1, 5, 4, 13, L 14, U 18 hexes).
+// A hex that itself has its cuts on one face only needs just that frustum.
 #pragma once
 
 #include <memory>
@@ -23,6 +24,9 @@ inline constexpr int n_trisect_codes = 1 << n_hex_edges;
 inline constexpr int trisect_all = n_trisect_codes - 1;
 
 std::shared_ptr<const SplitTable> trisect_table();
+
+/// Some direction has three or two diagonal cut edges: the twist plane would have to cross itself (figure 6).
+bool is_concave_in_a_direction(int edge_mask);
 
 /// No face is an L or U and no direction has three or two diagonal cut edges: the paper's templates suffice.
 bool is_convex(int edge_mask);
