@@ -344,7 +344,7 @@ def pipe_tee():
             corner = [(a + 0 * s, spread * s), (-a * s, spread + 0 * s), (-a + 0 * s, -spread * s), (a * s, -spread + 0 * s)]
             (x0, t0), (x1, t1) = saddle(radii, angle), corner[quarter]
             return on_run(radii, (1 - v) * x0 + v * x1, (1 - v) * t0 + v * t1)
-        return wall(6, 2, surface)
+        return wall(8, 3, surface)
 
     def up_branch(radii, u, v):
         angle = 2 * pi * u - pi / 4
@@ -356,10 +356,10 @@ def pipe_tee():
         return lambda radii, u, v: on_run(radii, x0 + (x1 - x0) * u, t0 + (t1 - t0) * v)
 
     def mesh():
-        sides = [wall(3, n, run(x0, x1, t0, t1)) for x0, x1 in ((-length, -a), (a, length))
-                 for t0, t1, n in ((-spread, spread, 6), (spread, 2 * pi - spread, 12))]
-        return hx.joined([around_branch(q) for q in range(4)] + sides + [wall(24, 4, up_branch)]
-                         + [wall(6, 12, run(-a, a, spread, 2 * pi - spread))])
+        sides = [wall(4, n, run(x0, x1, t0, t1)) for x0, x1 in ((-length, -a), (a, length))
+                 for t0, t1, n in ((-spread, spread, 8), (spread, 2 * pi - spread, 16))]
+        return hx.joined([around_branch(q) for q in range(4)] + sides + [wall(32, 5, up_branch)]
+                         + [wall(8, 16, run(-a, a, spread, 2 * pi - spread))])
 
     # Integrals over the branch's cross-section; smooth and periodic, so that equal steps are exact to rounding.
     angle = np.arange(4096) * (2 * pi / 4096)
