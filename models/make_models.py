@@ -109,8 +109,8 @@ def main(names):
     table_file.write_text("[\n" + ",\n".join(json.dumps(row) for row in rows) + "\n]\n")
     readme = HERE.parent / "README.md"
     if readme.exists():
-        text = re.sub(r"(<!-- models: .*? -->\n).*?(\n<!-- end of models -->)",
-                      lambda match: match[1] + table(rows) + match[2], readme.read_text(), flags=re.S)
+        text = re.sub(r"(<!-- models: .*? -->\n).*?(<!-- end of models -->)",
+                      lambda match: match[1] + table(rows) + "\n" + match[2], readme.read_text(), flags=re.S)
         readme.write_text(text)
 
 
