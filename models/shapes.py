@@ -414,7 +414,7 @@ def ring_twist():
 
     area, solid = np.sum([measures(u, v, net) for net in nets], axis=0)
     return Shape("ring_twist", "closed ring twisted by 90 degrees: two sheets that cross themselves all the way round; "
-                 "spline faces without a corner edge of their own kind", cad, mesh, abs(float(solid)), float(area),
+                 "four spline faces that follow each other", cad, mesh, abs(float(solid)), float(area),
                  exact="integral to rounding", splines=True, measure_error=1e-6, groups=[(3, "ring", everything)])
 
 
