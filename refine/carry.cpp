@@ -188,7 +188,7 @@ void carry_curve_edges(const Association& old, const Lineage& lineage, Associati
   }
 }
 
-void carry_surface_faces(const Association& old, const Split& split, Association& association) {
+void carry_surface_faces(const Association& old, const Split& split, const Mesh& mesh, Association& association) {
   struct Owned {
     Side side;
     int surface;
@@ -196,6 +196,22 @@ void carry_surface_faces(const Association& old, const Split& split, Association
   std::vector<Owned> owned;
   for (std::size_t i = 0; i < old.surface_faces.size(); ++i)
     for_each_child_side(split, old.surface_faces[i], [&](Side side) { owned.push_back({side, old.face_surface[i]}); });
+
+  // A face between volumes is named by the lower hex. Where that one was cut (so its children come last) and the one
+  // behind was not, the other side has become the lower one.
+  const bool several_volumes =
+      std::ranges::adjacent_find(old.hex_volume, std::ranges::not_equal_to{}) != old.hex_volume.end();
+  if (several_volumes) {
+    std::vector<std::size_t> moved;
+    std::vector<Quad> quads;
+    for (std::size_t i = 0; i < owned.size(); ++i)
+      if (owned[i].side.hex >= split.n_kept()) {
+        moved.push_back(i);
+        quads.push_back(face_nodes(mesh.hexes[owned[i].side.hex], owned[i].side.face));
+      }
+    const std::vector<Side> sides = find_sides(mesh, quads);
+    for (std::size_t i = 0; i < moved.size(); ++i) owned[moved[i]].side = sides[i];
+  }
   std::ranges::sort(owned, {}, &Owned::side);
   association.surface_faces.reserve(owned.size());
   association.face_surface.reserve(owned.size());
@@ -205,7 +221,7 @@ void carry_surface_faces(const Association& old, const Split& split, Association
   }
 }
 
-Association carried_association(const Association& old, const Split& split) {
+Association carried_association(const Association& old, const Split& split, const Mesh& mesh) {
   Association association;
   if (old.empty()) return association;
   association.node_owner = old.node_owner;
@@ -217,7 +233,7 @@ Association carried_association(const Association& old, const Split& split) {
            [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
   carry_node_owners(old, split, association);
   carry_curve_edges(old, split.lineage, association);
-  carry_surface_faces(old, split, association);
+  carry_surface_faces(old, split, mesh, association);
   return association;
 }
 
@@ -225,9 +241,9 @@ Association carried_association(const Association& old, const Split& split) {
 
 Carried carry(const Mesh& old_mesh, const Association& old_association, Split& split) {
   Carried carried;
-  carried.association = carried_association(old_association, split);
   Mesh& mesh = carried.mesh;
   mesh.hexes = std::move(split.hexes);
+  carried.association = carried_association(old_association, split, mesh);
   mesh.points.resize(split.n_nodes);
   std::ranges::copy(old_mesh.points, mesh.points.begin());
   for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
