@@ -13,7 +13,8 @@ namespace {
 std::vector<std::string> include_offences(const std::filesystem::path& path, const std::string& text) {
   static const std::regex include(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
   const std::string layer = path.begin()->string();
-  const bool is_source = path.extension() == ".cpp";
+  // Neither sources nor internal headers are installed: nobody outside of the library reads them.
+  const bool is_inside = path.extension() == ".cpp" || path.filename().string().ends_with("_internal.h");
   std::vector<std::string> offences;
   int number = 0;
   for (const std::string& line : lines(text)) {
@@ -25,9 +26,9 @@ std::vector<std::string> include_offences(const std::filesystem::path& path, con
     };
     const std::filesystem::path included = match[2].str();
     if (match[1] == "<") {
-      if (included.extension() == ".hxx" && !(layer == "geom" && is_source))
-        complain("OpenCASCADE header outside geom/*.cpp");
-      if (*included.begin() == "CGAL" && !is_source) complain("CGAL header in a header");
+      if (included.extension() == ".hxx" && !(layer == "geom" && is_inside))
+        complain("OpenCASCADE header outside the inside of geom");
+      if (*included.begin() == "CGAL" && !is_inside) complain("CGAL header in a public header");
       if (*included.begin() == "hextwist") complain("own header in angle brackets");
     } else if (*included.begin() == "hextwist") {
       const auto theirs = std::ranges::find(layers, (++included.begin())->string());
@@ -62,6 +63,8 @@ TEST(Layering, checker_finds_each_kind_of_offence) {
   EXPECT_EQ(n("mesh/a.cpp", "#  include <gp_Pnt.hxx>\n"), 1u);
   EXPECT_EQ(n("geom/a.h", "#include <gp_Pnt.hxx>\n#include <CGAL/AABB_tree.h>\n"), 2u);
   EXPECT_EQ(n("geom/a.cpp", "#include <gp_Pnt.hxx>\n#include <CGAL/AABB_tree.h>\n"), 0u);
+  EXPECT_EQ(n("geom/a_internal.h", "#include <gp_Pnt.hxx>\n"), 0u);
+  EXPECT_EQ(n("mesh/a_internal.h", "#include <gp_Pnt.hxx>\n"), 1u);
   EXPECT_EQ(n("refine/a.cpp", "#include \"hextwist/geom/model.h\"\n#include <vector>\n"), 0u);
 }
 
