@@ -1,0 +1,369 @@
+#include "hextwist/mesh/io_gmsh_plan_internal.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "hextwist/mesh/corners.h"
+
+namespace hextwist::io {
+namespace {
+
+constexpr std::array<int, 4> n_element_nodes = {1, 2, 4, 8};
+
+/// Makes the plan in the order of dimensions 3, 2, 1, 0.
+class Planner {
+ public:
+  Planner(const Mesh& mesh, const Association& association, bool split)
+      : mesh_(mesh), tags_(association), split_(split) {}
+
+  GmshPlan result() {
+    reserve_owned_entities();
+    hexes();
+    sides();
+    node_sets_on_curves_and_vertices();
+    lines();
+    points();
+    nodes();
+    number_elements();
+    extra_members();
+    boxes();
+    boundaries();
+    for (auto& entities : plan_.entities)
+      for (PlannedEntity& entity : entities) make_set(entity.physicals);
+    return std::move(plan_);
+  }
+
+ private:
+  /// Entities that own something, and the first tag above them for those that are made here.
+  void reserve_owned_entities() {
+    std::array<std::set<int>, 4> used;
+    Owner last;
+    for (const Owner owner : tags_.node_owner) {
+      if (owner != last && owner) used[owner.dim].insert(owner.id);
+      last = owner;
+    }
+    int last_volume = 0;
+    for (const int volume : tags_.hex_volume) {
+      if (volume != last_volume && volume > 0) used[3].insert(volume);
+      last_volume = volume;
+    }
+    used[2].insert(tags_.face_surface.begin(), tags_.face_surface.end());
+    used[1].insert(tags_.edge_curve.begin(), tags_.edge_curve.end());
+    for (int dim = 0; dim < 4; ++dim) {
+      for (const int tag : used[dim]) plan_.entities[dim].push_back({tag, false, {}, {}, {}, {}});
+      next_tag_[dim] = used[dim].empty() ? 1 : *used[dim].rbegin() + 1;
+    }
+  }
+  int new_entity(int dim, Owner parent) {
+    plan_.entities[dim].push_back({next_tag_[dim], true, parent, {}, {}, {}});
+    return next_tag_[dim]++;
+  }
+
+  /// Entities for classes of items, and their elements; `append` adds the nodes of an item.
+  template <class F>
+  void add_classes(int dim, const Classes& classes, std::span<const int> group_ids, F&& append) {
+    std::vector<int> tag(classes.key.size());
+    std::set<int> taken;
+    for (std::size_t c = 0; c < tag.size(); ++c) {
+      const int key = classes.key[c];
+      const bool own = key > 0 && (taken.insert(key).second || !split_);
+      tag[c] = own ? key : new_entity(dim, key > 0 ? Owner{dim, key} : Owner{});
+      for (const int g : classes.groups[c]) plan_.entity(dim, tag[c]).physicals.push_back(group_ids[g]);
+    }
+    // Items by entity; counting sort keeps their order.
+    std::vector<int> order(tag.size());
+    for (std::size_t c = 0; c < order.size(); ++c) order[c] = static_cast<int>(c);
+    std::ranges::stable_sort(order, {}, [&](int c) { return tag[c]; });
+    std::vector<std::size_t> start(tag.size());
+    std::size_t sum = 0;
+    for (const int c : order) {
+      start[c] = sum;
+      sum += static_cast<std::size_t>(classes.count[c]);
+    }
+    item_[dim].resize(sum);
+    for (std::size_t i = 0; i < sum; ++i) item_[dim][start[classes.of_item[i]]++] = static_cast<Index>(i);
+    PlannedElements& elements = plan_.elements[dim];
+    elements.entity.resize(sum);
+    elements.physical.resize(sum);
+    elements.nodes.reserve(sum * n_element_nodes[dim]);
+    for (std::size_t k = 0; k < sum; ++k) {
+      const int c = classes.of_item[item_[dim][k]];
+      elements.entity[k] = tag[c];
+      elements.physical[k] = classes.groups[c].empty() ? 0 : group_ids[classes.groups[c][0]];
+      append(item_[dim][k], elements.nodes);
+    }
+    groups_of_item_[dim] = classes;
+  }
+
+  template <class Group, class Members>
+  void add_group_names(int dim, const std::vector<Group>& groups, Members Group::*members) {
+    for (const Group& group : groups)
+      plan_.groups.push_back({{dim, group.id}, group.name, (group.*members).empty(), {}});
+  }
+
+  void hexes() {
+    std::vector<int> volume(mesh_.hexes.size(), 0);
+    for (Index h = 0; h < mesh_.n_hexes(); ++h) volume[h] = std::max(0, volume_of(tags_, h));
+    std::vector<std::span<const Index>> members;
+    for (const Block& block : mesh_.blocks) {
+      members.push_back(block.hexes);
+      group_ids_[3].push_back(block.id);
+    }
+    add_group_names(3, mesh_.blocks, &Block::hexes);
+    add_classes(3, classify(volume, members), group_ids_[3], [&](Index h, std::vector<Index>& nodes) {
+      for (const int c : file_corner) nodes.push_back(mesh_.hexes[h][c]);
+    });
+  }
+
+  void sides() {
+    // Sides of sets as they are; faces on surfaces as well unless a set has the same face, from either hex.
+    std::vector<Side>& items = sides_;
+    for (const SideSet& set : mesh_.side_sets) items.insert(items.end(), set.sides.begin(), set.sides.end());
+    make_set(items);
+    const auto lower = items.empty() ? std::vector<Side>{} : lower_sides(mesh_, items);
+    std::vector<std::pair<Side, std::size_t>> of_lower(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) of_lower[i] = {lower[i], i};
+    std::ranges::sort(of_lower);
+    std::vector<int> surface(items.size(), 0);
+    std::vector<std::pair<Side, int>> others;
+    for (std::size_t i = 0; i < tags_.surface_faces.size(); ++i) {
+      auto at = std::ranges::lower_bound(of_lower, std::pair(tags_.surface_faces[i], std::size_t{0}));
+      const bool in_set = at != of_lower.end() && at->first == tags_.surface_faces[i];
+      if (!in_set) others.emplace_back(tags_.surface_faces[i], tags_.face_surface[i]);
+      for (; at != of_lower.end() && at->first == tags_.surface_faces[i]; ++at)
+        surface[at->second] = tags_.face_surface[i];
+    }
+    // All together in ascending order.
+    std::vector<std::pair<Side, int>> all(std::move(others));
+    for (std::size_t i = 0; i < items.size(); ++i) all.emplace_back(items[i], surface[i]);
+    std::ranges::sort(all);
+    items.clear();
+    surface.clear();
+    for (const auto& [side, id] : all) {
+      items.push_back(side);
+      surface.push_back(id);
+    }
+    std::vector<std::vector<Index>> members;
+    for (const SideSet& set : mesh_.side_sets) {
+      auto& to = members.emplace_back();
+      for (const Side& side : set.sides)
+        to.push_back(static_cast<Index>(std::ranges::lower_bound(items, side) - items.begin()));
+      group_ids_[2].push_back(set.id);
+    }
+    add_group_names(2, mesh_.side_sets, &SideSet::sides);
+    const std::vector<std::span<const Index>> spans(members.begin(), members.end());
+    add_classes(2, classify(surface, spans), group_ids_[2], [&](Index i, std::vector<Index>& nodes) {
+      const Quad cycle = face_node_cycle(mesh_.hexes[items[i].hex], items[i].face);
+      nodes.insert(nodes.end(), cycle.begin(), cycle.end());
+    });
+  }
+
+  /// A node set that is exactly some curves, or some vertices, is a physical group of those; any other one gets a
+  /// point entity with a point element per node.
+  void node_sets_on_curves_and_vertices() {
+    std::vector<char> inside(mesh_.points.size());
+    for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s) {
+      const NodeSet& set = mesh_.node_sets[s];
+      if (set.nodes.empty()) continue;
+      std::ranges::fill(inside, 0);
+      for (const Index n : set.nodes) inside[n] = 1;
+      const bool vertices = !tags_.node_owner.empty() && std::ranges::all_of(set.nodes, [&](Index n) {
+        return tags_.node_owner[n].dim == 0;
+      });
+      if (vertices) {
+        std::set<int> ids;
+        for (const Index n : set.nodes) ids.insert(tags_.node_owner[n].id);
+        std::ptrdiff_t n_owned = 0;
+        for (const Owner owner : tags_.node_owner) n_owned += owner.dim == 0 && ids.contains(owner.id);
+        if (n_owned == std::ssize(set.nodes)) {
+          for (const int id : ids) plan_.entity(0, id).physicals.push_back(set.id);
+          place_of_set_[s] = 0;
+          continue;
+        }
+      }
+      std::map<int, bool> whole;
+      for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i) {
+        const auto [a, b] = tags_.curve_edges[i];
+        const auto at = whole.try_emplace(tags_.edge_curve[i], true).first;
+        at->second = at->second && inside[a] && inside[b];
+      }
+      std::size_t n_covered = 0;
+      for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i)
+        if (whole[tags_.edge_curve[i]])
+          for (const Index n : tags_.curve_edges[i]) n_covered += std::exchange(inside[n], 0);
+      if (n_covered != set.nodes.size()) continue;
+      for (const auto& [curve, all] : whole)
+        if (all) plan_.entity(1, curve).physicals.push_back(set.id);
+      place_of_set_[s] = 1;
+    }
+  }
+
+  void lines() {
+    Classes classes = classify(tags_.edge_curve, {});
+    add_classes(1, classes, {}, [&](Index i, std::vector<Index>& nodes) {
+      nodes.insert(nodes.end(), tags_.curve_edges[i].begin(), tags_.curve_edges[i].end());
+    });
+  }
+
+  void points() {
+    PlannedElements& elements = plan_.elements[0];
+    std::vector<std::pair<int, Index>> vertices;
+    for (std::size_t n = 0; n < tags_.node_owner.size(); ++n)
+      if (tags_.node_owner[n].dim == 0) vertices.emplace_back(tags_.node_owner[n].id, static_cast<Index>(n));
+    std::ranges::sort(vertices);
+    for (const auto& [tag, node] : vertices) {
+      elements.entity.push_back(tag);
+      elements.nodes.push_back(node);
+    }
+    for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s) {
+      const NodeSet& set = mesh_.node_sets[s];
+      const auto at = place_of_set_.find(s);
+      const int dim = at == place_of_set_.end() ? 0 : at->second;
+      plan_.groups.push_back({{dim, set.id}, set.name, set.nodes.empty(), {}});
+      if (at != place_of_set_.end() || set.nodes.empty()) continue;
+      const int tag = new_entity(0, {});
+      plan_.entity(0, tag).physicals.push_back(set.id);
+      elements.entity.insert(elements.entity.end(), set.nodes.size(), tag);
+      elements.nodes.insert(elements.nodes.end(), set.nodes.begin(), set.nodes.end());
+    }
+  }
+
+  void nodes() {
+    const bool all_owned = !tags_.node_owner.empty() &&
+                           std::ranges::all_of(tags_.node_owner, [](Owner owner) { return static_cast<bool>(owner); });
+    if (all_owned || mesh_.points.empty()) return;
+    for (const PlannedEntity& volume : plan_.entities[3])
+      if (volume.is_part && !volume.parent) plan_.nobody = volume.tag;
+    if (plan_.nobody == 0) plan_.nobody = new_entity(3, {});
+  }
+
+  /// Hexes have their own ids; everything else is counted after them.
+  void number_elements() {
+    std::int64_t next = 1;
+    for (const Index h : item_[3]) plan_.elements[3].tags.push_back(hex_id(mesh_, h));
+    if (!mesh_.hexes.empty()) next = hex_id(mesh_, mesh_.n_hexes() - 1) + 1;
+    for (int dim = 0; dim < 3; ++dim)
+      for (std::size_t i = 0; i < plan_.elements[dim].entity.size(); ++i) plan_.elements[dim].tags.push_back(next++);
+    for (int dim = 0; dim < 2; ++dim) {
+      PlannedElements& elements = plan_.elements[dim];
+      elements.physical.assign(elements.tags.size(), 0);
+      for (std::size_t k = 0; k < elements.tags.size(); ++k)
+        if (const auto& physicals = plan_.entity(dim, elements.entity[k]).physicals; !physicals.empty())
+          elements.physical[k] = physicals[0];
+    }
+  }
+
+  /// Without splitting, entities are in no group; each element names its first group, these are the rest.
+  void extra_members() {
+    if (split_) return;
+    for (PlannedGroup& group : plan_.groups) {
+      const int dim = group.group.dim;
+      const auto& ids = group_ids_[dim];
+      if (dim < 2) {
+        for (std::size_t k = 0; k < plan_.elements[dim].tags.size(); ++k) {
+          auto& physicals = plan_.entity(dim, plan_.elements[dim].entity[k]).physicals;
+          if (std::ranges::find(physicals, group.group.id) != physicals.end() && physicals[0] != group.group.id)
+            group.more.push_back(plan_.elements[dim].tags[k]);
+        }
+        continue;
+      }
+      const Classes& classes = groups_of_item_[dim];
+      const int g = static_cast<int>(std::ranges::find(ids, group.group.id) - ids.begin());
+      std::vector<char> extra(classes.key.size(), 0);
+      for (std::size_t c = 0; c < extra.size(); ++c)
+        extra[c] = !classes.groups[c].empty() && classes.groups[c][0] != g &&
+                   std::ranges::find(classes.groups[c], g) != classes.groups[c].end();
+      if (std::ranges::find(extra, 1) == extra.end()) continue;
+      for (std::size_t k = 0; k < item_[dim].size(); ++k)
+        if (extra[classes.of_item[item_[dim][k]]]) group.more.push_back(plan_.elements[dim].tags[k]);
+    }
+  }
+
+  void boxes() {
+    for (int dim = 0; dim < 4; ++dim) {
+      const auto& elements = plan_.elements[dim];
+      const auto n = static_cast<std::size_t>(n_element_nodes[dim]);
+      PlannedEntity* entity = nullptr;
+      for (std::size_t i = 0; i < elements.entity.size(); ++i) {
+        if (!entity || entity->tag != elements.entity[i]) entity = &plan_.entity(dim, elements.entity[i]);
+        for (std::size_t k = 0; k < n; ++k) entity->box.add(mesh_.points[elements.nodes[n * i + k]]);
+      }
+    }
+    for (std::size_t i = 0; i < tags_.node_owner.size(); ++i)
+      if (const Owner owner = tags_.node_owner[i]; owner && owner.dim < 3)
+        plan_.entity(owner.dim, owner.id).box.add(mesh_.points[i]);
+  }
+
+  /// Which entities bound which, as far as the elements show it; owned entities only.
+  void boundaries() {
+    const auto owned = [&](int dim, int tag) {
+      const PlannedEntity& entity = plan_.entity(dim, tag);
+      return !entity.is_part || entity.parent;
+    };
+    const auto bounds = [&](int dim, int tag, int boundary) {
+      auto& list = plan_.entity(dim, tag).boundary;
+      if (std::ranges::find(list, boundary) == list.end()) list.push_back(boundary);
+    };
+    std::vector<int> volume_of_hex(mesh_.hexes.size());
+    for (std::size_t k = 0; k < item_[3].size(); ++k) volume_of_hex[item_[3][k]] = plan_.elements[3].entity[k];
+    const auto& quads = plan_.elements[2];
+    std::vector<Quad> behind(quads.entity.size());
+    for (std::size_t k = 0; k < behind.size(); ++k)
+      for (int c = 0; c < 4; ++c) behind[k][c] = quads.nodes[4 * k + 3 - c];
+    const auto other = oriented_sides(mesh_, behind);
+    for (std::size_t k = 0; k < behind.size(); ++k) {
+      if (!owned(2, quads.entity[k])) continue;
+      const Side side = sides_[item_[2][k]];
+      const int front = volume_of_hex[side.hex], back = volume_of_hex[other[k].hex];
+      if (owned(3, front) && (front != back || other[k] == side)) bounds(3, front, quads.entity[k]);
+      if (owned(3, back) && front != back) bounds(3, back, quads.entity[k]);
+      for (int c = 0; c < 4; ++c) {
+        const auto [a, b] = std::minmax(behind[k][c], behind[k][(c + 1) % 4]);
+        const auto at = std::ranges::lower_bound(tags_.curve_edges, Edge{a, b});
+        if (at != tags_.curve_edges.end() && *at == Edge{a, b})
+          bounds(2, quads.entity[k], tags_.edge_curve[at - tags_.curve_edges.begin()]);
+      }
+    }
+    for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i)
+      for (const Index n : tags_.curve_edges[i])
+        if (const Owner vertex = owner(tags_, n); vertex.dim == 0) bounds(1, tags_.edge_curve[i], vertex.id);
+    for (auto& entities : plan_.entities)
+      for (PlannedEntity& entity : entities) make_set(entity.boundary);
+    for (PlannedEntity& curve : plan_.entities[1]) {
+      // From one vertex to another, or back to the same.
+      if (curve.boundary.size() == 1) curve.boundary.push_back(curve.boundary[0]);
+      if (curve.boundary.size() > 2) curve.boundary.clear();
+      if (curve.boundary.size() == 2) curve.boundary[1] = -curve.boundary[1];
+    }
+  }
+
+  const Mesh& mesh_;
+  const Association& tags_;
+  const bool split_;
+  GmshPlan plan_;
+  std::array<int, 4> next_tag_ = {1, 1, 1, 1};
+  std::array<std::vector<Index>, 4> item_;  // per element: hex, side, curve edge
+  std::array<std::vector<int>, 4> group_ids_;
+  std::array<Classes, 4> groups_of_item_;
+  std::vector<Side> sides_;
+  std::map<std::size_t, int> place_of_set_;  // node sets that are physical curves or vertices
+};
+
+}  // namespace
+
+PlannedEntity& GmshPlan::entity(int dim, int tag) {
+  return *std::ranges::lower_bound(entities[dim], tag, {}, &PlannedEntity::tag);
+}
+
+std::size_t GmshPlan::n_elements() const {
+  std::size_t n = 0;
+  for (const auto& of_dim : elements) n += of_dim.tags.size();
+  return n;
+}
+
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split) {
+  return Planner(mesh, association, split).result();
+}
+
+}  // namespace hextwist::io

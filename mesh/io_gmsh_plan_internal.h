@@ -1,0 +1,49 @@
+// What a Gmsh file of a mesh will hold: entities, elements and physical groups, before they are put in a format.
+#pragma once
+
+#include "hextwist/mesh/io_internal.h"
+
+namespace hextwist::io {
+
+/// An entity of the file. Gmsh puts whole entities in physical groups; where a block or set takes a part of a volume
+/// or surface only, that is written as an entity of its own, and `parent` says what it is part of. Entities that
+/// merely carry a group have the parent "nobody".
+struct PlannedEntity {
+  int tag = 0;
+  bool is_part = false;
+  Owner parent;
+  std::vector<int> physicals;
+  std::vector<int> boundary;  ///< tags of the dimension below
+  Box box;
+  bool operator<(const PlannedEntity& other) const { return tag < other.tag; }
+};
+
+/// Elements of one dimension, grouped by entity, entities ascending.
+struct PlannedElements {
+  std::vector<std::int64_t> tags;
+  std::vector<Index> nodes;  ///< Gmsh's corner order
+  std::vector<int> entity;
+  std::vector<int> physical;  ///< first group of each, 0 none
+};
+
+struct PlannedGroup {
+  Owner group;  ///< dimension and id
+  std::string name;
+  bool empty = false;
+  std::vector<std::int64_t> more;  ///< versions before 4: members whose own physical tag is another group
+};
+
+struct GmshPlan {
+  std::array<std::vector<PlannedEntity>, 4> entities;
+  std::array<PlannedElements, 4> elements;
+  std::vector<PlannedGroup> groups;
+  int nobody = 0;  ///< volume entity for nodes without owner, 0 when there are none
+
+  PlannedEntity& entity(int dim, int tag);
+  std::size_t n_elements() const;
+};
+
+/// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split);
+
+}  // namespace hextwist::io

@@ -1,0 +1,114 @@
+#include <limits>
+
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/io_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+/// Items with their nodes ascending, listed by lowest node: hexes then find theirs without a map.
+template <std::size_t n>
+struct ByLowestNode {
+  std::vector<std::array<Index, n>> sorted;
+  Lists of_node;
+
+  ByLowestNode(std::span<const std::array<Index, n>> items, Index n_nodes) : sorted(items.begin(), items.end()) {
+    of_node.first.assign(static_cast<std::size_t>(n_nodes) + 2, 0);
+    for (auto& nodes : sorted) {
+      std::ranges::sort(nodes);
+      ++of_node.first[nodes[0] + 2];
+    }
+    for (std::size_t i = 2; i < of_node.first.size(); ++i) of_node.first[i] += of_node.first[i - 1];
+    of_node.items.resize(items.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+      of_node.items[of_node.first[sorted[i][0] + 1]++] = static_cast<Index>(i);
+    of_node.first.pop_back();
+  }
+
+  /// Calls f(item) for every item with these nodes.
+  template <class F>
+  void find(std::array<Index, n> nodes, F&& f) const {
+    const Index lowest = std::ranges::min(nodes);
+    const auto candidates = of_node[lowest];
+    if (candidates.empty()) return;
+    std::ranges::sort(nodes);
+    for (const Index i : candidates)
+      if (sorted[i] == nodes) f(i);
+  }
+};
+
+bool turns_the_same_way(const Quad& a, const Quad& b) {
+  const auto at = std::ranges::find(b, a[0]) - b.begin();
+  return a[1] == b[(at + 1) % 4];
+}
+
+}  // namespace
+
+std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles) {
+  const ByLowestNode<4> quads(cycles, mesh.n_nodes());
+  // Best candidate per quad: 6 * hex + face, plus a lot where the cycle turns inwards; the lowest wins.
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t against = std::int64_t{1} << 60;
+  std::vector<std::int64_t> best(cycles.size(), none);
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (int f = 0; f < n_hex_faces; ++f) {
+        const Quad outward = face_node_cycle(mesh.hexes[h], f);
+        quads.find(outward, [&](Index q) {
+          const auto candidate = std::int64_t{6} * h + f;
+          atomic_min(best[q], turns_the_same_way(cycles[q], outward) ? candidate : candidate + against);
+        });
+      }
+  });
+  std::vector<Side> sides(cycles.size());
+  for (std::size_t q = 0; q < cycles.size(); ++q)
+    if (best[q] != none) {
+      const std::int64_t side = best[q] & (against - 1);
+      sides[q] = {static_cast<Index>(side / 6), static_cast<std::int32_t>(side % 6)};
+    }
+  return sides;
+}
+
+std::vector<Side> lower_sides(const Mesh& mesh, std::span<const Side> sides) {
+  std::vector<Quad> quads(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) quads[i] = face_nodes(mesh.hexes[sides[i].hex], sides[i].face);
+  return find_sides(mesh, quads);
+}
+
+std::vector<char> are_edges(const Mesh& mesh, std::span<const Edge> pairs) {
+  const ByLowestNode<2> edges(pairs, mesh.n_nodes());
+  std::vector<char> found(pairs.size(), 0);
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (int e = 0; e < n_hex_edges; ++e)
+        edges.find({mesh.hexes[h][edge_corner(e, 0)], mesh.hexes[h][edge_corner(e, 1)]},
+                   [&](Index i) { std::atomic_ref<char>(found[i]).store(1, std::memory_order_relaxed); });
+  });
+  return found;
+}
+
+void tidy(Association& tags) {
+  const auto by = [](auto& items, auto& ids) {
+    std::vector<std::size_t> order(items.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(items[i], ids[i]); });
+    auto old_items = items;
+    auto old_ids = ids;
+    items.clear();
+    ids.clear();
+    for (const std::size_t i : order) {
+      if (!items.empty() && items.back() == old_items[i]) continue;
+      items.push_back(old_items[i]);
+      ids.push_back(old_ids[i]);
+    }
+  };
+  by(tags.curve_edges, tags.edge_curve);
+  by(tags.surface_faces, tags.face_surface);
+  const bool silent = tags.curve_edges.empty() && tags.surface_faces.empty() &&
+                      std::ranges::none_of(tags.node_owner, [](Owner owner) { return static_cast<bool>(owner); }) &&
+                      std::ranges::none_of(tags.hex_volume, [](int volume) { return volume != 0; });
+  if (silent) tags = {};
+}
+
+}  // namespace hextwist::io

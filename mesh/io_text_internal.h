@@ -1,0 +1,100 @@
+// A place in a file that is being read: words, lines and numbers in text, raw values in binary parts. Every error
+// names the file and the line (or the byte, in binary files).
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "hextwist/mesh/io_file_internal.h"
+
+namespace hextwist::io {
+
+class Cursor {
+ public:
+  explicit Cursor(const Bytes& bytes)
+      : at(bytes.data.get()), begin(at), end(at + bytes.size), name(bytes.name) {}
+
+  const char* at;
+  const char* begin;
+  const char* end;
+  std::string_view name;  ///< of the file
+  bool binary = false;    ///< errors name the byte instead of the line
+  bool swapped = false;   ///< binary values have the other byte order
+
+  /// Blanks: everything up to and including the space character. Comma ends a number, too.
+  static bool blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
+  void skip_blanks() {
+    while (at < end && blank(*at)) ++at;
+  }
+  void skip_text_blanks() {
+    if (!binary) skip_blanks();
+  }
+  /// Something other than blanks is left.
+  bool more() {
+    skip_blanks();
+    return at < end;
+  }
+  std::size_t left() const { return static_cast<std::size_t>(end - at); }
+
+  /// Next run of non-blanks, empty at the end.
+  std::string_view word();
+  /// Rest of this line without its end; continues at the next line.
+  std::string_view line();
+
+  /// Numbers, after blanks. `what` names them in messages. Throw at anything else.
+  std::int64_t integer(std::string_view what) {
+    skip_blanks();
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || !ends_number(stop)) return odd_integer(what);
+    at = stop;
+    return value;
+  }
+  /// Within the range of int.
+  int small(std::string_view what);
+  double real(std::string_view what) {
+    skip_blanks();
+    double value = 0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || !ends_number(stop)) return odd_real(what);
+    at = stop;
+    return value;
+  }
+  /// One value of a binary part.
+  template <class T>
+  T raw(std::string_view what) {
+    if (left() < sizeof(T)) fail_truncated(what);
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at, sizeof(T));
+    at += sizeof(T);
+    if (swapped)
+      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    return std::bit_cast<T>(bytes);
+  }
+
+  /// Checks a number of items against what is left of the file, each taking at least `bytes`, so that a broken count
+  /// ends in a message and not in a huge allocation; also that it fits an Index.
+  std::size_t check_count(std::int64_t n, std::size_t bytes, std::string_view what) const;
+
+  [[noreturn]] void fail(const std::string& what) const { fail_at(at, what); }
+  [[noreturn]] void fail_at(const char* place, const std::string& what) const;
+  [[noreturn]] void fail_truncated(std::string_view what) const;
+
+ private:
+  bool ends_number(const char* stop) const { return stop == end || blank(*stop) || *stop == ','; }
+  std::int64_t odd_integer(std::string_view what);
+  double odd_real(std::string_view what);
+};
+
+/// Case ignored, ASCII.
+bool same_word(std::string_view a, std::string_view b);
+std::string lower_case(std::string_view text);
+std::string_view trimmed(std::string_view text);
+/// What may stand in a message: cut to a few characters, control characters replaced.
+std::string quoted(std::string_view text);
+
+}  // namespace hextwist::io
