@@ -30,10 +30,10 @@ struct MeshFile {
 MeshFile read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
-  bool binary = true;             ///< where the format has both
-  int gmsh_version = 41;          ///< 22 or 41
-  bool overwrite = true;          ///< false: throw Error if the file exists
-  bool write_quality = true;      ///< .vtu: shape and scaled Jacobian as cell data
+  bool binary = true;         ///< where the format has both
+  int gmsh_version = 41;      ///< 22 or 41
+  bool overwrite = true;      ///< false: throw Error if the file exists
+  bool write_quality = true;  ///< .vtu: shape and scaled Jacobian as cell data
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole

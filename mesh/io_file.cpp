@@ -12,7 +12,9 @@
 namespace hextwist::io {
 namespace {
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
 
 }  // namespace
 
@@ -83,7 +85,9 @@ void Replacement::commit() {
   committed_ = true;
 }
 
-void Replacement::fail(const std::string& what) const { throw Error(name_ + ": " + what); }
+void Replacement::fail(const std::string& what) const {
+  throw Error(name_ + ": " + what);
+}
 
 Output::Output(const std::filesystem::path& file, bool overwrite)
     : file_(file, overwrite), buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {

@@ -1,7 +1,8 @@
 // What a Gmsh file says becomes a mesh: hexes, blocks, side sets, node sets, owners, fields.
 //
 // Physical groups of dimension 3 are blocks, of dimension 2 side sets, of dimension 1 and 0 node sets (those of
-// dimension 1 whose id is taken get the next free one).
+// dimension 1 whose id is taken get the next free one). Tags of quads, lines and points are not kept, so they may
+// repeat (deal.II gives all lines the same).
 #include <limits>
 #include <map>
 
@@ -197,21 +198,20 @@ class Assembly {
   }
 
   void blocks() {
-    for (auto& [id, hexes] : members<Index>(
-             3, [&](std::size_t i, std::vector<Index>& group) { group.push_back(hex_of_element_[i]); }))
+    for (auto& [id, hexes] :
+         members<Index>(3, [&](std::size_t i, std::vector<Index>&group) { group.push_back(hex_of_element_[i]); }))
       file_.mesh.blocks.push_back({id, group_name(3, id), std::move(hexes)});
   }
 
   void quads() {
     const GmshElements& elements = in_.elements[2];
-    Ids(elements.tags, "element", cursor_, elements.runs);  // refuses repeated tags
     std::vector<Quad> cycles(elements.tags.size());
     for (std::size_t i = 0; i < cycles.size(); ++i)
       for (int k = 0; k < 4; ++k) cycles[i][k] = elements.nodes[4 * i + k];
     const auto sides = oriented_sides(file_.mesh, cycles);
     const auto lost = std::ranges::count(sides, -1, &Side::hex);
     if (lost) notice("dropped " + std::to_string(lost) + " quads that are no side of a hex");
-    for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>& group) {
+    for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>&group) {
            if (sides[i].hex >= 0) group.push_back(sides[i]);
          }))
       file_.mesh.side_sets.push_back({id, group_name(2, id), std::move(set)});
@@ -228,16 +228,13 @@ class Assembly {
 
   void lines_and_points() {
     const GmshElements& lines = in_.elements[1];
-    const GmshElements& points = in_.elements[0];
-    Ids(lines.tags, "element", cursor_, lines.runs);
-    Ids(points.tags, "element", cursor_, points.runs);
     std::vector<Edge> owned;
     std::vector<int> curves;
     for (std::size_t i = 0; i < lines.tags.size(); ++i) {
       const Owner owner = in_.owner({1, lines.entity[i]});
       if (owner.dim != 1) continue;
-      owned.push_back({std::min(lines.nodes[2 * i], lines.nodes[2 * i + 1]),
-                       std::max(lines.nodes[2 * i], lines.nodes[2 * i + 1])});
+      owned.push_back(
+          {std::min(lines.nodes[2 * i], lines.nodes[2 * i + 1]), std::max(lines.nodes[2 * i], lines.nodes[2 * i + 1])});
       curves.push_back(owner.id);
     }
     const auto good = are_edges(file_.mesh, owned);
@@ -253,7 +250,7 @@ class Assembly {
 
     auto& sets = file_.mesh.node_sets;
     for (const int dim : {0, 1})
-      for (auto& [id, nodes] : members<Index>(dim, [&](std::size_t i, std::vector<Index>& group) {
+      for (auto& [id, nodes] : members<Index>(dim, [&](std::size_t i, std::vector<Index>&group) {
              for (int k = 0; k <= dim; ++k) group.push_back(in_.elements[dim].nodes[(dim + 1) * i + k]);
            })) {
         const bool taken = std::ranges::find(sets, id, &NodeSet::id) != sets.end();

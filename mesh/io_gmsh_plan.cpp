@@ -21,7 +21,7 @@ class Planner {
     reserve_owned_entities();
     hexes();
     sides();
-    node_sets_on_curves_and_vertices();
+    node_sets_on_curves();
     lines();
     points();
     nodes();
@@ -159,29 +159,15 @@ class Planner {
     });
   }
 
-  /// A node set that is exactly some curves, or some vertices, is a physical group of those; any other one gets a
-  /// point entity with a point element per node.
-  void node_sets_on_curves_and_vertices() {
+  /// A node set that is exactly the nodes of some curves is a physical group of those.
+  void node_sets_on_curves() {
+    is_on_curves_.assign(mesh_.node_sets.size(), 0);
     std::vector<char> inside(mesh_.points.size());
-    for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s) {
+    for (std::size_t s = 0; s < mesh_.node_sets.size() && !tags_.curve_edges.empty(); ++s) {
       const NodeSet& set = mesh_.node_sets[s];
       if (set.nodes.empty()) continue;
       std::ranges::fill(inside, 0);
       for (const Index n : set.nodes) inside[n] = 1;
-      const bool vertices = !tags_.node_owner.empty() && std::ranges::all_of(set.nodes, [&](Index n) {
-        return tags_.node_owner[n].dim == 0;
-      });
-      if (vertices) {
-        std::set<int> ids;
-        for (const Index n : set.nodes) ids.insert(tags_.node_owner[n].id);
-        std::ptrdiff_t n_owned = 0;
-        for (const Owner owner : tags_.node_owner) n_owned += owner.dim == 0 && ids.contains(owner.id);
-        if (n_owned == std::ssize(set.nodes)) {
-          for (const int id : ids) plan_.entity(0, id).physicals.push_back(set.id);
-          place_of_set_[s] = 0;
-          continue;
-        }
-      }
       std::map<int, bool> whole;
       for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i) {
         const auto [a, b] = tags_.curve_edges[i];
@@ -195,7 +181,7 @@ class Planner {
       if (n_covered != set.nodes.size()) continue;
       for (const auto& [curve, all] : whole)
         if (all) plan_.entity(1, curve).physicals.push_back(set.id);
-      place_of_set_[s] = 1;
+      is_on_curves_[s] = 1;
     }
   }
 
@@ -206,27 +192,34 @@ class Planner {
     });
   }
 
+  /// Points: nodes on vertices, and the nodes of all other node sets.
   void points() {
-    PlannedElements& elements = plan_.elements[0];
-    std::vector<std::pair<int, Index>> vertices;
+    std::vector<std::pair<Index, int>> all;
     for (std::size_t n = 0; n < tags_.node_owner.size(); ++n)
-      if (tags_.node_owner[n].dim == 0) vertices.emplace_back(tags_.node_owner[n].id, static_cast<Index>(n));
-    std::ranges::sort(vertices);
-    for (const auto& [tag, node] : vertices) {
-      elements.entity.push_back(tag);
-      elements.nodes.push_back(node);
+      if (tags_.node_owner[n].dim == 0) all.emplace_back(static_cast<Index>(n), tags_.node_owner[n].id);
+    for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s)
+      for (const Index n : mesh_.node_sets[s].nodes)
+        if (!is_on_curves_[s]) all.emplace_back(n, owner(tags_, n).dim == 0 ? owner(tags_, n).id : 0);
+    make_set(all);
+    std::vector<int> vertex;
+    std::vector<Index> items;
+    for (const auto& [n, id] : all) {
+      items.push_back(n);
+      vertex.push_back(id);
     }
+    std::vector<std::vector<Index>> members;
     for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s) {
       const NodeSet& set = mesh_.node_sets[s];
-      const auto at = place_of_set_.find(s);
-      const int dim = at == place_of_set_.end() ? 0 : at->second;
-      plan_.groups.push_back({{dim, set.id}, set.name, set.nodes.empty(), {}});
-      if (at != place_of_set_.end() || set.nodes.empty()) continue;
-      const int tag = new_entity(0, {});
-      plan_.entity(0, tag).physicals.push_back(set.id);
-      elements.entity.insert(elements.entity.end(), set.nodes.size(), tag);
-      elements.nodes.insert(elements.nodes.end(), set.nodes.begin(), set.nodes.end());
+      plan_.groups.push_back({{is_on_curves_[s], set.id}, set.name, set.nodes.empty(), {}});
+      if (is_on_curves_[s]) continue;
+      auto& to = members.emplace_back();
+      for (const Index n : set.nodes)
+        to.push_back(static_cast<Index>(std::ranges::lower_bound(items, n) - items.begin()));
+      group_ids_[0].push_back(set.id);
     }
+    const std::vector<std::span<const Index>> spans(members.begin(), members.end());
+    add_classes(0, classify(vertex, spans), group_ids_[0],
+                [&](Index i, std::vector<Index>& nodes) { nodes.push_back(items[i]); });
   }
 
   void nodes() {
@@ -245,13 +238,10 @@ class Planner {
     if (!mesh_.hexes.empty()) next = hex_id(mesh_, mesh_.n_hexes() - 1) + 1;
     for (int dim = 0; dim < 3; ++dim)
       for (std::size_t i = 0; i < plan_.elements[dim].entity.size(); ++i) plan_.elements[dim].tags.push_back(next++);
-    for (int dim = 0; dim < 2; ++dim) {
-      PlannedElements& elements = plan_.elements[dim];
-      elements.physical.assign(elements.tags.size(), 0);
-      for (std::size_t k = 0; k < elements.tags.size(); ++k)
-        if (const auto& physicals = plan_.entity(dim, elements.entity[k]).physicals; !physicals.empty())
-          elements.physical[k] = physicals[0];
-    }
+    PlannedElements& lines = plan_.elements[1];
+    for (std::size_t k = 0; k < lines.tags.size(); ++k)
+      if (const auto& physicals = plan_.entity(1, lines.entity[k]).physicals; !physicals.empty())
+        lines.physical[k] = physicals[0];
   }
 
   /// Without splitting, entities are in no group; each element names its first group, these are the rest.
@@ -260,11 +250,12 @@ class Planner {
     for (PlannedGroup& group : plan_.groups) {
       const int dim = group.group.dim;
       const auto& ids = group_ids_[dim];
-      if (dim < 2) {
-        for (std::size_t k = 0; k < plan_.elements[dim].tags.size(); ++k) {
-          auto& physicals = plan_.entity(dim, plan_.elements[dim].entity[k]).physicals;
+      if (dim == 1) {
+        const PlannedElements& lines = plan_.elements[1];
+        for (std::size_t k = 0; k < lines.tags.size(); ++k) {
+          const auto& physicals = plan_.entity(1, lines.entity[k]).physicals;
           if (std::ranges::find(physicals, group.group.id) != physicals.end() && physicals[0] != group.group.id)
-            group.more.push_back(plan_.elements[dim].tags[k]);
+            group.more.push_back(lines.tags[k]);
         }
         continue;
       }
@@ -347,7 +338,7 @@ class Planner {
   std::array<std::vector<int>, 4> group_ids_;
   std::array<Classes, 4> groups_of_item_;
   std::vector<Side> sides_;
-  std::map<std::size_t, int> place_of_set_;  // node sets that are physical curves or vertices
+  std::vector<char> is_on_curves_;  // per node set: is it a physical group of curves?
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ void read_format(GmshContents& contents, Cursor& cursor) {
   else if (version == "2" || version == "2.0" || version == "2.1" || version == "2.2")
     contents.version = 22;
   else
-    cursor.fail_at(start, "version " + quoted(version) + " of Gmsh's format is not known here, 1, 2.2 and 4.1 are");
+    cursor.fail_at(start, "version " + shown(version) + " of Gmsh's format is not known here, 1, 2.2 and 4.1 are");
   if (type != 0 && type != 1) cursor.fail_at(start, "file type " + std::to_string(type) + " is neither 0 nor 1");
   if (type == 1 && size != 8) cursor.fail_at(start, "data size " + std::to_string(size) + " instead of 8");
   if (type == 0) return;
@@ -79,14 +79,37 @@ bool read_section(GmshContents& contents, Cursor& cursor, std::string_view name)
 
 const GmshType* gmsh_type(int type) {
   static constexpr std::array<GmshType, 32> types = {{
-      {-1, 0, ""},           {1, 2, "line"},         {2, 3, "triangle"},     {2, 4, "quad"},
-      {3, 4, "tetrahedron"}, {3, 8, "hex"},          {3, 6, "wedge"},        {3, 5, "pyramid"},
-      {1, 3, "3-node line"}, {2, 6, "6-node triangle"}, {2, 9, "9-node quad"}, {3, 10, "10-node tetrahedron"},
-      {3, 27, "27-node hex"}, {3, 18, "18-node wedge"}, {3, 14, "14-node pyramid"}, {0, 1, "point"},
-      {2, 8, "8-node quad"}, {3, 20, "20-node hex"}, {3, 15, "15-node wedge"}, {3, 13, "13-node pyramid"},
-      {2, 9, "9-node triangle"}, {2, 10, "10-node triangle"}, {2, 12, "12-node triangle"}, {2, 15, "15-node triangle"},
-      {2, 15, "15-node triangle"}, {2, 21, "21-node triangle"}, {1, 4, "4-node line"}, {1, 5, "5-node line"},
-      {1, 6, "6-node line"}, {3, 20, "20-node tetrahedron"}, {3, 35, "35-node tetrahedron"},
+      {-1, 0, ""},
+      {1, 2, "line"},
+      {2, 3, "triangle"},
+      {2, 4, "quad"},
+      {3, 4, "tetrahedron"},
+      {3, 8, "hex"},
+      {3, 6, "wedge"},
+      {3, 5, "pyramid"},
+      {1, 3, "3-node line"},
+      {2, 6, "6-node triangle"},
+      {2, 9, "9-node quad"},
+      {3, 10, "10-node tetrahedron"},
+      {3, 27, "27-node hex"},
+      {3, 18, "18-node wedge"},
+      {3, 14, "14-node pyramid"},
+      {0, 1, "point"},
+      {2, 8, "8-node quad"},
+      {3, 20, "20-node hex"},
+      {3, 15, "15-node wedge"},
+      {3, 13, "13-node pyramid"},
+      {2, 9, "9-node triangle"},
+      {2, 10, "10-node triangle"},
+      {2, 12, "12-node triangle"},
+      {2, 15, "15-node triangle"},
+      {2, 15, "15-node triangle"},
+      {2, 21, "21-node triangle"},
+      {1, 4, "4-node line"},
+      {1, 5, "5-node line"},
+      {1, 6, "6-node line"},
+      {3, 20, "20-node tetrahedron"},
+      {3, 35, "35-node tetrahedron"},
       {3, 56, "56-node tetrahedron"},
   }};
   return type >= 1 && type < static_cast<int>(types.size()) ? &types[type] : nullptr;
@@ -112,8 +135,8 @@ void read_gmsh_nodes(GmshContents& contents, GmshSource& source, int dim, std::i
     const std::int64_t id = contents.version == 41 ? source.large("a node") : source.integer("a node");
     const Index node = contents.nodes.find(id);
     if (node < 0)
-      source.cursor.fail_at(at, "element " + std::to_string(tag) + " names node " + std::to_string(id) +
-                                    ", which is not there");
+      source.cursor.fail_at(
+          at, "element " + std::to_string(tag) + " names node " + std::to_string(id) + ", which is not there");
     nodes.push_back(node);
   }
 }
@@ -144,7 +167,7 @@ void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on) {
   data.step = integers[0];
   data.field.components = integers[1];
   if (integers[1] < 1 || integers[1] > 1000)
-    cursor.fail("field " + quoted(data.field.name) + " has " + std::to_string(integers[1]) + " components");
+    cursor.fail("field " + shown(data.field.name) + " has " + std::to_string(integers[1]) + " components");
   const auto n = cursor.check_count(integers[2], 4, "values");
   if (cursor.binary) cursor.check_count(integers[2], 4 + 8 * static_cast<std::size_t>(integers[1]), "values");
   for (std::size_t i = 0; i < n; ++i) {
@@ -180,7 +203,7 @@ MeshFile read_gmsh(const Bytes& bytes) {
     const char* start = cursor.at;
     if (*start != '$') {
       if (contents.version == 0) cursor.fail("not a Gmsh file: it does not begin with $MeshFormat");
-      cursor.fail("expected a section ($...), found " + quoted(cursor.word()));
+      cursor.fail("expected a section ($...), found " + shown(cursor.word()));
     }
     const std::string_view name = trimmed(cursor.line()).substr(1);
     if (name == "MeshFormat") {
@@ -194,8 +217,7 @@ MeshFile read_gmsh(const Bytes& bytes) {
       } else {
         const bool is_nodes = name == "Nodes" || name == "NOD" || name == "ParametricNodes";
         const bool is_elements = name == "Elements" || name == "ELM";
-        if ((is_nodes && nodes) || (is_elements && elements))
-          cursor.fail_at(start, "a second $" + std::string(name));
+        if ((is_nodes && nodes) || (is_elements && elements)) cursor.fail_at(start, "a second $" + std::string(name));
         if (is_elements && !nodes) cursor.fail_at(start, "elements before nodes");
         if (!read_section(contents, cursor, name)) skip_section(cursor, name, start);
         nodes = nodes || is_nodes;
@@ -207,8 +229,8 @@ MeshFile read_gmsh(const Bytes& bytes) {
     const std::string_view last = cursor.word();
     const std::string expected = (contents.version == 1 ? "$END" : "$End") + std::string(name);
     if (last != expected)
-      cursor.fail_at(at, last.empty() ? "the file ends before " + expected
-                                      : "expected " + expected + ", found " + quoted(last));
+      cursor.fail_at(
+          at, last.empty() ? "the file ends before " + expected : "expected " + expected + ", found " + shown(last));
   }
   if (!nodes || !elements)
     cursor.fail_at(cursor.end, std::string("the file ends without ") + (nodes ? "elements" : "nodes"));

@@ -26,7 +26,9 @@ void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametr
 
 namespace {
 
-void begin_run(GmshElements& elements, const char* at) { elements.runs.push_back({elements.tags.size(), at}); }
+void begin_run(GmshElements& elements, const char* at) {
+  elements.runs.push_back({elements.tags.size(), at});
+}
 
 /// Tag, entity, physical group and nodes of an element of the versions 1 and 2.
 void add_element(GmshContents& contents, GmshSource& source, int dim, int tag, int physical, int entity,

@@ -41,7 +41,7 @@ std::int64_t Cursor::odd_integer(std::string_view what) {
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || stop != digits.data() + digits.size())
-    fail_at(from, "expected " + std::string(what) + ", found " + quoted(text));
+    fail_at(from, "expected " + std::string(what) + ", found " + shown(text));
   at = stop;
   return value;
 }
@@ -69,7 +69,7 @@ double Cursor::odd_real(std::string_view what) {
     }
   }
   if (!stop || stop != number.data() + number.size())
-    fail_at(from, "expected " + std::string(what) + ", found " + quoted(text));
+    fail_at(from, "expected " + std::string(what) + ", found " + shown(text));
   return value;
 }
 
@@ -115,7 +115,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string shown(std::string_view text) {
   std::string result = "'";
   for (const char c : text.substr(0, 30)) result += static_cast<unsigned char>(c) < ' ' || c == 127 ? '?' : c;
   return result + (text.size() > 30 ? "...'" : "'");

@@ -15,8 +15,7 @@ namespace hextwist::io {
 
 class Cursor {
  public:
-  explicit Cursor(const Bytes& bytes)
-      : at(bytes.data.get()), begin(at), end(at + bytes.size), name(bytes.name) {}
+  explicit Cursor(const Bytes& bytes) : at(bytes.data.get()), begin(at), end(at + bytes.size), name(bytes.name) {}
 
   const char* at;
   const char* begin;
@@ -95,6 +94,6 @@ bool same_word(std::string_view a, std::string_view b);
 std::string lower_case(std::string_view text);
 std::string_view trimmed(std::string_view text);
 /// What may stand in a message: cut to a few characters, control characters replaced.
-std::string quoted(std::string_view text);
+std::string shown(std::string_view text);
 
 }  // namespace hextwist::io

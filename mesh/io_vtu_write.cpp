@@ -23,11 +23,20 @@ constexpr const char* vtk_type() {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
   return result;
 }
@@ -80,8 +89,9 @@ class Arrays {
 /// Field data: a list of rows of integers.
 void add_rows(Arrays& arrays, const std::string& name, std::vector<std::int32_t> rows, int columns) {
   const std::size_t n = rows.size() / static_cast<std::size_t>(columns);
-  arrays.add<std::int32_t>("hextwist:" + name, n, columns, [rows = std::move(rows)](std::size_t i) { return rows[i]; },
-                           " NumberOfTuples=\"" + std::to_string(n) + "\"");
+  arrays.add<std::int32_t>(
+      "hextwist:" + name, n, columns, [rows = std::move(rows)](std::size_t i) { return rows[i]; },
+      " NumberOfTuples=\"" + std::to_string(n) + "\"");
 }
 
 }  // namespace
@@ -95,18 +105,18 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
     return std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == on; });
   };
   const auto node_ids = made("node_id", Field::On::node);
-  const auto owners = !association.node_owner.empty() && made("owner_dim", Field::On::node) &&
-                      made("owner_id", Field::On::node);
+  const auto owners =
+      !association.node_owner.empty() && made("owner_dim", Field::On::node) && made("owner_id", Field::On::node);
   const auto hex_ids = made("hex_id", Field::On::hex);
   const auto volumes = !association.hex_volume.empty() && made("volume", Field::On::hex);
   const auto block_ids = !mesh.blocks.empty() && made("block", Field::On::hex);
   const auto shape = options.write_quality && made("shape", Field::On::hex);
   const auto jacobian = options.write_quality && made("scaled_jacobian", Field::On::hex);
   std::string names;
-  for (const auto& [name, there] : {std::pair("node_id", node_ids), std::pair("owner_dim", owners),
-                                    std::pair("owner_id", owners), std::pair("hex_id", hex_ids),
-                                    std::pair("volume", volumes), std::pair("block", block_ids),
-                                    std::pair("shape", shape), std::pair("scaled_jacobian", jacobian)})
+  for (const auto& [name, there] :
+       {std::pair("node_id", node_ids), std::pair("owner_dim", owners), std::pair("owner_id", owners),
+        std::pair("hex_id", hex_ids), std::pair("volume", volumes), std::pair("block", block_ids),
+        std::pair("shape", shape), std::pair("scaled_jacobian", jacobian)})
     if (there) names += std::string(" ") + name;
 
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
@@ -128,13 +138,15 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   if (!rows.empty()) add_rows(arrays, "curve_edges", std::move(rows), 3);
   rows.clear();
   for (std::size_t i = 0; i < association.surface_faces.size(); ++i)
-    rows.insert(rows.end(), {association.surface_faces[i].hex, association.surface_faces[i].face,
-                             association.face_surface[i]});
+    rows.insert(rows.end(),
+                {association.surface_faces[i].hex, association.surface_faces[i].face, association.face_surface[i]});
   if (!rows.empty()) add_rows(arrays, "surface_faces", std::move(rows), 3);
 
-  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_hexes << "\">\n<PointData>\n";
+  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_hexes
+      << "\">\n<PointData>\n";
   if (node_ids)
-    arrays.add<std::int64_t>("node_id", n_nodes, 1, [&](std::size_t i) { return node_id(mesh, static_cast<Index>(i)); });
+    arrays.add<std::int64_t>("node_id", n_nodes, 1,
+                             [&](std::size_t i) { return node_id(mesh, static_cast<Index>(i)); });
   if (owners) {
     arrays.add<std::int32_t>("owner_dim", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].dim; });
     arrays.add<std::int32_t>("owner_id", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].id; });
@@ -148,8 +160,7 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   out << "</PointData>\n<CellData>\n";
   if (hex_ids)
     arrays.add<std::int64_t>("hex_id", n_hexes, 1, [&](std::size_t i) { return hex_id(mesh, static_cast<Index>(i)); });
-  if (volumes)
-    arrays.add<std::int32_t>("volume", n_hexes, 1, [&](std::size_t i) { return association.hex_volume[i]; });
+  if (volumes) arrays.add<std::int32_t>("volume", n_hexes, 1, [&](std::size_t i) { return association.hex_volume[i]; });
   std::vector<std::int32_t> block_of_hex(block_ids ? n_hexes : 0, 0);
   if (block_ids) {
     for (const Block& block : mesh.blocks)
@@ -170,7 +181,7 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   out << "</CellData>\n<Points>\n";
   arrays.add<double>("Points", n_nodes, 3, [&](std::size_t i) { return mesh.points[i / 3][static_cast<int>(i % 3)]; });
   out << "</Points>\n<Cells>\n";
-  arrays.add<std::int32_t>("connectivity", n_hexes, 8,
+  arrays.add<std::int32_t>("connectivity", 8 * n_hexes, 1,
                            [&](std::size_t i) { return mesh.hexes[i >> 3][file_corner[i & 7]]; });
   arrays.add<std::int64_t>("offsets", n_hexes, 1, [](std::size_t i) { return 8 * (static_cast<std::int64_t>(i) + 1); });
   arrays.add<std::uint8_t>("types", n_hexes, 1, [](std::size_t) { return 12; });
