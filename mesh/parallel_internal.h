@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <vector>
 
 #include "hextwist/mesh/mesh.h"
 
@@ -35,6 +36,20 @@ void parallel_chunks(Index n, Index size, F&& f) {
           f(chunk, chunk * size, std::min(n - chunk * size, size) + chunk * size);
       },
       1);
+}
+
+/// The i in 0..n for which wanted(i), ascending.
+template <class Wanted>
+std::vector<Index> where(Index n, Wanted&& wanted) {
+  constexpr Index size = 4096;
+  std::vector<std::vector<Index>> of_chunk(n_chunks(n, size));
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      if (wanted(i)) of_chunk[chunk].push_back(i);
+  });
+  std::vector<Index> found;
+  for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
+  return found;
 }
 
 /// Lowers target to value if that is less; order of callers does not matter.

@@ -104,23 +104,28 @@ constexpr auto same_face = [](const FaceUse& a, const FaceUse& b) { return a.key
 
 }  // namespace
 
-Lists node_corners(const Mesh& mesh) {
+void check_nodes(const Mesh& mesh) {
   if (mesh.hexes.size() > max_hexes)
     throw Error("a mesh of " + std::to_string(mesh.hexes.size()) + " hexes: more than " + std::to_string(max_hexes) +
                 " cannot be numbered");
-  Lists corners;
-  corners.first.assign(mesh.points.size() + 1, 0);
   Index bad = mesh.n_hexes();
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     for (Index h = begin; h < end; ++h)
-      for (const Index node : mesh.hexes[h])
-        if (node >= 0 && node < mesh.n_nodes())
-          fetch_add(corners.first[node], 1);
-        else
-          atomic_min(bad, h);
+      if (!std::ranges::all_of(mesh.hexes[h], [&](Index node) { return node >= 0 && node < mesh.n_nodes(); }))
+        atomic_min(bad, h);
   });
   if (bad < mesh.n_hexes())
     throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
+}
+
+Lists node_corners(const Mesh& mesh) {
+  check_nodes(mesh);
+  Lists corners;
+  corners.first.assign(mesh.points.size() + 1, 0);
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    for (Index h = begin; h < end; ++h)
+      for (const Index node : mesh.hexes[h]) fetch_add(corners.first[node], 1);
+  });
   counts_to_ends(corners.first);
   corners.items.resize(8 * mesh.hexes.size());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
@@ -166,7 +171,10 @@ Edges edges(const Mesh& mesh) {
 }
 
 LooseFaces loose_faces(const Mesh& mesh) {
-  const Lists corners = node_corners(mesh);
+  return loose_faces(mesh, node_corners(mesh));
+}
+
+LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
   LooseFaces result;
   Faces& faces = result.faces;
   faces.first_of_node.assign(mesh.points.size() + 1, 0);

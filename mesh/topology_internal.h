@@ -8,8 +8,11 @@
 
 namespace hextwist {
 
-/// Per node: 8 * hex + corner of every place where a hex names it, ascending.
-/// Throws Error when a hex names a node that does not exist, or when there are too many hexes to count in an Index.
+/// Throws Error naming the first hex that names a node that does not exist, or when there are too many hexes to count
+/// in an Index.
+void check_nodes(const Mesh& mesh);
+
+/// Per node: 8 * hex + corner of every place where a hex names it, ascending. Throws as check_nodes().
 Lists node_corners(const Mesh& mesh);
 
 /// Faces of a mesh that may have faces with more than two hexes: those stand in `more`, ascending by (face, side).
@@ -18,5 +21,6 @@ struct LooseFaces {
   std::vector<std::pair<Index, Side>> more;
 };
 LooseFaces loose_faces(const Mesh& mesh);
+LooseFaces loose_faces(const Mesh& mesh, const Lists& corners);
 
 }  // namespace hextwist

@@ -9,7 +9,22 @@
 namespace hextwist::test {
 namespace {
 
-testing::AssertionResult no(const std::string& what) { return testing::AssertionFailure() << what; }
+testing::AssertionResult no(const std::string& what) {
+  return testing::AssertionFailure() << what;
+}
+
+/// Whether p lies on a bilinear quad (a cycle): quarters whose boxes miss p are dropped until they are small.
+bool on_quad(const std::array<Vec3, 4>& x, const Vec3& p, double eps) {
+  const Vec3 low = x[0].cwiseMin(x[1]).cwiseMin(x[2]).cwiseMin(x[3]);
+  const Vec3 high = x[0].cwiseMax(x[1]).cwiseMax(x[2]).cwiseMax(x[3]);
+  if (((p - low).array() < -eps).any() || ((p - high).array() > eps).any()) return false;
+  if ((high - low).maxCoeff() < eps) return true;
+  const std::array<Vec3, 4> middle = {(x[0] + x[1]) / 2, (x[1] + x[2]) / 2, (x[2] + x[3]) / 2, (x[3] + x[0]) / 2};
+  const Vec3 centre = (x[0] + x[1] + x[2] + x[3]) / 4;
+  return on_quad({x[0], middle[0], centre, middle[3]}, p, eps) ||
+         on_quad({middle[0], x[1], middle[1], centre}, p, eps) ||
+         on_quad({centre, middle[1], x[2], middle[2]}, p, eps) || on_quad({middle[3], centre, middle[2], x[3]}, p, eps);
+}
 
 }  // namespace
 
@@ -46,18 +61,28 @@ testing::AssertionResult conformal(const Mesh& mesh) {
   }
   for (std::size_t n = 0; n < used.size(); ++n)
     if (!used[n]) return no("node " + std::to_string(n) + " is unused");
-  // The skin of a conformal mesh is closed, and none of its quads is covered by smaller ones: a hanging node would
-  // leave the big quad and the small ones as skin inside the body. Those would share their rim: an edge of the big
-  // quad that is cut on the other side occurs once, an odd number.
-  std::map<std::array<Index, 2>, int> rim;
+  // Nodes of the skin against quads of the skin: by x, then by box, then exactly.
+  std::vector<Index> skin;
+  Box box;
   for (const auto& [key, seen] : quads)
-    if (seen.count == 1)
-      for (int i = 0; i < 4; ++i) {
-        const auto [a, b] = std::minmax(seen.cycle[i], seen.cycle[(i + 1) % 4]);
-        ++rim[{a, b}];
-      }
-  for (const auto& [edge, count] : rim)
-    if (count % 2) return no("open skin at edge " + std::to_string(edge[0]) + " " + std::to_string(edge[1]));
+    if (seen.count == 1) skin.insert(skin.end(), key.begin(), key.end());
+  for (const Index n : skin) box.add(mesh.points[n]);
+  std::ranges::sort(skin, {}, [&](Index n) { return std::pair(mesh.points[n].x(), n); });
+  skin.erase(std::unique(skin.begin(), skin.end()), skin.end());
+  for (const auto& [key, seen] : quads) {
+    if (seen.count != 1) continue;
+    std::array<Vec3, 4> x;
+    Box around;
+    for (int i = 0; i < 4; ++i) around.add(x[i] = mesh.points[seen.cycle[i]]);
+    const double eps = 1e-7 * (x[2] - x[0]).norm() + 1e-12 * box.diagonal();
+    const auto by_x = [&](Index n) { return mesh.points[n].x(); };
+    const auto end = std::ranges::upper_bound(skin, around.max.x() + eps, {}, by_x);
+    for (auto at = std::ranges::lower_bound(skin, around.min.x() - eps, {}, by_x); at < end; ++at)
+      if (std::ranges::find(mesh.hexes[seen.hex], *at) == mesh.hexes[seen.hex].end() &&
+          on_quad(x, mesh.points[*at], eps) &&
+          std::ranges::none_of(x, [&](const Vec3& corner) { return (corner - mesh.points[*at]).norm() <= 2 * eps; }))
+        return no("node " + std::to_string(*at) + " hangs in a face of hex " + std::to_string(seen.hex));
+  }
   return testing::AssertionSuccess();
 }
 

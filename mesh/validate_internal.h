@@ -1,0 +1,31 @@
+// Parts of validate() that are algorithms of their own.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hextwist/mesh/topology.h"
+
+namespace hextwist {
+
+/// Groups of two or more finite points that chains of steps no longer than tolerance connect; members ascending,
+/// groups by first member.
+std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double tolerance);
+
+/// A node of the skin that lies inside an edge or face of a skin quad whose hex does not have it.
+struct HangingNode {
+  Index node = -1;
+  Index hex = -1;
+  Edge edge = {-1, -1};    ///< the ends of the edge that it is in, ascending; {-1, -1} when in the face
+  bool same_part = false;  ///< a chain of hexes with common nodes leads from the node to the hex
+
+  auto operator<=>(const HangingNode&) const = default;
+};
+/// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes.
+std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
+
+/// Whether two hexes turn alike around a face that they share: then they lie on the same side of it, or one of them is
+/// mirrored. Face f of hex a and face g of hex b have the same nodes in the same cyclic order, up to direction.
+bool turn_alike(const Hex& a, int f, const Hex& b, int g);
+
+}  // namespace hextwist
