@@ -1,0 +1,201 @@
+// Makes the table of the enclosing pass. Harris, Benzley, Owen, "Conformal refinement of all-hexahedral element meshes
+// based on multiple twist plane insertion", section 5.
+#include "hextwist/refine/enclose.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "hextwist/refine/cube_mesh.h"
+
+namespace hextwist {
+namespace {
+
+/// A set of corners that is a box: for each axis the side it keeps to (0 or 1), or -1 where it reaches across.
+struct CornerBox {
+  bool valid = false;
+  std::array<int, 3> side = {-1, -1, -1};
+};
+
+CornerBox corner_box(int mask) {
+  CornerBox box;
+  int expected = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      bool only = true;
+      for (int c = 0; c < 8; ++c) only &= !(mask >> c & 1) || (c >> axis & 1) == side;
+      if (only) box.side[axis] = side;
+    }
+  for (int c = 0; c < 8; ++c) {
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) inside &= box.side[axis] < 0 || (c >> axis & 1) == box.side[axis];
+    expected |= inside << c;
+  }
+  box.valid = mask != 0 && expected == mask;
+  return box;
+}
+
+/// How far from the box the new nodes lie: on edges, inside faces, inside the hex (along each of their directions).
+struct Reach {
+  double edge, face, inside;
+};
+
+/// Seen from the marked side, and from the unmarked side (six or seven marked corners).
+struct Reaches {
+  Reach marked, unmarked;
+};
+
+Reaches reaches(EncloseAt at) {
+  if (at == EncloseAt::half) return {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
+  return {{1.0 / 3, 0.4, 0.42}, {2.0 / 3, 0.6, 0.58}};
+}
+
+/// Templates (a), (b), (c): a small hex at the box and one more across each direction in which the box keeps to a side.
+CubeMesh box_template(const CornerBox& box, const Reach& reach) {
+  const auto is_far = [&](int c, int axis) { return box.side[axis] >= 0 && (c >> axis & 1) != box.side[axis]; };
+  const auto near_place = [&](int c) {
+    const int n_far = is_far(c, 0) + is_far(c, 1) + is_far(c, 2);
+    const double distance = n_far == 1 ? reach.edge : n_far == 2 ? reach.face : reach.inside;
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int end = c >> axis & 1;
+      p[axis] = !is_far(c, axis) ? end : end == 1 ? distance : 1 - distance;
+    }
+    return p;
+  };
+  CubeMesh mesh;
+  std::array<Vec3, 8> corners;
+  for (int c = 0; c < 8; ++c) corners[c] = near_place(c);
+  mesh.add_hex(corners);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.side[axis] < 0) continue;
+    for (int c = 0; c < 8; ++c) {
+      const int flipped = c ^ 1 << axis;
+      corners[c] = is_far(c, axis) ? unit_corners()[c] : near_place(flipped);
+    }
+    mesh.add_hex(corners);
+  }
+  return mesh;
+}
+
+/// Corner bits of a face in its bit frame.
+int face_corner_mask(int corner_mask, int face) {
+  int code = 0;
+  for (int k = 0; k < 4; ++k) code |= (corner_mask >> face_corner(face, k) & 1) << k;
+  return code;
+}
+
+HexTemplate make_enclose_template(const SplitTable& table, int mask, const Reaches& reach) {
+  std::array<std::uint8_t, n_hex_edges> edge_code;
+  std::array<std::uint16_t, n_hex_faces> face_code;
+  for (int e = 0; e < n_hex_edges; ++e) {
+    const bool a = mask >> edge_corner(e, 0) & 1, b = mask >> edge_corner(e, 1) & 1;
+    edge_code[e] = a == b ? 0 : a ? 1 : 2;
+  }
+  for (int f = 0; f < n_hex_faces; ++f) face_code[f] = static_cast<std::uint16_t>(face_corner_mask(mask, f));
+  CubeMesh mesh;
+  if (mask == 0 || mask == 255)
+    mesh.add_hex(unit_corners());
+  else if (const CornerBox box = corner_box(mask); box.valid)
+    mesh = box_template(box, reach.marked);
+  else if (const CornerBox rest = corner_box(255 & ~mask); rest.valid)
+    mesh = box_template(rest, reach.unmarked);
+  else
+    throw std::logic_error("no enclosing template for this marking");
+  return make_template(table, edge_code, face_code, mesh.points, mesh.hexes);
+}
+
+FacePattern make_face_pattern(int code, const Reaches& reach) {
+  FacePattern pattern;
+  const int n_marked = std::popcount(static_cast<unsigned>(code));
+  if (n_marked == 1 || n_marked == 3) {
+    const int corner = std::countr_zero(static_cast<unsigned>(n_marked == 1 ? code : 15 & ~code));
+    const double distance = n_marked == 1 ? reach.marked.face : reach.unmarked.face;
+    pattern.at.push_back({corner & 1 ? 1 - distance : distance, corner & 2 ? 1 - distance : distance});
+  }
+  for (int symmetry = 0; symmetry < n_face_symmetries; ++symmetry) {
+    int turned = 0;
+    for (int k = 0; k < 4; ++k) turned |= (code >> turned_corner(symmetry, k) & 1) << k;
+    pattern.turned[symmetry] = static_cast<std::uint16_t>(turned);
+  }
+  return pattern;
+}
+
+std::shared_ptr<const SplitTable> make_enclose_table(EncloseAt at) {
+  const Reaches reach = reaches(at);
+  auto table = std::make_shared<SplitTable>(
+      256, [reach](const SplitTable& self, int mask) { return make_enclose_template(self, mask, reach); });
+  table->edge = {{{}, 0}, {{reach.marked.edge}, 2}, {{1 - reach.marked.edge}, 1}};
+  for (int code = 0; code < 16; ++code) table->face.push_back(make_face_pattern(code, reach));
+  complete_face_patterns(*table);
+  return table;
+}
+
+int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
+  int mask = 0;
+  for (int c = 0; c < n_hex_corners; ++c) mask |= (marked[hex[c]] != 0) << c;
+  return mask;
+}
+
+/// The smallest superset with a template. Among several the unmarked nodes (compared from the highest down) decide.
+int smallest_superset(const Hex& hex, int mask) {
+  int best = 255;
+  const auto unmarked_nodes = [&](int m) {
+    std::vector<Index> nodes;
+    for (int c = 0; c < 8; ++c)
+      if (!(m >> c & 1)) nodes.push_back(hex[c]);
+    std::ranges::sort(nodes, std::greater{});
+    return nodes;
+  };
+  for (int m = mask; m < 256; ++m) {
+    if ((m & mask) != mask || !has_enclosing_template(m)) continue;
+    const int size = std::popcount(static_cast<unsigned>(m)), best_size = std::popcount(static_cast<unsigned>(best));
+    if (size < best_size || (size == best_size && unmarked_nodes(m) > unmarked_nodes(best))) best = m;
+  }
+  return best;
+}
+
+}  // namespace
+
+bool has_enclosing_template(int mask) {
+  return mask == 0 || mask == 255 || corner_box(mask).valid || corner_box(255 & ~mask).valid;
+}
+
+std::shared_ptr<const SplitTable> enclose_table(EncloseAt at) {
+  static const std::array tables = {make_enclose_table(EncloseAt::half), make_enclose_table(EncloseAt::third)};
+  return tables[at == EncloseAt::half ? 0 : 1];
+}
+
+std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
+  std::vector<std::uint16_t> codes(hexes.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hexes.size(), 4096), [&](const auto& range) {
+    for (std::size_t h = range.begin(); h != range.end(); ++h) {
+      const int mask = corner_mask(hexes[h], marked);
+      codes[h] = static_cast<std::uint16_t>(mask == 255 ? 0 : mask);
+    }
+  });
+  return codes;
+}
+
+Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked) {
+  Index n_added = 0;
+  while (true) {
+    std::vector<Index> added;
+    for (const Hex& hex : hexes) {
+      const int mask = corner_mask(hex, marked);
+      if (has_enclosing_template(mask)) continue;
+      const int grown = smallest_superset(hex, mask);
+      for (int c = 0; c < 8; ++c)
+        if (grown >> c & 1 && !marked[hex[c]]) added.push_back(hex[c]);
+    }
+    if (added.empty()) return n_added;
+    for (const Index n : added) {
+      n_added += marked[n] == 0;
+      marked[n] = 1;
+    }
+  }
+}
+
+}  // namespace hextwist

@@ -1,0 +1,38 @@
+// The enclosing pass: parallel hex sheet operations of Harris, Benzley and Owen, sections 5.1 to 5.3.
+//
+// A twist plane that wraps a set of marked nodes cuts every edge with exactly one marked end. A code of this pass is
+// a mask of 8 bits, one for each corner of a hex: bit set, node marked. Templates exist for
+//
+//   1 node (c) 4 hexes    2 nodes on an edge (b) 3 hexes    4 nodes on a face (a) 2 hexes    8 or 0: 1 hex
+//   7 nodes, 6 nodes all but those of an edge: (c) and (b) seen from the unmarked side, so that concave places of a
+//   region need no filling
+//
+// All else has to grow first: close_enclosure().
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "hextwist/mesh/topology.h"
+#include "hextwist/refine/split_table.h"
+
+namespace hextwist {
+
+/// Where a cut edge is cut: half-way (figure 10), or at a third of its length from the marked node (figure 13, the
+/// first step of the combination).
+enum class EncloseAt { half, third };
+
+std::shared_ptr<const SplitTable> enclose_table(EncloseAt at);
+
+/// A marking of the corners that has a template.
+bool has_enclosing_template(int corner_mask);
+
+/// Codes from node marks. Hexes with all or no corner marked get 0.
+std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
+
+/// Adds marks until every hex has a template: in each round every hex without one takes its smallest superset that
+/// has (of several the one whose unmarked nodes have the highest numbers), all hexes at once, so the result depends on
+/// the mesh alone. Returns the number of nodes added.
+Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked);
+
+}  // namespace hextwist

@@ -1,0 +1,72 @@
+#include "hextwist/refine/enclose.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+
+#include "hextwist/mesh/quality.h"
+#include "hextwist/refine/split.h"
+#include "support/checkers.h"
+#include "support/grids.h"
+#include "support/refined.h"
+
+namespace hextwist {
+namespace {
+
+TEST(enclose_table, every_marking_with_a_template_fills_the_hex_with_positive_hexes) {
+  const Mesh cube = test::grid(1, 1, 1);
+  int n_templates = 0;
+  for (const EncloseAt at : {EncloseAt::half, EncloseAt::third})
+    for (int mask = 0; mask < 256; ++mask) {
+      if (!has_enclosing_template(mask)) continue;
+      ++n_templates;
+      const std::vector<std::uint16_t> codes = {static_cast<std::uint16_t>(mask)};
+      const Mesh mesh = test::refined(cube, split(cube.hexes, 8, enclose_table(at), codes));
+      ASSERT_TRUE(test::conformal(mesh)) << mask;
+      ASSERT_TRUE(test::uninverted(mesh)) << mask;
+      ASSERT_NEAR(volume(mesh), 1, 1e-12);
+      const int n = std::popcount(static_cast<unsigned>(mask));
+      const Index expected[] = {1, 4, 3, -1, 2, -1, 3, 4, 1};
+      EXPECT_EQ(mesh.n_hexes(), expected[n]) << mask;
+    }
+  EXPECT_EQ(n_templates, 2 * (1 + 8 + 12 + 6 + 12 + 8 + 1));
+}
+
+TEST(enclose, any_marking_can_be_closed_and_is_conformal_then) {
+  for (unsigned seed = 0; seed < 80; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Mesh mesh =
+        test::shuffled(seed % 2 ? test::pinwheel(3 + static_cast<int>(seed % 4), 2, 2) : test::grid(4, 3, 3), random);
+    std::vector<std::uint8_t> marked(mesh.points.size());
+    const auto share = 1 + random() % 8;
+    for (auto& mark : marked) mark = random() % 16 < share;
+    const auto before = marked;
+    close_enclosure(mesh.hexes, marked);
+    for (std::size_t n = 0; n < marked.size(); ++n) EXPECT_GE(marked[n], before[n]);
+    const auto table = enclose_table(seed % 3 ? EncloseAt::half : EncloseAt::third);
+    const Mesh fine = test::refined(mesh, split(mesh.hexes, mesh.n_nodes(), table, enclose_codes(mesh.hexes, marked)));
+    ASSERT_TRUE(test::conformal(fine));
+    ASSERT_TRUE(test::uninverted(fine));
+    ASSERT_NEAR(volume(fine), volume(mesh), 1e-9);
+  }
+}
+
+TEST(enclose, single_nodes_grow_as_the_paper_says) {
+  const auto growth = [](Index node) {
+    const Mesh mesh = test::grid(3, 3, 3);
+    std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+    marked[node] = 1;
+    EXPECT_EQ(close_enclosure(mesh.hexes, marked), 0);
+    const Split parts =
+        split(mesh.hexes, mesh.n_nodes(), enclose_table(EncloseAt::third), enclose_codes(mesh.hexes, marked));
+    return static_cast<Index>(parts.hexes.size()) - mesh.n_hexes();
+  };
+  EXPECT_EQ(growth(1 + 4 * (1 + 4 * 1)), 24);
+  EXPECT_EQ(growth(1 + 4 * (1 + 4 * 0)), 12);
+  EXPECT_EQ(growth(0), 3);
+}
+
+}  // namespace
+}  // namespace hextwist
