@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hextwist/refine/carry.h"
+#include "hextwist/refine/enclose.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
 #include "hextwist/refine/uniform.h"
@@ -61,35 +62,133 @@ std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> he
   return result;
 }
 
+/// The technique, with automatic decided. Throws Error for one that does not fit the target.
+Method technique(const Request& request) {
+  const bool solid = is_solid(request.kind);
+  if (request.depth && *request.depth < 0) throw Error("depth must not be negative");
+  const bool has_depth = request.depth.value_or(solid ? 0 : 1) > 0;
+  switch (request.method) {
+    case Method::single:
+      if (!solid && !has_depth) throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
+      return Method::single;
+    case Method::combination:
+      if (solid)
+        throw Error(std::string("the combination technique refines around nodes, edges and faces, not a ") +
+                    name(request.kind));
+      if (request.depth && has_depth) throw Error("the combination technique has depth 0");
+      return Method::combination;
+    case Method::parallel:
+      if (solid) throw Error("one-into-eight refinement of hexes and volumes is not available yet");
+      if (request.depth && has_depth) throw Error("parallel refinement around a target has depth 0");
+      return Method::parallel;
+    case Method::automatic:
+      break;
+  }
+  return solid || has_depth ? Method::single : Method::combination;
+}
+
 void check(const MeshedModel& input, const Request& request) {
   if (input.mesh.hexes.empty()) throw Error("there is no mesh to refine");
+  check_targets(input, request);
   if (request.numsplit < 1) throw Error("numsplit must be at least 1");
   const int limit = is_whole_model(input, request) ? max_uniform_pieces - 1 : max_numsplit;
   if (request.numsplit > limit) throw Error("numsplit must be at most " + std::to_string(limit) + " here");
 }
 
-/// One pass over the whole pipeline but verifying.
-RefineResult run_pass(const MeshedModel& input, std::shared_ptr<const SplitTable> table,
-                      std::span<const std::uint16_t> codes, bool dry_run, Stages& stages, double fraction) {
-  stages.begin("split", fraction);
-  Split parts = split(input.mesh.hexes, input.mesh.n_nodes(), std::move(table), codes);
-  stages.begin("carry", fraction);
-  RefineResult result;
-  Carried carried = carry(input.mesh, input.association, parts);
-  result.refined = {std::move(carried.mesh), input.model, std::move(carried.association)};
-  if (dry_run) {
-    result.lineage = std::move(parts.lineage);
-    return result;
+/// The mesh on its way through the passes of a request.
+class Run {
+ public:
+  Run(const MeshedModel& input, const Request& request, Report& report, const Progress& progress)
+      : input_(input), current_(&input), request_(request), report_(report), stages_(report, progress) {}
+
+  RefineResult all_passes() {
+    stages_.begin("targets", 0);
+    const Method method = technique(request_);
+    if (is_whole_model(input_, request_) && method == Method::single) {
+      const int pieces = request_.numsplit + 1;
+      report_.notices.push_back("all volumes: uniform, every edge in " + std::to_string(pieces) + " equal pieces");
+      pass(uniform_table(pieces), std::vector<std::uint16_t>(input_.mesh.hexes.size(), 1));
+    } else if (method == Method::single) {
+      trisect_passes();
+    } else {
+      sub_element_passes(method);
+    }
+    stages_.begin("verify", 0.9);
+    return std::move(result_);
   }
-  stages.begin("place", fraction);
-  if (input.model && !input.association.empty())
-    place(input.mesh, input.association, parts, *input.model, result.refined.mesh, result.refined.association);
-  stages.begin("improve", fraction);
-  result.report.off_nodes =
-      repair_children(input.mesh, parts, input.model.get(), result.refined.mesh, result.refined.association);
-  result.lineage = std::move(parts.lineage);
-  return result;
-}
+
+ private:
+  void trisect_passes() {
+    std::vector<Index> targets;
+    if (is_solid(request_.kind)) {
+      targets = with_layers(input_.mesh, solid_target(input_, request_), request_.depth.value_or(0));
+    } else {
+      const CombinationTarget target = sub_element_target(input_, request_, report_.notices);
+      targets = layers_around(input_.mesh, target.nodes, request_.depth.value_or(1));
+    }
+    for (int i = 0; i < request_.numsplit; ++i) {
+      stages_.begin("close", fraction());
+      const Mesh& mesh = current_->mesh;
+      std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+      mark_nodes(mesh.hexes, targets, marked);
+      if (request_.concave == Concave::fill) report_.filled_hexes += fill_concave(mesh, marked);
+      pass(trisect_table(), trisect_codes(mesh.hexes, marked));
+      targets = children_of(result_.lineage, targets);
+    }
+  }
+
+  void sub_element_passes(Method method) {
+    CombinationTarget target = sub_element_target(input_, request_, report_.notices);
+    const EncloseAt at = method == Method::parallel ? EncloseAt::half : EncloseAt::third;
+    for (int i = 0; i < request_.numsplit; ++i) {
+      stages_.begin("close", fraction());
+      std::vector<std::uint8_t> marked(current_->mesh.points.size(), 0);
+      for (const Index n : target.nodes) marked[n] = 1;
+      const Index n_added = close_enclosure(current_->mesh.hexes, marked);
+      if (n_added > 0)
+        report_.notices.push_back("enclosed " + std::to_string(n_added) +
+                                  " nodes more than the target has, for want of a template");
+      pass(enclose_table(at), enclose_codes(current_->mesh.hexes, marked));
+      target = carried_target(target, result_.lineage, current_->mesh);
+      if (method == Method::parallel || (target.edges.empty() && target.faces.empty())) continue;
+      stages_.begin("close", fraction());
+      pass(trisect_table(), combination_codes(current_->mesh, target));
+      target = carried_target(target, result_.lineage, current_->mesh);
+    }
+  }
+
+  /// One pass over the pipeline from split to improve; the result becomes the current mesh.
+  void pass(std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes) {
+    ++n_passes_;
+    const MeshedModel& from = *current_;
+    stages_.begin("split", fraction());
+    Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(table), codes);
+    stages_.begin("carry", fraction());
+    Carried carried = carry(from.mesh, from.association, parts);
+    MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
+    if (!request_.dry_run) {
+      stages_.begin("place", fraction());
+      if (next.model && !next.association.empty())
+        place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
+      stages_.begin("improve", fraction());
+      std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association),
+                        std::back_inserter(report_.off_nodes));
+    }
+    result_.lineage = std::move(parts.lineage);
+    result_.refined = std::move(next);
+    current_ = &result_.refined;
+  }
+
+  double fraction() const { return 0.9 * n_passes_ / (n_passes_ + 1); }
+
+  const MeshedModel& input_;
+  const MeshedModel* current_;
+  const Request& request_;
+  Report& report_;
+  Stages stages_;
+  RefineResult result_;
+  int n_passes_ = 0;
+};
 
 void verify(const MeshedModel& input, MeshedModel& refined, Report& report) {
   const auto summary = [](Metric metric, const Mesh& mesh) { return summarize(quality(metric, mesh)); };
@@ -114,47 +213,14 @@ const char* name(TargetKind kind) {
 
 RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress) {
   check(input, request);
-  RefineResult result;
   Report report;
   report.hexes_before = input.mesh.n_hexes();
   report.nodes_before = input.mesh.n_nodes();
+  RefineResult result;
   {
-    Stages stages(report, progress);
-    stages.begin("targets", 0);
-    std::vector<Index> targets = target_hexes(input, request);
-    const bool uniform = is_whole_model(input, request);
-    if (uniform)
-      report.notices.push_back("all volumes: uniform, every edge in " + std::to_string(request.numsplit + 1));
-    const int n_passes = uniform ? 1 : request.numsplit;
-    const MeshedModel* current = &input;
-    MeshedModel previous;
-    for (int pass = 0; pass < n_passes; ++pass) {
-      const double fraction = static_cast<double>(pass) / n_passes;
-      stages.begin("close", fraction);
-      std::vector<std::uint16_t> codes;
-      if (uniform) {
-        codes.assign(current->mesh.hexes.size(), 1);
-      } else {
-        std::vector<std::uint8_t> marked(current->mesh.points.size(), 0);
-        mark_nodes(current->mesh.hexes, targets, marked);
-        if (request.concave == Concave::fill) report.filled_hexes += fill_concave(current->mesh, marked);
-        codes = trisect_codes(current->mesh.hexes, marked);
-      }
-      RefineResult next = run_pass(*current, uniform ? uniform_table(request.numsplit + 1) : trisect_table(), codes,
-                                   request.dry_run, stages, fraction);
-      std::ranges::move(next.report.off_nodes, std::back_inserter(report.off_nodes));
-      if (pass + 1 < n_passes) {
-        targets = children_of(next.lineage, targets);
-        previous = std::move(next.refined);
-        current = &previous;
-      } else {
-        result = std::move(next);
-      }
-    }
-    if (!request.dry_run) {
-      stages.begin("verify", 0.9);
-      verify(input, result.refined, report);
-    }
+    Run run(input, request, report, progress);
+    result = run.all_passes();
+    if (!request.dry_run) verify(input, result.refined, report);
   }
   report.hexes_after = result.refined.mesh.n_hexes();
   report.nodes_after = result.refined.mesh.n_nodes();

@@ -31,6 +31,14 @@ const char* name(TargetKind kind);
 /// What to do where a region is concave: templates of their own, or filling it up as the paper does (section 4.3).
 enum class Concave { templates, fill };
 
+/// Which technique of the paper (table 1).
+enum class Method {
+  automatic,    ///< single for hexes and volumes and for depth >= 1, else combination
+  single,       ///< trisecting: section 4
+  parallel,     ///< enclosing at half: section 5.1 to 5.3
+  combination,  ///< enclosing at a third, then trisecting along the target: section 5.4
+};
+
 /// Which entities to refine and how much.
 struct Request {
   TargetKind kind = TargetKind::hex;
@@ -40,9 +48,11 @@ struct Request {
   /// How often each target edge is cut in three. 1 .. 8. All volumes of the model together are refined uniformly
   /// instead: every edge in numsplit + 1 pieces, 1 .. 29.
   int numsplit = 1;
-  /// Layers of hexes around the target that are refined fully too: 0 exactly the target, 1 every hex that touches
-  /// it, ... Default: 0 for hexes and volumes, 1 for everything else.
+  /// Layers of hexes around the target that are refined fully too: 0 exactly the target (for nodes, edges, faces and
+  /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0 for hexes and
+  /// volumes, 1 for everything else.
   std::optional<int> depth;
+  Method method = Method::automatic;
   Concave concave = Concave::templates;
   bool smooth = false;   ///< reserved for smoothing after the split
   bool dry_run = false;  ///< count only: the result holds no mesh

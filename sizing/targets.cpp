@@ -1,9 +1,10 @@
 #include "hextwist/sizing/targets.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
+#include "hextwist/refine/split_table.h"
 
 namespace hextwist {
 namespace {
@@ -23,99 +24,166 @@ int cad_dimension(TargetKind kind) {
   }
 }
 
-[[noreturn]] void unknown(TargetKind kind, std::int64_t id, std::int64_t n) {
-  throw Error(std::string("there is no ") + name(kind) + " " + std::to_string(id) + ": " +
-              (n == 0 ? "there are none" : std::string(name(kind)) + " ids go from 1 to " + std::to_string(n)));
+template <typename T>
+void sort_unique(std::vector<T>& items) {
+  std::ranges::sort(items);
+  items.erase(std::ranges::unique(items).begin(), items.end());
 }
 
-void check_indices(TargetKind kind, std::span<const Index> targets, Index n) {
-  for (const Index i : targets)
-    if (i < 0 || i >= n) unknown(kind, std::int64_t{i} + 1, n);
+/// Each kind fills what it names; nodes of edges and faces are added by the caller.
+void add_cad_entity(const MeshedModel& input, Owner entity, CombinationTarget& target) {
+  const Association& association = input.association;
+  const std::vector<Index> nodes = nodes_on(association, *input.model, entity);
+  target.nodes.insert(target.nodes.end(), nodes.begin(), nodes.end());
+  if (entity.dim == 1)
+    for (std::size_t i = 0; i < association.curve_edges.size(); ++i)
+      if (association.edge_curve[i] == entity.id) target.edges.push_back(association.curve_edges[i]);
+  if (entity.dim == 2)
+    for (std::size_t i = 0; i < association.surface_faces.size(); ++i)
+      if (association.face_surface[i] == entity.id) {
+        const Side side = association.surface_faces[i];
+        target.faces.push_back(face_nodes(input.mesh.hexes[side.hex], side.face));
+      }
 }
 
-/// Marks the nodes of mesh edges and faces or of a CAD entity with all that bounds it.
-void mark_target_nodes(const MeshedModel& input, const Request& request, std::vector<std::uint8_t>& marked) {
-  const Mesh& mesh = input.mesh;
-  switch (request.kind) {
-    case TargetKind::node:
-      check_indices(request.kind, request.targets, mesh.n_nodes());
-      for (const Index n : request.targets) marked[n] = 1;
-      return;
-    case TargetKind::edge: {
-      const Edges all = edges(mesh);
-      check_indices(request.kind, request.targets, static_cast<Index>(all.nodes.size()));
-      for (const Index e : request.targets)
-        for (const Index n : all.nodes[e]) marked[n] = 1;
-      return;
-    }
-    case TargetKind::face: {
-      const Faces all = faces(mesh);
-      check_indices(request.kind, request.targets, static_cast<Index>(all.nodes.size()));
-      for (const Index f : request.targets)
-        for (const Index n : all.nodes[f]) marked[n] = 1;
-      return;
-    }
-    default:
-      break;
-  }
-  const int dim = cad_dimension(request.kind);
-  for (const Index id : request.targets) {
-    const std::vector<Index> nodes = nodes_on(input.association, *input.model, {dim, id});
-    if (nodes.empty())
-      throw Error("no node of the mesh lies on " + to_string(Owner{dim, id}) +
-                  ": the mesh does not resolve it, so there is nothing to refine");
-    for (const Index n : nodes) marked[n] = 1;
-  }
-}
-
-std::vector<Index> hexes_of_volumes(const MeshedModel& input, std::span<const Index> volumes) {
-  std::vector<Index> result;
-  for (Index h = 0; h < input.mesh.n_hexes(); ++h)
-    if (std::ranges::binary_search(volumes, input.association.hex_volume[h])) result.push_back(h);
-  if (result.empty()) throw Error("no hex of the mesh lies in volume " + std::to_string(volumes.front()));
-  return result;
+void finish(CombinationTarget& target) {
+  for (const Edge& edge : target.edges) target.nodes.insert(target.nodes.end(), edge.begin(), edge.end());
+  for (const Quad& quad : target.faces) target.nodes.insert(target.nodes.end(), quad.begin(), quad.end());
+  sort_unique(target.nodes);
+  sort_unique(target.edges);
 }
 
 }  // namespace
 
-std::vector<Index> target_hexes(const MeshedModel& input, const Request& request) {
-  const Mesh& mesh = input.mesh;
-  if (request.targets.empty()) throw Error(std::string("no ") + name(request.kind) + " to refine");
-  if (const int dim = cad_dimension(request.kind); dim >= 0) {
-    if (!input.model) throw Error("there is no CAD and no facet model: refine by hex, face, edge or node");
-    const int n = input.model->count(dim);
-    for (const Index id : request.targets)
-      if (id < 1 || id > n) unknown(request.kind, id, n);
-  }
-  const bool solid = request.kind == TargetKind::hex || request.kind == TargetKind::volume;
-  int layers = request.depth.value_or(solid ? 0 : 1);
-  if (layers < 0) throw Error("depth must not be negative");
-  if (!solid && layers == 0)
-    throw Error(std::string("depth 0 (refining nothing but the ") + name(request.kind) +
-                " itself) is not available yet; depth 1 refines every hex that touches it");
-
-  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  std::vector<Index> hexes;
-  if (request.kind == TargetKind::hex) {
-    check_indices(request.kind, request.targets, mesh.n_hexes());
-    hexes = request.targets;
-  } else if (request.kind == TargetKind::volume) {
-    hexes = hexes_of_volumes(input, request.targets);
-  } else {
-    mark_target_nodes(input, request, marked);
-    hexes = touching_hexes(mesh.hexes, marked);
-    --layers;
-  }
-  for (; layers > 0 && static_cast<Index>(hexes.size()) < mesh.n_hexes(); --layers) {
-    mark_nodes(mesh.hexes, hexes, marked);
-    hexes = touching_hexes(mesh.hexes, marked);
-  }
-  return hexes;
+bool is_solid(TargetKind kind) {
+  return kind == TargetKind::hex || kind == TargetKind::volume;
 }
 
 bool is_whole_model(const MeshedModel& input, const Request& request) {
   return request.kind == TargetKind::volume && input.model &&
          static_cast<int>(request.targets.size()) == input.model->count(3);
+}
+
+void check_targets(const MeshedModel& input, const Request& request) {
+  const std::string kind = name(request.kind);
+  if (request.targets.empty()) throw Error("no " + kind + " to refine");
+  const auto check = [&](std::int64_t first, std::int64_t n) {
+    for (const Index id : request.targets)
+      if (id < first || id >= first + n)
+        throw Error("there is no " + kind + " " + std::to_string(id - first + 1) + ": " +
+                    (n == 0 ? "there are none" : kind + " ids go from 1 to " + std::to_string(n)));
+  };
+  const int dim = cad_dimension(request.kind);
+  if (dim >= 0 && !input.model) throw Error("there is no CAD and no facet model: refine by hex, face, edge or node");
+  if (dim >= 0)
+    check(1, input.model->count(dim));
+  else if (request.kind == TargetKind::node)
+    check(0, input.mesh.n_nodes());
+  else if (request.kind == TargetKind::hex)
+    check(0, input.mesh.n_hexes());  // edges and faces are counted only when they are wanted: sub_element_target()
+}
+
+std::vector<Index> solid_target(const MeshedModel& input, const Request& request) {
+  if (request.kind == TargetKind::hex) return request.targets;
+  std::vector<Index> result;
+  for (Index h = 0; h < input.mesh.n_hexes(); ++h)
+    if (std::ranges::binary_search(request.targets, input.association.hex_volume[h])) result.push_back(h);
+  if (result.empty()) throw Error("no hex of the mesh lies in volume " + std::to_string(request.targets.front()));
+  return result;
+}
+
+CombinationTarget sub_element_target(const MeshedModel& input, const Request& request,
+                                     std::vector<std::string>& notices) {
+  CombinationTarget target;
+  const auto check = [&](std::size_t n) {
+    for (const Index i : request.targets)
+      if (i < 0 || i >= static_cast<Index>(n))
+        throw Error(std::string("there is no ") + name(request.kind) + " " + std::to_string(i + 1) + ": " +
+                    name(request.kind) + " ids go from 1 to " + std::to_string(n));
+  };
+  switch (request.kind) {
+    case TargetKind::node:
+      target.nodes = request.targets;
+      break;
+    case TargetKind::edge: {
+      const Edges all = edges(input.mesh);
+      check(all.nodes.size());
+      for (const Index e : request.targets) target.edges.push_back(all.nodes[e]);
+      break;
+    }
+    case TargetKind::face: {
+      const Faces all = faces(input.mesh);
+      check(all.nodes.size());
+      for (const Index f : request.targets) target.faces.push_back(all.nodes[f]);
+      break;
+    }
+    default: {
+      std::string without;
+      for (const Index id : request.targets) {
+        const std::size_t before = target.nodes.size();
+        add_cad_entity(input, {cad_dimension(request.kind), id}, target);
+        if (target.nodes.size() == before) without += " " + std::to_string(id);
+      }
+      if (target.nodes.empty())
+        throw Error(std::string("no node of the mesh lies on ") + name(request.kind) + without +
+                    ": the mesh does not resolve it, so there is nothing to refine");
+      if (!without.empty())
+        notices.push_back(std::string("no node of the mesh lies on ") + name(request.kind) + without);
+    }
+  }
+  finish(target);
+  return target;
+}
+
+CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined) {
+  CombinationTarget carried;
+  carried.nodes = target.nodes;
+  for (const Edge& edge : target.edges) {
+    const auto found = std::ranges::lower_bound(lineage.edges, edge, {}, [](const CutEdge& cut) {
+      return Edge{cut.a, cut.b};
+    });
+    if (found == lineage.edges.end() || Edge{found->a, found->b} != edge) {
+      carried.edges.push_back(edge);
+      continue;
+    }
+    Index from = edge[0];
+    const auto n = static_cast<Index>(lineage.table->edge[found->code].at.size());
+    for (Index s = 0; s <= n; ++s) {
+      const Index to = s == n ? edge[1] : found->first_node + s;
+      carried.edges.push_back({std::min(from, to), std::max(from, to)});
+      from = to;
+    }
+  }
+  const auto key = [](const CutFace& face) { return std::array{face.corners[0], face.corners[3], face.corners[1]}; };
+  for (const Quad& quad : target.faces) {
+    const int symmetry = face_symmetry(quad);
+    const auto corner = [&](int k) { return quad[turned_corner(symmetry, k)]; };
+    const auto found = std::ranges::lower_bound(lineage.faces, std::array{corner(0), corner(3), corner(1)}, {}, key);
+    if (found == lineage.faces.end() || key(*found) != std::array{corner(0), corner(3), corner(1)}) {
+      carried.faces.push_back(quad);
+      continue;
+    }
+    const auto cut = std::ranges::lower_bound(lineage.hexes, found->side.hex, {}, &CutHex::hex);
+    for (const ChildSide& child : lineage.table->hex(cut->code).side[found->side.face])
+      carried.faces.push_back(face_nodes(refined.hexes[cut->first_child + child.child], child.face));
+  }
+  finish(carried);
+  return carried;
+}
+
+std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers) {
+  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+  for (const Index n : nodes) marked[n] = 1;
+  return with_layers(mesh, touching_hexes(mesh.hexes, marked), n_layers - 1);
+}
+
+std::vector<Index> with_layers(const Mesh& mesh, std::vector<Index> hexes, int n_layers) {
+  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+  for (; n_layers > 0 && static_cast<Index>(hexes.size()) < mesh.n_hexes(); --n_layers) {
+    mark_nodes(mesh.hexes, hexes, marked);
+    hexes = touching_hexes(mesh.hexes, marked);
+  }
+  return hexes;
 }
 
 }  // namespace hextwist

@@ -1,18 +1,37 @@
-// From entities to the hexes that are to be refined fully.
+// From entities to the parts of the mesh that are to be refined.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "hextwist/refine/combine.h"
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {
 
-/// Hexes that the request wants cut in three in all directions, ascending. Throws Error for entities that do not
-/// exist, entities that own no part of the mesh, and depths that have no meaning (yet).
-std::vector<Index> target_hexes(const MeshedModel& input, const Request& request);
+/// Throws Error unless the request has targets, all of which exist; names the first that does not.
+void check_targets(const MeshedModel& input, const Request& request);
 
-/// True when the targets are all volumes of the model (or all blocks' worth of hexes of a mesh without one): the
-/// request is then for uniform refinement.
+/// Hexes and volumes are solid targets: they name hexes. All others name nodes, edges and faces.
+bool is_solid(TargetKind kind);
+
+/// True when the targets are all volumes of the model: the request is then for uniform refinement.
 bool is_whole_model(const MeshedModel& input, const Request& request);
+
+/// Hexes of a solid target, ascending. Throws Error when there are none.
+std::vector<Index> solid_target(const MeshedModel& input, const Request& request);
+
+/// Nodes, edges and faces of any other target: of a curve its mesh edges, of a surface its mesh faces, each with all
+/// nodes on it. CAD entities that no node lies on are named in a notice. Throws Error when there is nothing at all.
+CombinationTarget sub_element_target(const MeshedModel& input, const Request& request,
+                                     std::vector<std::string>& notices);
+
+/// What a sub-element target has become after a pass: children of its edges and faces, and all nodes on it.
+CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined);
+
+/// Hexes that the nodes touch (1 layer), those that touch them (2), ...; ascending.
+std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers);
+/// The hexes and so many layers around them; ascending.
+std::vector<Index> with_layers(const Mesh& mesh, std::vector<Index> hexes, int n_layers);
 
 }  // namespace hextwist
