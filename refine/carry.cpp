@@ -243,8 +243,8 @@ Carried carry(const Mesh& old_mesh, const Association& old_association, Split& s
   Carried carried;
   Mesh& mesh = carried.mesh;
   mesh.hexes = std::move(split.hexes);
-  carried.association = carried_association(old_association, split, mesh);
   mesh.points.resize(split.n_nodes);
+  carried.association = carried_association(old_association, split, mesh);
   std::ranges::copy(old_mesh.points, mesh.points.begin());
   for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
     Vec3 sum = Vec3::Zero();

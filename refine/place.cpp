@@ -77,6 +77,7 @@ std::array<double, 2> curve_interval(const Work& work, const CutEdge& edge, int 
   const Vec3 middle = (work.old_mesh.points[edge.a] + work.old_mesh.points[edge.b]) / 2;
   double best = b, best_distance = std::numeric_limits<double>::infinity();
   for (const double candidate : {b, b - period, b + period}) {
+    if (std::abs(candidate - a) > period) continue;  // more than once round has the same middle
     const double distance = (work.model.point({1, curve}, {(a + candidate) / 2, 0}) - middle).norm();
     if (distance < best_distance) {
       best_distance = distance;

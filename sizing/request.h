@@ -51,7 +51,7 @@ struct Request {
   /// Layers of hexes around the target that are refined fully too: 0 exactly the target (for nodes, edges, faces and
   /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0 for hexes and
   /// volumes, 1 for everything else.
-  std::optional<int> depth;
+  std::optional<int> depth = std::nullopt;
   Method method = Method::automatic;
   Concave concave = Concave::templates;
   bool smooth = false;   ///< reserved for smoothing after the split
