@@ -35,14 +35,16 @@ struct Association {
 };
 
 struct AssociateOptions {
-  /// A boundary node may lie this far from its entity, relative to the model size.
+  /// A boundary node may lie this far from its entity, relative to the model size; farther where the CAD's own pieces
+  /// do (Model::tolerance). Elements may be smaller than that.
   double relative_tolerance = 1e-5;
   /// Start from the tags in the file where it has them.
   bool use_tags = true;
 };
 
-/// The association and what was noticed while it was made (tags that were wrong or missing and were rebuilt: counts
-/// and first ids), one line each.
+/// The association and what was noticed while it was made, one line each: tags that name no entity, tags that the
+/// geometry contradicts and that were replaced (count and first), entities that got no part of the mesh, volumes that
+/// differ by more than a tenth from those of their hexes.
 struct AssociateResult {
   Association association;
   std::vector<std::string> notices;
@@ -51,14 +53,27 @@ struct AssociateResult {
 };
 
 /// Builds a complete association of a valid mesh with a model, from tags that are checked against the geometry, or
-/// from geometry alone (boundary faces to surfaces by point and normal, edges between different surfaces to curves,
-/// corners to vertices; DESIGN section 4). tags may be null or partial.
-/// Throws Error naming the worst node, its distance and the entity when the mesh does not lie on the model.
+/// from geometry alone (DESIGN section 4). tags may be null or partial; they never decide against the geometry, so
+/// that files whose tags follow another numbering give the same result. The rules:
+///  - faces: on the surface that all four corners lie on; of several, the nearest to corners and centre with the
+///    same normal;
+///  - volumes: the mesh falls apart at the faces inside it that lie on surfaces between volumes; the surfaces around
+///    a part say which volume it is;
+///  - edges between different surfaces: on a curve that bounds them all, the nearest to ends and middle. Edges within
+///    one surface: on its seam if both ends are and the seam stays with the edge in between; a mesh need not follow
+///    seams;
+///  - nodes: a vertex owns the nearest node within tolerance, if the vertex bounds all curves and surfaces there; other
+///    nodes are owned by their curve edge, else their surface face, else their volume.
+/// Throws Error when
+///  - the mesh does not lie on the model: names the worst node, its distance, the nearest surface, and mixed-up units
+///    or a displacement where the boxes say so;
+///  - the mesh does not follow the surfaces between volumes, the curves, or the vertices between curves; for volumes
+///    that share no surface (STEP) it asks for the CAD to be glued.
 AssociateResult associate(const Mesh& mesh, const Model& model, const Association* tags,
                           const AssociateOptions& options = {});
 
 /// A facet model of the mesh's own skin, and the association with it. Volumes: the blocks where they partition the
-/// mesh, else one.
+/// mesh, in the blocks' order, else one. Throws Error for a mesh without hexes.
 struct FacetResult {
   std::shared_ptr<const Model> model;
   Association association;
@@ -68,15 +83,15 @@ struct SkinOptions {
 };
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options = {});
 
-/// Owner queries both ways. what: 0 nodes, 1 edges, 2 faces, 3 hexes.
+/// Owner queries both ways. "Nobody" where the association says nothing.
 Owner owner_of_node(const Association& association, Index node);
-/// Curve if the edge lies on one, else the surface of its boundary faces, else the volume.
+/// Curve if the edge lies on one, else the surface of its boundary faces, else the volume. Linear in the boundary.
 Owner owner_of_edge(const Association& association, const Mesh& mesh, const Edges& edges, const Faces& faces,
                     Index edge);
 Owner owner_of_face(const Association& association, const Faces& faces, Index face);
-/// Nodes whose owner is the entity; with closure also those of the entities that bound it (a surface's curves and
-/// vertices). Ascending.
+/// Nodes whose owner is the entity. Ascending.
 std::vector<Index> nodes_owned_by(const Association& association, Owner entity);
+/// The same and those of the entities that bound it (a surface's curves and vertices). Ascending.
 std::vector<Index> nodes_on(const Association& association, const Model& model, Owner entity);
 
 /// Distance of boundary nodes (owners of dimension 0..2) from their owners.
