@@ -72,24 +72,25 @@ Skin make_skin(const Mesh& mesh, const Faces& faces, std::span<const Index> sele
 
 SkinEdges make_edges(const Skin& skin) {
   struct Use {
-    Edge nodes;
+    std::uint64_t nodes;  // lower, higher
     Index quad;
-    auto operator<=>(const Use&) const = default;
+    bool operator<(const Use& other) const { return nodes != other.nodes ? nodes < other.nodes : quad < other.quad; }
   };
   std::vector<Use> uses(4 * skin.quads.size());
   parallel_ranges(skin.n_quads(), [&](Index begin, Index end) {
     for (Index q = begin; q < end; ++q)
       for (int i = 0; i < 4; ++i) {
         const auto [a, b] = std::minmax(skin.quads[q][i], skin.quads[q][(i + 1) % 4]);
-        uses[4 * q + i] = {{a, b}, q};
+        uses[4 * q + i] = {static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b), q};
       }
   });
   tbb::parallel_sort(uses.begin(), uses.end());
   SkinEdges edges;
   edges.quads.items.reserve(uses.size());
   for (const Use& use : uses) {
-    if (edges.nodes.empty() || edges.nodes.back() != use.nodes) {
-      edges.nodes.push_back(use.nodes);
+    const Edge nodes = {static_cast<Index>(use.nodes >> 32), static_cast<Index>(use.nodes & 0xffffffff)};
+    if (edges.nodes.empty() || edges.nodes.back() != nodes) {
+      edges.nodes.push_back(nodes);
       edges.quads.first.push_back(static_cast<Index>(edges.quads.items.size()));
     }
     edges.quads.items.push_back(use.quad);

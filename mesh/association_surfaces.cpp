@@ -206,24 +206,27 @@ SurfaceMatch match_surfaces(const ModelFacts& facts, const Skin& skin, std::span
 }
 
 std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const Faces& faces) {
+  double reach = 0;
+  for (const double t : facts.entity_tolerance[2]) reach = std::max(reach, t);
   std::vector<char> between(facts.surface_volumes.size() + 1, 0);
-  Box around;
+  std::vector<Box> boxes;
   for (std::size_t s = 0; s < facts.surface_volumes.size(); ++s)
     if (facts.surface_volumes[s].size() == 2) {
       between[s + 1] = 1;
-      around.add(facts.model.box(Owner{2, static_cast<int>(s + 1)}));
+      boxes.push_back(facts.model.box(Owner{2, static_cast<int>(s + 1)}));
+      boxes.back().min.array() -= reach;
+      boxes.back().max.array() += reach;
     }
-  if (around.empty()) return {};
-  double reach = 0;
-  for (const double t : facts.entity_tolerance[2]) reach = std::max(reach, t);
-  around.min.array() -= reach;
-  around.max.array() += reach;
+  if (boxes.empty()) return {};
+  // Asking the model is dear and most nodes are in no box.
   std::vector<char> near(mesh.points.size(), 0);
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     for (Index n = begin; n < end; ++n) {
       const Vec3& p = mesh.points[n];
-      if ((p.array() < around.min.array()).any() || (p.array() > around.max.array()).any()) continue;
-      for (const int s : facts.model.near(2, p, reach)) near[n] |= between[s];
+      if (std::ranges::any_of(boxes, [&](const Box& box) {
+            return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+          }))
+        for (const int s : facts.model.near(2, p, reach)) near[n] |= between[s];
     }
   });
   std::vector<Index> candidate_faces;
@@ -231,8 +234,7 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
     if (faces.sides[f][1].hex >= 0 && std::ranges::all_of(faces.nodes[f], [&](Index n) { return near[n]; }))
       candidate_faces.push_back(f);
   const Skin skin = make_skin(mesh, faces, candidate_faces);
-  Lists close = near_surfaces(facts, skin, [](Index) { return true; });
-  const Hits on = hits(facts, skin, close);
+  const Hits on = hits(facts, skin, near_surfaces(facts, skin, [](Index) { return true; }));
   std::vector<Candidate> candidates;
   for (Index q = 0; q < skin.n_quads(); ++q)
     for (const Candidate& candidate : common_surfaces(skin, on, q))
