@@ -101,7 +101,7 @@ Parted part_by_tags_or_geometry(const ModelFacts& facts, const Mesh& mesh, const
   if (!tags.hex_volume.empty()) {
     Parted parted = part(facts, mesh, faces, faces_between(faces, tags.hex_volume), tags);
     if (parted.problem.empty()) return parted;
-    notices.push_back("volume tags of hexes contradict the model (" + parted.problem + ") and were ignored");
+    notices.push_back("the geometry contradicts the volume tags: " + parted.problem + "; all ignored");
   }
   Parted parted = part(facts, mesh, faces, find_walls(facts, mesh, faces), tags);
   if (!parted.problem.empty()) throw Error(parted.problem);

@@ -14,7 +14,7 @@
 namespace hextwist {
 
 /// Guarantees of a complete association (one made by associate() or carried through a refinement):
-///  1. every node has an owner; nodes inside a volume are owned by it;
+///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex are owned by nobody;
 ///  2. curve_edges are exactly the mesh edges that lie on curves; every node of one is owned by the curve or by a
 ///     vertex of it;
 ///  3. surface_faces are exactly the boundary faces and the faces between different volumes; every node of one is

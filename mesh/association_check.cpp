@@ -76,8 +76,13 @@ class Checker {
 
   bool nodes() {
     const std::size_t before = lines_.size();
+    std::vector<char> used(mesh_.points.size(), 0);
+    for (const Hex& hex : mesh_.hexes)
+      for (const Index node : hex) used[node] = 1;
     for (Index n = 0; n < mesh_.n_nodes(); ++n)
-      if (!exists(association_.node_owner[n]))
+      if (!used[n] && association_.node_owner[n])
+        say(node_name(n) + " is of no hex, but owned by " + to_string(association_.node_owner[n]));
+      else if (used[n] && !exists(association_.node_owner[n]))
         say(node_name(n) + " is owned by " + to_string(association_.node_owner[n]) + ", which is not");
     return lines_.size() == before;
   }
@@ -192,7 +197,7 @@ class Checker {
     const double size = model_.box().diagonal();
     for (Index n = 0; n < mesh_.n_nodes(); ++n) {
       const Owner owner = association_.node_owner[n];
-      if (owner.dim == 3) continue;
+      if (owner.dim == 3 || !owner) continue;
       const Parameters at = association_.node_parameters[n];
       const Vec3 place = model_.point(owner, at);
       const double distance = (place - mesh_.points[n]).norm();

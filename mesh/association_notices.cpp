@@ -70,9 +70,10 @@ struct Overruled {
   void add(const std::string& text) {
     if (count++ == 0) first = text;
   }
-  void report(const char* what, std::vector<std::string>& notices) const {
+  void report(const char* kind, std::vector<std::string>& notices) const {
     if (count)
-      notices.push_back(std::to_string(count) + " " + what + " the geometry and were replaced (first: " + first + ")");
+      notices.push_back("the geometry contradicts " + std::to_string(count) + " " + kind + (count == 1 ? "" : "s") +
+                        ", replaced (first: " + first + ")");
   }
 };
 
@@ -201,10 +202,10 @@ void compare_with_tags(const Mesh& mesh, const Faces& faces, const Tags& tags, c
     if (association.node_owner[node] != Owner{0, tag})
       nodes.add("node " + std::to_string(node_id(mesh, node)) + ", tag " + std::to_string(tag) + ", on " +
                 to_string(association.node_owner[node]));
-  hexes.report("volume tags of hexes contradict", notices);
-  quads.report("surface tags of faces contradict", notices);
-  edges.report("curve tags of edges contradict", notices);
-  nodes.report("vertex tags of nodes contradict", notices);
+  hexes.report("volume tag", notices);
+  quads.report("surface tag", notices);
+  edges.report("curve tag", notices);
+  nodes.report("vertex tag", notices);
 }
 
 void notice_coverage(const ModelFacts& facts, const Mesh& mesh, const Association& association,

@@ -1,7 +1,9 @@
 // Real CAD with meshes that lie on it: .brep and .step, with tags and without.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
-#include <algorithm>
+#include <array>
+#include <bit>
 
 #include "hextwist/geom/occ_model.h"
 #include "hextwist/mesh/association.h"
@@ -129,6 +131,65 @@ INSTANTIATE_TEST_SUITE_P(pairs, association_on_cad,
                          testing::Values(Pair{"bracket_fillet", 1}, Pair{"cyl_ogrid", 5}, Pair{"plate_hole", 1},
                                          Pair{"ring_twist90", 3}, Pair{"sphere7", 7}, Pair{"two_material", 2}),
                          [](const auto& pair) { return std::string(pair.param.name); });
+
+TEST(association_on_other_cad, dangling_tags_are_named_and_change_nothing) {
+  const auto folder = test::data_folder();
+  if (folder.empty()) GTEST_SKIP() << "no shared data";
+  const MeshFile file = read_mesh(folder / "mesh" / "cad_component_hex.msh");
+  const auto model = read_cad(folder / "mesh" / "cad_component_hex.brep").model;
+  const auto by_tags = associate(file.mesh, *model, &file.tags);
+  const auto by_geometry = associate(file.mesh, *model, nullptr);
+  EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
+  EXPECT_EQ(check_association(file.mesh, by_tags.association, *model), std::vector<std::string>{});
+  EXPECT_TRUE(test::complete(file.mesh, by_tags.association, *model));
+  ASSERT_GE(by_tags.notices.size(), 2);
+  EXPECT_EQ(by_tags.notices[0], "the geometry contradicts 1 vertex tag, replaced (first: node 17, tag 17, on nothing)");
+  EXPECT_EQ(by_tags.notices[1], "1 surface has no face of the mesh: 23");
+}
+
+/// The models that come with the project.
+class association_on_models : public testing::TestWithParam<const char*> {};
+
+TEST_P(association_on_models, tags_and_geometry_agree) {
+  const auto stem = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models" / GetParam();
+  const MeshFile file = read_mesh(stem.string() + ".msh");
+  for (const char* extension : {".brep", ".step"}) {
+    const auto model = read_cad(stem.string() + extension, {.glue = true}).model;
+    const auto by_tags = associate(file.mesh, *model, &file.tags);
+    const auto by_geometry = associate(file.mesh, *model, nullptr);
+    EXPECT_EQ(by_geometry.notices, std::vector<std::string>{});
+    EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
+    EXPECT_TRUE(test::complete(file.mesh, by_tags.association, *model));
+    EXPECT_TRUE(test::on_model(file.mesh, by_tags.association, *model, 1e-7));
+    EXPECT_EQ(check_association(file.mesh, by_tags.association, *model), std::vector<std::string>{});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(all, association_on_models,
+                         testing::Values("bracket", "bracket_fillet", "cam", "curved_plate", "cylinder", "inclusion",
+                                         "l_block", "notched_cube", "pipe_tee", "plate_hole", "plate_quarter",
+                                         "ring_twist", "sphere"),
+                         [](const auto& model) { return std::string(model.param); });
+
+TEST(association_threads, their_number_changes_nothing) {
+  const auto stem = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models" / "inclusion";
+  const Mesh mesh = read_mesh(stem.string() + ".msh").mesh;
+  const auto model = read_cad(stem.string() + ".brep").model;
+  std::vector<AssociateResult> results;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(associate(mesh, *model, nullptr));
+  }
+  for (const auto& result : results) {
+    EXPECT_TRUE(test::same_owners(result.association, results[0].association));
+    EXPECT_EQ(result.worst_node, results[0].worst_node);
+    EXPECT_EQ(result.max_distance, results[0].max_distance);
+    for (Index n = 0; n < mesh.n_nodes(); ++n) {
+      const auto bits = [](const Parameters& p) { return std::bit_cast<std::array<std::uint64_t, 2>>(p); };
+      EXPECT_EQ(bits(result.association.node_parameters[n]), bits(results[0].association.node_parameters[n]));
+    }
+  }
+}
 
 }  // namespace
 }  // namespace hextwist

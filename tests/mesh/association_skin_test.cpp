@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hextwist/mesh/association.h"
+#include "hextwist/mesh/io.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 
@@ -52,6 +53,25 @@ TEST(own_skin, the_mesh_lies_on_it_by_geometry_alone) {
     EXPECT_EQ(again.notices, std::vector<std::string>{});
   }
 }
+
+class own_skin_of_file : public testing::TestWithParam<const char*> {};
+
+TEST_P(own_skin_of_file, is_a_complete_model) {
+  const auto folder = test::data_folder();
+  if (folder.empty()) GTEST_SKIP() << "no shared data";
+  const auto file = folder / GetParam();
+  if (readable_extensions().find(file.extension().string()) == std::string::npos) GTEST_SKIP() << "no such reader";
+  const Mesh mesh = read_mesh(file).mesh;
+  for (const double angle : {10.0, 35.0, 80.0}) expect_good(mesh, associate_with_own_skin(mesh, {angle}));
+}
+
+INSTANTIATE_TEST_SUITE_P(real, own_skin_of_file,
+                         testing::Values("mesh/hole_3d_cubit.inp", "mesh/mastodon_model_1.e",
+                                         "mesh/cad_component_hex.msh", "mesh/moebius_rot1_r1.vtk",
+                                         "mesh/hyper_ball_balanced_r1.vtk", "mesh/pipe_junction_Y_r1.msh",
+                                         "mesh/teaport_14941.mesh", "mesh/swivel2_7494.mesh",
+                                         "cad/bracket_fillet_1k.msh", "cad/cyl_ogrid_1k.msh", "cad/plate_hole_1k.msh",
+                                         "cad/ring_twist90_1k.msh", "cad/sphere7_1k.msh", "cad/two_material_1k.msh"));
 
 TEST(own_skin, a_mesh_without_hexes_is_refused) {
   EXPECT_THROW(associate_with_own_skin(Mesh{}), Error);

@@ -8,9 +8,9 @@
 
 namespace hextwist::test {
 
-/// Every node has an owner that exists; owners of dimension 0..2 are within relative_tolerance (of the model size) of
-/// the node, found by projecting each from nowhere, and so is the place that its parameters name; nodes owned by a
-/// volume lie in it.
+/// Every node of a hex has an owner that exists; owners of dimension 0..2 are within relative_tolerance (of the model
+/// size) of the node, found by projecting each from nowhere, and so is the place that its parameters name; nodes owned
+/// by a volume lie in it.
 testing::AssertionResult on_model(const Mesh& mesh, const Association& association, const Model& model,
                                   double relative_tolerance);
 
