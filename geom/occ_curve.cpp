@@ -2,10 +2,10 @@
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <ElCLib.hxx>
-#include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_Ellipse.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TopExp.hxx>
@@ -30,6 +30,15 @@ double segment_fraction(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+Handle(Geom_Curve) simplified(Handle(Geom_Curve) curve) {
+  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve)) curve = trimmed->BasisCurve();
+  if (const auto ellipse = Handle(Geom_Ellipse)::DownCast(curve)) {
+    const double a = ellipse->MajorRadius(), b = ellipse->MinorRadius();
+    if (a - b <= 1e-14 * a) return new Geom_Circle(ellipse->Position(), a);
+  }
+  return curve;
+}
+
 Curve::Curve(const TopoDS_Edge& edge) : tolerance_(BRep_Tool::Tolerance(edge)) {
   TopoDS_Vertex first_vertex, last_vertex;
   TopExp::Vertices(edge, first_vertex, last_vertex);
@@ -42,7 +51,7 @@ Curve::Curve(const TopoDS_Edge& edge) : tolerance_(BRep_Tool::Tolerance(edge)) {
     if (!first_vertex.IsNull()) vertex_ = from_occ(BRep_Tool::Pnt(first_vertex));
     return;
   }
-  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve_)) curve_ = trimmed->BasisCurve();
+  curve_ = simplified(curve_);
   kind_ = GeomAdaptor_Curve(curve_).GetType();
   range_ = {first, last, 0};
   const Vec3 start = point(first), end = point(last);
@@ -83,11 +92,6 @@ Vec3 Curve::point(double t) const {
 
 Vec3 Curve::derivative(double t) const {
   return degenerate() ? Vec3::Zero() : from_occ(curve_->DN(t, 1));
-}
-
-double Curve::length() const {
-  if (degenerate()) return 0;
-  return GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve_), range_.first, range_.last, 1e-10 * scale_);
 }
 
 double Curve::into_range(double t) const {
@@ -171,10 +175,10 @@ CurveFoot Curve::descend(const Evaluator& evaluator, const Vec3& p, double t) co
     const double full = speed2 + from_occ(d2).dot(r);
     const bool convex = full > 0.1 * speed2;
     double step = -gradient / (convex ? full : speed2);
-    bool moved = false, last = false;
+    const double noise = 8 * resolution * (std::sqrt(value) + resolution);  // of the value
+    bool moved = false;
     for (int halving = 0; halving < 40 && !moved; ++halving, step /= 2) {
-      last = std::abs(step) * std::sqrt(speed2) <= resolution;
-      if (last) break;
+      if (std::abs(step) * std::sqrt(speed2) <= resolution) break;
       const double next = into_range(t + step);
       if (next == t) break;
       gp_Pnt next_c;
@@ -182,7 +186,7 @@ CurveFoot Curve::descend(const Evaluator& evaluator, const Vec3& p, double t) co
       evaluator.D2(next, next_c, next_d1, next_d2);
       const Vec3 next_r = from_occ(next_c) - p, next_tangent = from_occ(next_d1);
       const bool falls = next_r.squaredNorm() < value;
-      const bool flattens = convex && next_r.squaredNorm() <= value * (1 + 8 * rounding) &&
+      const bool flattens = convex && next_r.squaredNorm() <= value + noise &&
                             std::abs(next_tangent.dot(next_r)) < 0.5 * std::abs(gradient);
       if (!falls && !flattens) continue;
       t = next;

@@ -22,6 +22,9 @@ inline Vec3 from_occ(const gp_Vec& p) {
   return {p.X(), p.Y(), p.Z()};
 }
 
+/// The curve without trimming, an ellipse of equal radii as a circle: same parameters, simpler type.
+Handle(Geom_Curve) simplified(Handle(Geom_Curve) curve);
+
 /// A place on a curve and its distance from the point that was asked about.
 struct CurveFoot {
   double t = 0;
@@ -43,6 +46,7 @@ class Curve {
   /// First derivative, zero on a degenerate edge.
   Vec3 derivative(double t) const;
   double length() const;
+  Box box() const;
 
   /// seeds as in Model::project.
   void project(std::span<const Vec3> points, std::span<const Parameters> seeds, std::span<Projection> out) const;

@@ -6,6 +6,8 @@
 #include <IGESControl_Reader.hxx>
 #include <IGESControl_Writer.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -17,6 +19,7 @@
 #include <StepBasic_Product.hxx>
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
+#include <StepData_StepModel.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -31,6 +34,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "hextwist/geom/cad_text_internal.h"
 #include "hextwist/geom/occ_heal_internal.h"
 #include "hextwist/geom/occ_model.h"
 #include "hextwist/geom/occ_model_internal.h"
@@ -61,41 +65,17 @@ class Silence {
   Message_SequenceOfPrinters printers_;
 };
 
-enum class Format { unknown, step, brep, iges };
-
 std::string lower(std::string s) {
   std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return s;
 }
 
-Format format_by_extension(const std::filesystem::path& file) {
+CadFormat format_by_extension(const std::filesystem::path& file) {
   const std::string ext = lower(file.extension().string());
-  if (ext == ".step" || ext == ".stp") return Format::step;
-  if (ext == ".brep" || ext == ".brp") return Format::brep;
-  if (ext == ".iges" || ext == ".igs") return Format::iges;
-  return Format::unknown;
-}
-
-Format format_by_content(const std::string& text) {
-  const std::string head = text.substr(0, 400);
-  if (head.find("ISO-10303-21") != std::string::npos) return Format::step;
-  if (head.find("CASCADE Topology V") != std::string::npos) return Format::brep;
-  // An IGES line has 80 columns, the 73rd its section letter.
-  if (text.size() > 80 && (text[72] == 'S' || text[72] == 'C' || text[72] == 'B')) return Format::iges;
-  return Format::unknown;
-}
-
-const char* format_name(Format format) {
-  switch (format) {
-    case Format::step:
-      return "STEP";
-    case Format::brep:
-      return "BREP";
-    case Format::iges:
-      return "IGES";
-    default:
-      return "CAD";
-  }
+  if (ext == ".step" || ext == ".stp") return CadFormat::step;
+  if (ext == ".brep" || ext == ".brp") return CadFormat::brep;
+  if (ext == ".iges" || ext == ".igs") return CadFormat::iges;
+  return CadFormat::unknown;
 }
 
 std::string contents(const std::filesystem::path& file) {
@@ -110,27 +90,6 @@ std::string contents(const std::filesystem::path& file) {
   std::string result = std::move(text).str();
   if (result.find_first_not_of(" \t\r\n") == std::string::npos) throw Error(file.string() + ": the file is empty");
   return result;
-}
-
-// OpenCASCADE accepts files that end early, in part or with garbage, so their ends are checked here.
-void check_complete(const std::filesystem::path& file, Format format, const std::string& text) {
-  const std::string tail = text.substr(text.size() - std::min<std::size_t>(text.size(), 2000));
-  bool complete = true;
-  if (format == Format::step) {
-    complete = tail.find("END-ISO-10303-21") != std::string::npos;
-  } else if (format == Format::iges) {
-    std::size_t end = text.find_last_not_of(" \t\r\n");
-    const std::size_t line = text.rfind('\n', end);
-    const std::size_t start = line == std::string::npos ? 0 : line + 1;
-    complete = end - start >= 72 && text[start + 72] == 'T';
-  } else {
-    // After the list of shapes comes one line with the reference of the root: "+1 0".
-    const std::size_t end = tail.find_last_not_of(" \t\r\n");
-    const std::size_t star = tail.rfind('*');
-    complete = star != std::string::npos && end != std::string::npos && end > star &&
-               tail.find("+", star) != std::string::npos;
-  }
-  if (!complete) throw Error(file.string() + ": the " + format_name(format) + " file is truncated: its end is missing");
 }
 
 std::string to_string(const Handle(TCollection_HAsciiString) & s) {
@@ -174,12 +133,27 @@ void collect_names(const STEPControl_Reader& reader, occ::ShapeNames& names) {
   }
 }
 
+// OpenCASCADE goes on with entities that it could not read and may crash on them.
+void refuse_unreadable_geometry(const STEPControl_Reader& reader, const std::filesystem::path& file) {
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList(true);
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    if (!check->HasFailed() || check->Entity().IsNull()) continue;
+    const std::string kind = check->Entity()->DynamicType()->Name();
+    if (kind.rfind("StepGeom_", 0) != 0 && kind.rfind("StepShape_", 0) != 0) continue;
+    throw Error(file.string() + ": the STEP file is damaged: #" +
+                std::to_string(reader.StepModel()->IdentLabel(check->Entity())) + " cannot be read (" +
+                check->CFail(1) + ")");
+  }
+}
+
 Part read_step(const std::filesystem::path& file) {
   Part part;
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   STEPControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) throw Error(file.string() + ": not a valid STEP file");
+  refuse_unreadable_geometry(reader, file);
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   if (!lengths.IsEmpty()) {
@@ -204,7 +178,7 @@ Part read_iges(const std::filesystem::path& file) {
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
   if (!model.IsNull()) {
     const std::string unit = to_string(model->GlobalSection().UnitName());
-    if (!unit.empty() && unit != "MM") part.notices.push_back("lengths converted from " + unit + " to MM");
+    if (!unit.empty() && unit != "MM") part.notices.push_back("lengths converted from " + unit + " to millimetre");
   }
   reader.TransferRoots();
   if (reader.NbShapes() == 0) throw Error(file.string() + ": the IGES file holds no shape");
@@ -255,18 +229,19 @@ auto guarded(const std::string& what, const Function& function) {
 
 CadImport read_cad(const std::filesystem::path& file, const CadOptions& options) {
   const std::string text = contents(file);
-  Format format = format_by_extension(file);
-  const Format content = format_by_content(text);
-  if (format == Format::unknown) format = content;
-  if (format == Format::unknown) throw Error(file.string() + ": not a STEP, BREP or IGES file");
-  if (content != format) throw Error(file.string() + ": not a " + format_name(format) + " file");
-  check_complete(file, format, text);
+  CadFormat format = format_by_extension(file);
+  const CadFormat content = format_by_content(text);
+  if (format == CadFormat::unknown) format = content;
+  if (format == CadFormat::unknown) throw Error(file.string() + ": not a STEP, BREP or IGES file");
+  if (content != format)
+    throw Error(file.string() + ": not " + (format == CadFormat::iges ? "an " : "a ") + format_name(format) + " file");
+  if (const std::string defect = text_defect(format, text); !defect.empty()) throw Error(file.string() + ": " + defect);
   return guarded(file.string(), [&] {
     const std::lock_guard lock(occ_files());
     const Silence silence;
-    Part part = format == Format::step   ? read_step(file)
-                : format == Format::iges ? read_iges(file)
-                                         : read_brep(file, text);
+    Part part = format == CadFormat::step   ? read_step(file)
+                : format == CadFormat::iges ? read_iges(file)
+                                            : read_brep(file, text);
     return finish(std::move(part), options, file.string());
   });
 }
@@ -316,16 +291,16 @@ bool write_iges(const std::filesystem::path& file, const OccModel& model) {
 void write_cad(const std::filesystem::path& file, const Model& model) {
   const auto* occ_model = dynamic_cast<const OccModel*>(&model);
   if (!occ_model) throw Error(file.string() + ": this model has no CAD shape to write");
-  const Format format = format_by_extension(file);
-  if (format == Format::unknown) throw Error(file.string() + ": CAD is written as .step, .brep or .iges");
+  const CadFormat format = format_by_extension(file);
+  if (format == CadFormat::unknown) throw Error(file.string() + ": CAD is written as .step, .brep or .iges");
   std::filesystem::path temporary = file;
   temporary += ".part";
   std::error_code code;
   const bool written = guarded(file.string(), [&] {
     const std::lock_guard lock(occ_files());
     const Silence silence;
-    if (format == Format::step) return write_step(temporary, *occ_model);
-    if (format == Format::iges) return write_iges(temporary, *occ_model);
+    if (format == CadFormat::step) return write_step(temporary, *occ_model);
+    if (format == CadFormat::iges) return write_iges(temporary, *occ_model);
     std::ofstream out(temporary);
     BRepTools::Write(occ_model->shape(), out);
     out.close();

@@ -1,12 +1,8 @@
 // Topology, measures and the Model interface over an OpenCASCADE shape.
 #include "hextwist/geom/occ_model.h"
 
-#include <BRepBndLib.hxx>
-#include <BRepGProp.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -57,17 +53,6 @@ std::vector<Boundary> boundaries(const TopoDS_Face& oriented, const TopTools_Ind
     }
   }
   return result;
-}
-
-Box occ_box(const TopoDS_Shape& shape) {
-  Bnd_Box bounds;
-  BRepBndLib::AddOptimal(shape, bounds, false, false);
-  Box box;
-  if (bounds.IsVoid()) return box;
-  const double gap = bounds.GetGap();
-  box.add(from_occ(bounds.CornerMin()) + Vec3::Constant(gap));
-  box.add(from_occ(bounds.CornerMax()) - Vec3::Constant(gap));
-  return box;
 }
 
 }  // namespace
@@ -155,10 +140,10 @@ const std::vector<Box>& OccModel::boxes(int dim) const {
       Box& box = boxes[index(id)];
       if (dim == 0) {
         box.add(vertices_[index(id)]);
-      } else if (dim == 1 && curves_[index(id)]->degenerate()) {
-        box.add(curves_[index(id)]->point(0));
-      } else if (dim < 3) {
-        box = occ_box(maps_[slot(dim)](id));
+      } else if (dim == 1) {
+        box = curves_[index(id)]->box();
+      } else if (dim == 2) {
+        box = surfaces_[index(id)]->box();
       } else {
         for (const int surface : adjacent({3, id}, 2)) box.add(this->boxes(2)[index(surface)]);
       }
@@ -184,19 +169,24 @@ Box OccModel::box() const {
 }
 
 double OccModel::signed_volume(int volume) const {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(maps_[3](volume), properties, 1e-9);
-  return properties.Mass();
+  double sum = 0;
+  const Vec3 origin = surfaces_.empty() ? Vec3::Zero() : surfaces_[0]->integrals().origin;
+  for (TopExp_Explorer faces(maps_[3](volume), TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopAbs_Orientation sense = faces.Current().Orientation();
+    if (sense != TopAbs_FORWARD && sense != TopAbs_REVERSED) continue;  // a face inside the solid bounds nothing
+    const FaceIntegrals& face = surfaces_[index(maps_[2].FindIndex(faces.Current()))]->integrals();
+    const double part = face.cone_volume + (face.origin - origin).dot(face.vector_area) / 3;
+    sum += sense == TopAbs_FORWARD ? part : -part;
+  }
+  return sum;
 }
 
 double OccModel::compute_measure(Owner owner) const {
-  GProp_GProps properties;
   switch (owner.dim) {
     case 1:
       return curves_[index(owner.id)]->length();
     case 2:
-      BRepGProp::SurfaceProperties(entity(owner), properties, 1e-9);
-      return std::abs(properties.Mass());
+      return surfaces_[index(owner.id)]->integrals().area;
     case 3:
       return std::abs(signed_volume(owner.id));
     default:
@@ -264,26 +254,28 @@ Vec3 OccModel::tangent(int curve, double t) const {
 }
 
 // A face's orientation says on which side its material is, provided that the solid is not inside out.
-const std::vector<char>& OccModel::flipped() const {
-  std::call_once(flipped_made_, [this] {
-    std::vector<char> flipped(static_cast<std::size_t>(count(2)));
-    for (int id = 1; id <= count(2); ++id) flipped[index(id)] = maps_[2](id).Orientation() == TopAbs_REVERSED;
+const OccModel::Sides& OccModel::sides() const {
+  std::call_once(sides_made_, [this] {
+    Sides sides;
+    for (int id = 1; id <= count(2); ++id) sides.flipped.push_back(maps_[2](id).Orientation() == TopAbs_REVERSED);
+    sides.inside_out.resize(static_cast<std::size_t>(count(3)));
     for (int volume = count(3); volume >= 1; --volume) {  // the lowest id has the last word
       const bool inside_out = signed_volume(volume) < 0;
+      sides.inside_out[index(volume)] = inside_out;
       for (TopExp_Explorer faces(maps_[3](volume), TopAbs_FACE); faces.More(); faces.Next()) {
         const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
-        flipped[index(maps_[2].FindIndex(faces.Current()))] = reversed != inside_out;
+        sides.flipped[index(maps_[2].FindIndex(faces.Current()))] = reversed != inside_out;
       }
     }
-    flipped_ = std::move(flipped);
+    sides_ = std::move(sides);
   });
-  return flipped_;
+  return sides_;
 }
 
 Vec3 OccModel::normal(int surface, Parameters at) const {
   entity({2, surface});
   const Vec3 n = surfaces_[index(surface)]->normal(at.u, at.v);
-  return flipped()[index(surface)] ? Vec3(-n) : n;
+  return sides().flipped[index(surface)] ? Vec3(-n) : n;
 }
 
 void OccModel::project(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
@@ -328,7 +320,11 @@ bool OccModel::contains(int volume, const Vec3& p) const {
       pool.idle.pop_back();
     }
   }
-  if (!classifier) classifier = std::make_unique<BRepClass3d_SolidClassifier>(maps_[3](volume));
+  if (!classifier) {
+    const TopoDS_Shape& solid = maps_[3](volume);
+    const bool reverse = sides().inside_out[index(volume)];
+    classifier = std::make_unique<BRepClass3d_SolidClassifier>(reverse ? solid.Reversed() : solid);
+  }
   classifier->Perform(to_occ(p), slack);
   const bool inside = classifier->State() == TopAbs_IN || classifier->State() == TopAbs_ON;
   const std::lock_guard lock(pool.mutex);

@@ -56,12 +56,17 @@ class OccModel final : public Model {
     std::vector<std::unique_ptr<BRepClass3d_SolidClassifier>> idle;
   };
 
+  struct Sides {
+    std::vector<char> inside_out;  // per volume: its faces' orientations say that it is everything but itself
+    std::vector<char> flipped;     // per surface: the normal of its parameters points into its (first) volume
+  };
+
   const TopoDS_Shape& entity(Owner owner) const;
   void build_adjacency();
   double compute_measure(Owner entity) const;
   double signed_volume(int volume) const;
   const std::vector<Box>& boxes(int dim) const;
-  const std::vector<char>& flipped() const;
+  const Sides& sides() const;
 
   TopoDS_Shape shape_;
   Names names_;
@@ -74,8 +79,8 @@ class OccModel final : public Model {
   mutable std::array<std::once_flag, 4> boxes_made_;
   mutable std::array<std::vector<Box>, 4> boxes_;
   mutable std::array<std::vector<std::atomic<double>>, 4> measures_;  // NaN until asked for
-  mutable std::once_flag flipped_made_;
-  mutable std::vector<char> flipped_;  // per surface: natural normal points into its (first) volume
+  mutable std::once_flag sides_made_;
+  mutable Sides sides_;
   mutable std::vector<Classifiers> classifiers_;
 };
 

@@ -14,7 +14,6 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_ToroidalSurface.hxx>
-#include <Geom_TrimmedCurve.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
@@ -60,9 +59,7 @@ Handle(Geom_Surface) simplified(Handle(Geom_Surface) surface) {
     surface = trimmed->BasisSurface();
   }
   if (const auto extrusion = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface)) {
-    Handle(Geom_Curve) basis = extrusion->BasisCurve();
-    while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(basis)) basis = trimmed->BasisCurve();
-    if (const auto circle = Handle(Geom_Circle)::DownCast(basis)) {
+    if (const auto circle = Handle(Geom_Circle)::DownCast(occ::simplified(extrusion->BasisCurve()))) {
       const gp_Ax2 axes = circle->Position();
       if (extrusion->Direction().IsParallel(axes.Direction(), 1e-12)) {
         gp_Ax3 frame(axes);
@@ -305,16 +302,6 @@ double Surface::slack() const {
   return has_closed_form() ? 0 : tessellation().deflection;
 }
 
-// A side of the parameter rectangle that is a single point: one parameter means nothing there.
-bool Surface::singular(double u, double v) const {
-  gp_Pnt p;
-  gp_Vec su, sv;
-  surface_->D1(u, v, p, su, sv);
-  const Range ru = trim_->u(), rv = trim_->v();
-  const double a = su.Magnitude() * (ru.max - ru.min), b = sv.Magnitude() * (rv.max - rv.min);
-  return std::min(a, b) <= 1e-6 * std::max(a, b);
-}
-
 // Minimises |S(u, v) - p|^2 / 2 like Curve::descend. A parameter at its bound stays there while it is pushed out.
 template <class Evaluator>
 SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u, double v) const {
@@ -364,9 +351,10 @@ SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u
     }
     const double gradient =
         std::max(s.gu * s.gu / (a0 > 0 ? a0 : 1) * free_u, s.gv * s.gv / (c0 > 0 ? c0 : 1) * free_v);
+    const double noise = 8 * resolution * (std::sqrt(s.value) + resolution);  // of the value
     bool moved = false;
     for (int halving = 0; halving < 40 && !moved; ++halving, du /= 2, dv /= 2) {
-      if (du * du * a0 + dv * dv * c0 <= resolution * resolution) break;
+      if (du * du * a0 + dv * dv * c0 <= 4 * resolution * resolution) break;
       double next_u = s.u + du, next_v = s.v + dv;
       into_range(next_u, next_v);
       if (next_u == s.u && next_v == s.v) break;
@@ -374,21 +362,25 @@ SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u
       const bool falls = next.value < s.value;
       const double next_gradient =
           std::max(next.gu * next.gu / (a0 > 0 ? a0 : 1) * free_u, next.gv * next.gv / (c0 > 0 ? c0 : 1) * free_v);
-      const bool flattens = convex && next.value <= s.value * (1 + 8 * rounding) && next_gradient < 0.25 * gradient;
+      const bool flattens = convex && next.value <= s.value + noise && next_gradient < 0.25 * gradient;
       if (!falls && !flattens) continue;
       s = next;
       moved = true;
     }
     if (!moved) break;
   }
-  return {s.u, s.v, s.r + p, std::sqrt(s.value)};
+  SurfaceFoot foot{s.u, s.v, s.r + p, std::sqrt(s.value)};
+  const Range ru = trim_->u(), rv = trim_->v();
+  const double a = s.su.norm() * (ru.max - ru.min), b = s.sv.norm() * (rv.max - rv.min);
+  foot.singular = std::min(a, b) <= 1e-6 * std::max(a, b);
+  return foot;
 }
 
 template <class Evaluator>
 SurfaceFoot Surface::find(const Evaluator& evaluator, const Vec3& p, const Parameters& seed) const {
   if (std::isfinite(seed.u) && std::isfinite(seed.v)) {
     const SurfaceFoot foot = descend(evaluator, p, seed.u, seed.v);
-    if (trim_->inside(foot.u, foot.v) && !singular(foot.u, foot.v)) return foot;
+    if (trim_->inside(foot.u, foot.v) && !foot.singular) return foot;
   }
   const Tessellation& tess = tessellation();
   thread_local std::vector<NearTriangle> near;
@@ -436,7 +428,7 @@ SurfaceFoot Surface::find(const Evaluator& evaluator, const Vec3& p, const Param
     }
     auto uv = start(near[i], near[i].weights);
     SurfaceFoot foot = descend(evaluator, p, uv[0], uv[1]);
-    if (singular(foot.u, foot.v)) {
+    if (foot.singular) {
       // All directions leave from here, but only one was tried.
       for (std::size_t k = 0; k < patch.size() && k < 64; ++k) {
         uv = start(near[patch[k]], Vec3(1, 1, 1) / 3);

@@ -15,11 +15,21 @@
 
 namespace hextwist::occ {
 
+/// Integrals over a face whose normal is that of its surface: area, vector area, and a third of the flux of
+/// (x - origin), which summed over the faces of a solid is its volume.
+struct FaceIntegrals {
+  Vec3 origin = Vec3::Zero();
+  Vec3 vector_area = Vec3::Zero();
+  double area = 0;
+  double cone_volume = 0;
+};
+
 struct SurfaceFoot {
   double u = 0;
   double v = 0;
   Vec3 point = Vec3::Zero();
   double distance = std::numeric_limits<double>::infinity();
+  bool singular = false;  // on a side of the parameter rectangle that is a single point
 };
 
 class Surface {
@@ -32,6 +42,9 @@ class Surface {
   Vec3 point(double u, double v) const { return from_occ(surface_->Value(u, v)); }
   /// Unit vector along dS/du x dS/dv; its limit where that vanishes; zero where there is no limit (tip of a cone).
   Vec3 normal(double u, double v) const;
+
+  Box box() const;
+  const FaceIntegrals& integrals() const;
 
   /// seeds as in Model::project.
   void project(std::span<const Vec3> points, std::span<const Parameters> seeds, std::span<Projection> out) const;
@@ -50,11 +63,11 @@ class Surface {
   bool has_closed_form() const;
   const Tessellation& tessellation() const;
   Tessellation tessellate() const;
+  FaceIntegrals integrate() const;
   void into_range(double& u, double& v) const;
   SurfaceFoot at(double u, double v, const Vec3& p) const;
   int closed_form(const Vec3& p, SurfaceFoot (&feet)[2]) const;
   SurfaceFoot closest_on_boundary(const Vec3& p) const;
-  bool singular(double u, double v) const;
   SurfaceFoot find_closed_form(const Vec3& p) const;
   template <class Evaluator>
   SurfaceFoot descend(const Evaluator& evaluator, const Vec3& p, double u, double v) const;
@@ -75,6 +88,8 @@ class Surface {
 
   mutable std::once_flag tessellated_;
   mutable Tessellation tessellation_;
+  mutable std::once_flag integrated_;
+  mutable FaceIntegrals integrals_;
 };
 
 }  // namespace hextwist::occ

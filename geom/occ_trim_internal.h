@@ -39,6 +39,8 @@ class Trim {
   const std::vector<Boundary>& boundaries() const { return boundaries_; }
   Range u() const { return u_; }
   Range v() const { return v_; }
+  /// The boundary's curves follow each other without gaps worth mentioning.
+  bool closed() const { return ordered_; }
   /// (u, v) must have been brought into the range where the surface is periodic.
   bool inside(double u, double v) const;
 

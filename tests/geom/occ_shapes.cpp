@@ -23,6 +23,8 @@
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TColgp_Array1OfPnt.hxx>
@@ -172,6 +174,9 @@ CadImport OccShape::import(const CadOptions& options) const {
 }
 
 void OccShape::write(const std::filesystem::path& file, const std::string& unit) const {
+  const Handle(Message_Messenger) messenger = Message::DefaultMessenger();
+  const Message_SequenceOfPrinters printers = messenger->Printers();
+  messenger->ChangePrinters().Clear();
   const std::string ext = file.extension().string();
   if (ext == ".brep") {
     BRepTools::Write(impl_->shape, file.c_str());
@@ -189,6 +194,7 @@ void OccShape::write(const std::filesystem::path& file, const std::string& unit)
     writer.Write(file.c_str());
     Interface_Static::SetCVal("write.step.unit", "MM");
   }
+  messenger->ChangePrinters() = printers;
 }
 
 double OccShape::distance(Owner entity, const Vec3& p) const {
