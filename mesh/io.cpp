@@ -5,15 +5,38 @@
 namespace hextwist {
 namespace {
 
+template <MeshFile (*read)(const io::Bytes&)>
+MeshFile read_whole(const std::filesystem::path& file) {
+  return read(io::read_bytes(file));
+}
+
+template <void (*write)(io::Output&, const Mesh&, const Association&, const WriteOptions&)>
+void write_whole(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
+                 const WriteOptions& options) {
+  io::Output out(file, options.overwrite);
+  write(out, mesh, association, options);
+  out.commit();
+}
+
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&,
+                  const WriteOptions& options) {
+  io::write_exodus(file, mesh, options);
+}
+
 struct Format {
   std::string_view extension;
-  MeshFile (*read)(const io::Bytes&);
-  void (*write)(io::Output&, const Mesh&, const Association&, const WriteOptions&);
+  MeshFile (*read)(const std::filesystem::path&);
+  void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&);
 };
 
 constexpr Format formats[] = {
-    {".msh", io::read_gmsh, io::write_gmsh},
-    {".vtu", nullptr, io::write_vtu},
+    {".msh", read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
+    {".e", io::read_exodus, write_exodus},
+    {".exo", io::read_exodus, write_exodus},
+    {".g", io::read_exodus, write_exodus},
+    {".gen", io::read_exodus, write_exodus},
+    {".mesh", read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".vtu", nullptr, write_whole<io::write_vtu>},
 };
 
 const Format* format_of(const std::filesystem::path& file) {
@@ -45,7 +68,7 @@ MeshFile read_mesh(const std::filesystem::path& file) {
   const Format* format = format_of(file);
   if (!format || !format->read)
     throw Error(file.string() + ": meshes of this kind cannot be read; known are " + readable_extensions());
-  return format->read(io::read_bytes(file));
+  return format->read(file);
 }
 
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
@@ -54,10 +77,8 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Assoc
   if (!format || !format->write)
     throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
   static const Association nothing;
-  io::Output out(file, options.overwrite);
   try {
-    format->write(out, mesh, association ? *association : nothing, options);
-    out.commit();
+    format->write(file, mesh, association ? *association : nothing, options);
   } catch (const Error& error) {
     // Reasons that lie in the mesh do not know the file's name.
     const std::string what = error.what();

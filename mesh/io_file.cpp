@@ -18,32 +18,48 @@ std::string reason(int error) {
 
 }  // namespace
 
-Bytes read_bytes(const std::filesystem::path& file) {
-  Bytes bytes;
-  bytes.name = file.string();
-  const auto fail = [&](const std::string& what) { throw Error(bytes.name + ": " + what); };
-  struct Descriptor {
-    int number;
-    ~Descriptor() {
-      if (number >= 0) ::close(number);
+namespace {
+
+/// An ordinary file, open for reading.
+struct Input {
+  int descriptor;
+  std::size_t size = 0;
+
+  explicit Input(const std::filesystem::path& file) : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    const std::string name = file.string();
+    if (descriptor < 0) throw Error(name + ": cannot be opened: " + reason(errno));
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) status.st_mode = 0;
+    const char* wrong = S_ISDIR(status.st_mode) ? "is a folder" : "is not an ordinary file";
+    if (S_ISREG(status.st_mode)) wrong = status.st_size == 0 ? "is empty" : nullptr;
+    if (wrong) {
+      ::close(descriptor);
+      throw Error(name + ": " + wrong);
     }
-  } const input{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (input.number < 0) fail("cannot be opened: " + reason(errno));
-  struct stat status {};
-  if (::fstat(input.number, &status) != 0) fail("cannot be read: " + reason(errno));
-  if (S_ISDIR(status.st_mode)) fail("is a folder");
-  if (!S_ISREG(status.st_mode)) fail("is not an ordinary file");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  bytes.data = std::make_unique_for_overwrite<char[]>(size + 1);
-  while (bytes.size < size) {
-    const auto n = ::read(input.number, bytes.data.get() + bytes.size, size - bytes.size);
+    size = static_cast<std::size_t>(status.st_size);
+  }
+  ~Input() { ::close(descriptor); }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+};
+
+}  // namespace
+
+Bytes read_bytes(const std::filesystem::path& file) {
+  const Input input(file);
+  Bytes bytes{file.string(), std::make_unique_for_overwrite<char[]>(input.size), 0};
+  while (bytes.size < input.size) {
+    const auto n = ::read(input.descriptor, bytes.data.get() + bytes.size, input.size - bytes.size);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("cannot be read: " + reason(errno));
+    if (n < 0) throw Error(bytes.name + ": cannot be read: " + reason(errno));
     if (n == 0) break;
     bytes.size += static_cast<std::size_t>(n);
   }
-  if (bytes.size == 0) fail("is empty");
   return bytes;
+}
+
+void check_readable(const std::filesystem::path& file) {
+  Input{file};
 }
 
 Replacement::Replacement(const std::filesystem::path& file, bool overwrite)

@@ -24,6 +24,9 @@ struct Bytes {
 /// Reads a whole file. Throws Error when it is missing, a folder, unreadable or empty.
 Bytes read_bytes(const std::filesystem::path& file);
 
+/// Throws the same Errors for a file that a library will read.
+void check_readable(const std::filesystem::path& file);
+
 /// The file that is written in place of another one: a temporary name in the same folder that commit() renames, and
 /// the destructor removes when commit() was not reached. Links are followed; what is no ordinary file (a device, a
 /// pipe) is written directly.

@@ -173,28 +173,17 @@ class Assembly {
       for (const auto tag : in_.elements[dim].tags) lowest_other = std::min(lowest_other, tag);
     const auto highest = std::ranges::max(elements.tags);
     if (highest < lowest_other) file_.mesh.hex_ids = hex_ids_.stored();
-    derive_node_owners(3, 8);
+    derive_node_owners(3);
   }
 
-  /// Without node entities in the file a node belongs to the entity of its elements of lowest dimension, if that is
-  /// only one.
-  void derive_node_owners(int dim, std::size_t n_nodes) {
+  void derive_node_owners(int dim) {
     if (!in_.node_entity.empty()) return;
-    const GmshElements& elements = in_.elements[dim];
-    auto& owners = file_.tags.node_owner;
-    for (std::size_t i = 0; i < elements.tags.size(); ++i) {
-      const Owner owner = in_.owner({dim, elements.entity[i]});
-      if (!owner) continue;
-      for (std::size_t k = 0; k < n_nodes; ++k) {
-        Owner& node = owners[elements.nodes[i * n_nodes + k]];
-        if (node.dim != owner.dim)
-          node = owner;
-        else if (node.id != owner.id)
-          node.id = 0;  // several: cleared below
-      }
+    std::vector<int> ids;
+    for (const int entity : in_.elements[dim].entity) {
+      const Owner owner = in_.owner({dim, entity});
+      ids.push_back(owner.dim == dim ? owner.id : 0);
     }
-    for (Owner& node : owners)
-      if (node.dim == dim && node.id == 0) node = {};
+    derive_owners(file_.tags.node_owner, dim, in_.elements[dim].nodes, ids);
   }
 
   void blocks() {
@@ -223,7 +212,7 @@ class Assembly {
       file_.tags.face_surface.push_back(owner.id);
     }
     file_.tags.surface_faces = lower_sides(file_.mesh, owned);
-    derive_node_owners(2, 4);
+    derive_node_owners(2);
   }
 
   void lines_and_points() {
@@ -245,8 +234,8 @@ class Assembly {
       }
     if (const auto lost = std::ranges::count(good, 0))
       notice("dropped " + std::to_string(lost) + " lines that are no edge of a hex");
-    derive_node_owners(1, 2);
-    derive_node_owners(0, 1);
+    derive_node_owners(1);
+    derive_node_owners(0);
 
     auto& sets = file_.mesh.node_sets;
     for (const int dim : {0, 1})

@@ -117,44 +117,12 @@ class Planner {
   }
 
   void sides() {
-    // Sides of sets as they are; faces on surfaces as well unless a set has the same face, from either hex.
-    std::vector<Side>& items = sides_;
-    for (const SideSet& set : mesh_.side_sets) items.insert(items.end(), set.sides.begin(), set.sides.end());
-    make_set(items);
-    const auto lower = items.empty() ? std::vector<Side>{} : lower_sides(mesh_, items);
-    std::vector<std::pair<Side, std::size_t>> of_lower(items.size());
-    for (std::size_t i = 0; i < items.size(); ++i) of_lower[i] = {lower[i], i};
-    std::ranges::sort(of_lower);
-    std::vector<int> surface(items.size(), 0);
-    std::vector<std::pair<Side, int>> others;
-    for (std::size_t i = 0; i < tags_.surface_faces.size(); ++i) {
-      auto at = std::ranges::lower_bound(of_lower, std::pair(tags_.surface_faces[i], std::size_t{0}));
-      const bool in_set = at != of_lower.end() && at->first == tags_.surface_faces[i];
-      if (!in_set) others.emplace_back(tags_.surface_faces[i], tags_.face_surface[i]);
-      for (; at != of_lower.end() && at->first == tags_.surface_faces[i]; ++at)
-        surface[at->second] = tags_.face_surface[i];
-    }
-    // All together in ascending order.
-    std::vector<std::pair<Side, int>> all(std::move(others));
-    for (std::size_t i = 0; i < items.size(); ++i) all.emplace_back(items[i], surface[i]);
-    std::ranges::sort(all);
-    items.clear();
-    surface.clear();
-    for (const auto& [side, id] : all) {
-      items.push_back(side);
-      surface.push_back(id);
-    }
-    std::vector<std::vector<Index>> members;
-    for (const SideSet& set : mesh_.side_sets) {
-      auto& to = members.emplace_back();
-      for (const Side& side : set.sides)
-        to.push_back(static_cast<Index>(std::ranges::lower_bound(items, side) - items.begin()));
-      group_ids_[2].push_back(set.id);
-    }
+    sides_ = plan_sides(mesh_, tags_);
+    for (const SideSet& set : mesh_.side_sets) group_ids_[2].push_back(set.id);
     add_group_names(2, mesh_.side_sets, &SideSet::sides);
-    const std::vector<std::span<const Index>> spans(members.begin(), members.end());
-    add_classes(2, classify(surface, spans), group_ids_[2], [&](Index i, std::vector<Index>& nodes) {
-      const Quad cycle = face_node_cycle(mesh_.hexes[items[i].hex], items[i].face);
+    const std::vector<std::span<const Index>> spans(sides_.members.begin(), sides_.members.end());
+    add_classes(2, classify(sides_.surface, spans), group_ids_[2], [&](Index i, std::vector<Index>& nodes) {
+      const Quad cycle = face_node_cycle(mesh_.hexes[sides_.sides[i].hex], sides_.sides[i].face);
       nodes.insert(nodes.end(), cycle.begin(), cycle.end());
     });
   }
@@ -305,7 +273,7 @@ class Planner {
     const auto other = oriented_sides(mesh_, behind);
     for (std::size_t k = 0; k < behind.size(); ++k) {
       if (!owned(2, quads.entity[k])) continue;
-      const Side side = sides_[item_[2][k]];
+      const Side side = sides_.sides[item_[2][k]];
       const int front = volume_of_hex[side.hex], back = volume_of_hex[other[k].hex];
       if (owned(3, front) && (front != back || other[k] == side)) bounds(3, front, quads.entity[k]);
       if (owned(3, back) && front != back) bounds(3, back, quads.entity[k]);
@@ -337,7 +305,7 @@ class Planner {
   std::array<std::vector<Index>, 4> item_;  // per element: hex, side, curve edge
   std::array<std::vector<int>, 4> group_ids_;
   std::array<Classes, 4> groups_of_item_;
-  std::vector<Side> sides_;
+  PlannedSides sides_;
   std::vector<char> is_on_curves_;  // per node set: is it a physical group of curves?
 };
 

@@ -17,10 +17,10 @@ void fail_at_item(const Cursor& cursor, std::span<const Run> runs, std::size_t i
   cursor.fail_at(at, what);
 }
 
-Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Cursor& cursor, std::span<const Run> runs)
+Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& fail_item)
     : ids_(std::move(in_file_order)) {
   const auto fail = [&](std::size_t item, const char* what) {
-    fail_at_item(cursor, runs, item, std::string(kind) + " id " + std::to_string(ids_[item]) + what);
+    fail_item(item, std::string(kind) + " id " + std::to_string(ids_[item]) + what);
   };
   for (std::size_t i = 0; i < ids_.size(); ++i)
     if (ids_[i] < 1) fail(i, " is not positive");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/io.h"
 #include "hextwist/mesh/io_text_internal.h"
 
@@ -17,7 +18,12 @@ namespace hextwist::io {
 
 MeshFile read_gmsh(const Bytes& bytes);
 void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+MeshFile read_medit(const Bytes& bytes);
+void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+
+MeshFile read_exodus(const std::filesystem::path& file);
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options);
 
 // ---- ids ----
 
@@ -34,8 +40,13 @@ struct Run {
 class Ids {
  public:
   Ids() = default;
-  /// `kind` is "node", "element". Throws Error at an id that occurs twice or is not positive.
-  Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Cursor& cursor, std::span<const Run> runs);
+  /// `kind` is "node", "element". At an id that occurs twice or is not positive calls fail(position in file order,
+  /// message), which throws.
+  using Fail = std::function<void(std::size_t item, const std::string& what)>;
+  Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& fail);
+  Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Cursor& cursor, std::span<const Run> runs)
+      : Ids(std::move(in_file_order), kind,
+            [&](std::size_t item, const std::string& what) { fail_at_item(cursor, runs, item, what); }) {}
 
   Index size() const { return static_cast<Index>(ids_.size()); }
   /// Index of an id in ascending order, -1 when there is none.
@@ -98,8 +109,28 @@ int free_id(const std::vector<Group>& groups);
 std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles);
 /// The same face as a side of the hex with the lower index.
 std::vector<Side> lower_sides(const Mesh& mesh, std::span<const Side> sides);
+/// Sides to write as quads: those of all side sets, and the faces on surfaces unless a set has the same face from
+/// either hex. Ascending.
+struct PlannedSides {
+  std::vector<Side> sides;
+  std::vector<int> surface;                 ///< per side, 0 none
+  std::vector<std::vector<Index>> members;  ///< per side set: its sides
+};
+PlannedSides plan_sides(const Mesh& mesh, const Association& association);
 /// Per pair of nodes: is it an edge of a hex?
 std::vector<char> are_edges(const Mesh& mesh, std::span<const Edge> pairs);
+
+/// The face that holds these corners (1..8 in the order of the files) of a hex.
+constexpr int face_of_file_corners(const std::array<int, 4>& corners) {
+  int ones = 7, zeros = 7;  // axes along which all corners are at 1, at 0
+  for (const int corner : corners) {
+    ones &= file_corner[corner - 1];
+    zeros &= ~file_corner[corner - 1];
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if ((ones | zeros) >> axis & 1) return 2 * axis + (ones >> axis & 1);
+  return -1;
+}
 
 // ---- fields ----
 
@@ -118,6 +149,9 @@ inline Owner owner(const Association& association, Index node) {
 inline int volume_of(const Association& association, Index hex) {
   return association.hex_volume.empty() ? 0 : association.hex_volume[hex];
 }
+/// Owners of nodes from elements of one dimension on entities `ids` (0 none), highest dimension first: a node belongs
+/// to the entity of its elements of lowest dimension, if that is only one.
+void derive_owners(std::vector<Owner>& owners, int dim, std::span<const Index> element_nodes, std::span<const int> ids);
 /// Sorts curve edges and surface faces, removes repetitions; makes the association empty when it says nothing.
 void tidy(Association& tags);
 

@@ -76,6 +76,43 @@ std::vector<Side> lower_sides(const Mesh& mesh, std::span<const Side> sides) {
   return find_sides(mesh, quads);
 }
 
+PlannedSides plan_sides(const Mesh& mesh, const Association& association) {
+  PlannedSides plan;
+  std::vector<Side> in_sets;
+  for (const SideSet& set : mesh.side_sets) in_sets.insert(in_sets.end(), set.sides.begin(), set.sides.end());
+  make_set(in_sets);
+  // The sides in sets by the side of the lower hex, which is how surface faces are named.
+  const auto lower = lower_sides(mesh, in_sets);
+  std::vector<std::pair<Side, Side>> of_lower(in_sets.size());
+  for (std::size_t i = 0; i < in_sets.size(); ++i) of_lower[i] = {lower[i], in_sets[i]};
+  std::ranges::sort(of_lower);
+  std::vector<std::pair<Side, int>> all;
+  for (std::size_t i = 0; i < association.surface_faces.size(); ++i) {
+    const Side face = association.surface_faces[i];
+    auto at = std::ranges::lower_bound(of_lower, face, {}, &std::pair<Side, Side>::first);
+    if (at == of_lower.end() || at->first != face) all.emplace_back(face, association.face_surface[i]);
+    for (; at != of_lower.end() && at->first == face; ++at) all.emplace_back(at->second, association.face_surface[i]);
+  }
+  std::ranges::sort(all);
+  const std::size_t n_owned = all.size();
+  for (const Side& side : in_sets) {
+    const auto owned = std::ranges::lower_bound(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n_owned), side,
+                                                {}, &std::pair<Side, int>::first);
+    if (owned == all.begin() + static_cast<std::ptrdiff_t>(n_owned) || owned->first != side) all.emplace_back(side, 0);
+  }
+  std::ranges::sort(all);
+  for (const auto& [side, id] : all) {
+    plan.sides.push_back(side);
+    plan.surface.push_back(id);
+  }
+  for (const SideSet& set : mesh.side_sets) {
+    auto& to = plan.members.emplace_back();
+    for (const Side& side : set.sides)
+      to.push_back(static_cast<Index>(std::ranges::lower_bound(plan.sides, side) - plan.sides.begin()));
+  }
+  return plan;
+}
+
 std::vector<char> are_edges(const Mesh& mesh, std::span<const Edge> pairs) {
   const ByLowestNode<2> edges(pairs, mesh.n_nodes());
   std::vector<char> found(pairs.size(), 0);
@@ -86,6 +123,23 @@ std::vector<char> are_edges(const Mesh& mesh, std::span<const Edge> pairs) {
                    [&](Index i) { std::atomic_ref<char>(found[i]).store(1, std::memory_order_relaxed); });
   });
   return found;
+}
+
+void derive_owners(std::vector<Owner>& owners, int dim, std::span<const Index> element_nodes,
+                   std::span<const int> ids) {
+  const std::size_t n_nodes = std::size_t{1} << dim;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] <= 0) continue;
+    for (const Index n : element_nodes.subspan(i * n_nodes, n_nodes)) {
+      Owner& node = owners[n];
+      if (node.dim != dim)
+        node = {dim, ids[i]};
+      else if (node.id != ids[i])
+        node.id = 0;  // several: cleared below
+    }
+  }
+  for (Owner& node : owners)
+    if (node.dim == dim && node.id == 0) node = {};
 }
 
 void tidy(Association& tags) {

@@ -1,0 +1,16 @@
+// What reading and writing of Exodus II share.
+#pragma once
+
+#include "hextwist/mesh/io_internal.h"
+
+namespace hextwist::io {
+
+/// Sides 1..6 of a hex, by their corners (Schoof and Yarberry, "EXODUS II: a finite element data model", 1994).
+inline constexpr std::array<int, 6> exodus_face = {
+    face_of_file_corners({1, 2, 6, 5}), face_of_file_corners({2, 3, 7, 6}), face_of_file_corners({3, 4, 8, 7}),
+    face_of_file_corners({1, 5, 8, 4}), face_of_file_corners({1, 4, 3, 2}), face_of_file_corners({5, 6, 7, 8})};
+
+/// Name of the element block for hexes that are in no block.
+inline constexpr const char* exodus_rest_block = "hextwist_no_block";
+
+}  // namespace hextwist::io

@@ -1,0 +1,320 @@
+// Exodus II through its library.
+//
+// Element blocks are blocks. Element sets are blocks as well: one with the id of an element block that lies wholly in
+// it is that block (blocks that overlap are written so), any other one gets an id of its own if its id is taken.
+// Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes.
+#include <exodusII.h>
+
+#include <limits>
+
+#include "hextwist/mesh/io_exodus_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+using Int64s = std::vector<std::int64_t>;
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
+    ex_opts(0);  // no messages on the terminal
+    int memory = 8, disk = 0;
+    float version = 0;
+    file_.id = ex_open(name_.c_str(), EX_READ, &memory, &disk, &version);
+    if (file_.id < 0) fail("cannot be opened as Exodus II (damaged or another format)");
+    ex_set_int64_status(file_.id, EX_ALL_INT64_API);
+    const auto length = ex_inquire_int(file_.id, EX_INQ_DB_MAX_USED_NAME_LENGTH);
+    if (length > 0) ex_set_max_name_length(file_.id, static_cast<int>(std::min<std::int64_t>(length, NC_MAX_NAME)));
+    name_length_ = static_cast<std::size_t>(std::max<std::int64_t>(length, 256));
+    check(ex_get_init_ext(file_.id, &init_), "the sizes");
+  }
+
+  MeshFile result() {
+    nodes();
+    blocks();
+    side_sets();
+    node_sets();
+    element_sets();
+    fields(EX_NODAL, Field::On::node);
+    fields(EX_ELEM_BLOCK, Field::On::hex);
+    out_.mesh.fields = merge_components(std::move(out_.mesh.fields));
+    return std::move(out_);
+  }
+
+ private:
+  struct Handle {
+    int id = -1;
+    ~Handle() {
+      if (id >= 0) ex_close(id);
+    }
+  };
+  struct FileBlock {
+    std::int64_t id, first, n;  // elements of the file, 0-based
+    bool hexes;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": " + what); }
+  void check(int status, const std::string& what) const {
+    if (status < 0) fail(what + " cannot be read (damaged file)");
+  }
+  std::size_t size(std::int64_t n, const std::string& what) const {
+    if (n < 0 || n > std::numeric_limits<Index>::max()) fail("impossible number of " + what + ": " + std::to_string(n));
+    return static_cast<std::size_t>(n);
+  }
+  Int64s ids(ex_entity_type type, std::int64_t n) const {
+    Int64s result(size(n, "groups"));
+    if (n > 0) check(ex_get_ids(file_.id, type, result.data()), "ids of groups");
+    return result;
+  }
+  std::string group_name(ex_entity_type type, std::int64_t id) const {
+    std::string name(name_length_ + 1, '\0');
+    if (ex_get_name(file_.id, type, id, name.data()) < 0) return "";
+    name.resize(std::strlen(name.c_str()));
+    return std::string(trimmed(name));
+  }
+  int group_id(std::int64_t id, const char* kind) const {
+    if (id < 1 || id > std::numeric_limits<int>::max()) fail(std::string(kind) + " id " + std::to_string(id));
+    return static_cast<int>(id);
+  }
+
+  void nodes() {
+    if (init_.num_dim != 3) fail("has " + std::to_string(init_.num_dim) + " dimensions instead of 3");
+    const auto n = size(init_.num_nodes, "nodes");
+    std::array<std::vector<double>, 3> x;
+    for (auto& values : x) values.resize(n);
+    if (n) check(ex_get_coord(file_.id, x[0].data(), x[1].data(), x[2].data()), "coordinates");
+    Int64s map(n);
+    if (n) check(ex_get_id_map(file_.id, EX_NODE_MAP, map.data()), "the node id map");
+    out_.mesh.points.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      out_.mesh.points[i] = Vec3(x[0][i], x[1][i], x[2][i]);
+      if (!out_.mesh.points[i].allFinite()) fail("a coordinate of node " + std::to_string(map[i]) + " is not finite");
+    }
+    nodes_ = Ids(std::move(map), "node", [&](std::size_t, const std::string& what) { fail(what); });
+    nodes_.sort(out_.mesh.points);
+    out_.mesh.node_ids = nodes_.stored();
+  }
+  /// Index of the node at a 1-based position in the file.
+  Index node(std::int64_t position, const std::string& who) const {
+    if (position < 1 || position > nodes_.size())
+      fail(who + " names node " + std::to_string(position) + " of " + std::to_string(nodes_.size()));
+    return nodes_.place().empty() ? static_cast<Index>(position - 1) : nodes_.place()[position - 1];
+  }
+
+  void blocks() {
+    const auto n_elements = size(init_.num_elem, "elements");
+    Int64s map(n_elements);
+    if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
+    Int64s hex_ids;
+    hex_of_element_.assign(n_elements, -1);
+    quad_of_element_.assign(n_elements, -1);
+    std::int64_t first = 0;
+    for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
+      ex_block block{};
+      block.id = id;
+      block.type = EX_ELEM_BLOCK;
+      check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+      const auto n = static_cast<std::int64_t>(size(block.num_entry, "elements"));
+      if (first + n > init_.num_elem) fail("the blocks have more elements than the file says");
+      read_block(block, std::span(map).subspan(first, n), first, hex_ids);
+      first += n;
+    }
+    if (hex_ids.empty()) fail("there is no hex in the file");
+    hexes_ = Ids(std::move(hex_ids), "element", [&](std::size_t, const std::string& what) { fail(what); });
+    hexes_.sort(out_.mesh.hexes);
+    out_.mesh.hex_ids = hexes_.stored();
+    if (!hexes_.place().empty())
+      for (Index& hex : hex_of_element_)
+        if (hex >= 0) hex = hexes_.place()[hex];
+    for (const FileBlock& block : blocks_) {
+      if (!block.hexes) continue;
+      const std::string name = group_name(EX_ELEM_BLOCK, block.id);
+      if (name == exodus_rest_block) continue;
+      Block& to = group_of_id(out_.mesh.blocks, group_id(block.id, "element block"));
+      to.name = name;
+      for (std::int64_t e = block.first; e < block.first + block.n; ++e) to.hexes.push_back(hex_of_element_[e]);
+      make_set(to.hexes);
+    }
+    quad_sides_ = oriented_sides(out_.mesh, quads_);
+    for (const FileBlock& block : blocks_) {
+      if (block.hexes || block.n == 0 || quad_of_element_[block.first] < 0) continue;
+      const bool taken = std::ranges::find(out_.mesh.side_sets, block.id, &SideSet::id) != out_.mesh.side_sets.end();
+      quad_sets_.push_back({taken ? 0 : group_id(block.id, "element block"), group_name(EX_ELEM_BLOCK, block.id), {}});
+      for (std::int64_t e = block.first; e < block.first + block.n; ++e)
+        if (const Side side = quad_sides_[quad_of_element_[e]]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
+      make_set(quad_sets_.back().sides);
+    }
+  }
+
+  void read_block(const ex_block& block, std::span<const std::int64_t> map, std::int64_t first, Int64s& hex_ids) {
+    const std::string name = "element block " + std::to_string(block.id);
+    const std::string type = lower_case(block.topology);
+    const auto starts = [&](std::string_view word) { return type.starts_with(word); };
+    const auto n_nodes = block.num_nodes_per_entry;
+    const bool unnamed = type.empty() || type == "null" || type == "unknown";
+    const bool hexes = map.empty() ? unnamed || starts("hex") : n_nodes == 8 && (starts("hex") || unnamed);
+    blocks_.push_back({block.id, first, std::ssize(map), hexes});
+    if (map.empty()) return;
+    const bool quads = n_nodes == 4 && (starts("quad") || starts("shell"));
+    const bool small = quads || starts("shell") || starts("tri") || starts("quad") || starts("bar") || starts("beam") ||
+                       starts("truss") || starts("edge") || starts("rod") || starts("sphere") || starts("circle") ||
+                       starts("point") || n_nodes == 1;
+    if (!hexes && !small)
+      fail(name + ": element " + std::to_string(map[0]) + " is of type " + block.topology + " with " +
+           std::to_string(n_nodes) + " nodes; only 8-node hexes are accepted");
+    if (!hexes && !quads) {
+      out_.notices.push_back("dropped " + std::to_string(map.size()) + " elements of type " + block.topology + " (" +
+                             name + ")");
+      return;
+    }
+    Int64s nodes(map.size() * static_cast<std::size_t>(n_nodes));
+    check(ex_get_conn(file_.id, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr), "nodes of " + name);
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      const auto corner = [&](std::size_t c) {
+        const std::int64_t position = nodes[i * static_cast<std::size_t>(n_nodes) + c];
+        if (position < 1 || position > nodes_.size()) node(position, "element " + std::to_string(map[i]));
+        return node(position, "");
+      };
+      if (hexes) {
+        hex_of_element_[first + static_cast<std::int64_t>(i)] = static_cast<Index>(hex_ids.size());
+        hex_ids.push_back(map[i]);
+        Hex& hex = out_.mesh.hexes.emplace_back();
+        for (std::size_t c = 0; c < 8; ++c) hex[file_corner[c]] = corner(c);
+      } else {
+        quad_of_element_[first + static_cast<std::int64_t>(i)] = static_cast<Index>(quads_.size());
+        quads_.push_back({corner(0), corner(1), corner(2), corner(3)});
+      }
+    }
+  }
+
+  /// Members and, for side sets, side numbers.
+  std::pair<Int64s, Int64s> set(ex_entity_type type, std::int64_t id) const {
+    const std::string name = "set " + std::to_string(id);
+    std::int64_t n = 0, n_factors = 0;
+    check(ex_get_set_param(file_.id, type, id, &n, &n_factors), name);
+    std::pair<Int64s, Int64s> result;
+    result.first.resize(size(n, "members"));
+    result.second.resize(type == EX_SIDE_SET ? result.first.size() : 0);
+    if (n > 0)
+      check(ex_get_set(file_.id, type, id, result.first.data(), type == EX_SIDE_SET ? result.second.data() : nullptr),
+            name);
+    return result;
+  }
+  Index hex(std::int64_t element, const std::string& who) const {
+    if (element < 1 || element > std::ssize(hex_of_element_))
+      fail(who + " names element " + std::to_string(element) + " of " + std::to_string(hex_of_element_.size()));
+    return hex_of_element_[element - 1];
+  }
+
+  void side_sets() {
+    for (const std::int64_t id : ids(EX_SIDE_SET, init_.num_side_sets)) {
+      const std::string who = "side set " + std::to_string(id);
+      SideSet& to = group_of_id(out_.mesh.side_sets, group_id(id, "side set"));
+      to.name = group_name(EX_SIDE_SET, id);
+      const auto [elements, sides] = set(EX_SIDE_SET, id);
+      std::int64_t dropped = 0;
+      for (std::size_t i = 0; i < elements.size(); ++i) {
+        const Index h = hex(elements[i], who);
+        if (h >= 0 && (sides[i] < 1 || sides[i] > 6)) fail(who + " names side " + std::to_string(sides[i]));
+        // A shell's front (1) and back (2) are the quad itself; its edges are no sides of hexes.
+        const Index quad = h < 0 ? quad_of_element_[elements[i] - 1] : -1;
+        if (h >= 0)
+          to.sides.push_back({h, exodus_face[sides[i] - 1]});
+        else if (quad >= 0 && sides[i] <= 2 && quad_sides_[quad].hex >= 0)
+          to.sides.push_back(quad_sides_[quad]);
+        else
+          ++dropped;
+      }
+      make_set(to.sides);
+      if (dropped)
+        out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are no sides of a hex");
+    }
+    for (SideSet& quads : quad_sets_) {
+      const bool taken = std::ranges::find(out_.mesh.side_sets, quads.id, &SideSet::id) != out_.mesh.side_sets.end();
+      SideSet& to = group_of_id(out_.mesh.side_sets, taken || quads.id == 0 ? free_id(out_.mesh.side_sets) : quads.id);
+      to.name = quads.name;
+      to.sides = std::move(quads.sides);
+    }
+  }
+
+  void node_sets() {
+    for (const std::int64_t id : ids(EX_NODE_SET, init_.num_node_sets)) {
+      NodeSet& to = group_of_id(out_.mesh.node_sets, group_id(id, "node set"));
+      to.name = group_name(EX_NODE_SET, id);
+      for (const std::int64_t n : set(EX_NODE_SET, id).first)
+        to.nodes.push_back(node(n, "node set " + std::to_string(id)));
+      make_set(to.nodes);
+    }
+  }
+
+  void element_sets() {
+    for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets)) {
+      Block group{group_id(id, "element set"), group_name(EX_ELEM_SET, id), {}};
+      for (const std::int64_t element : set(EX_ELEM_SET, id).first)
+        if (const Index h = hex(element, "element set " + std::to_string(id)); h >= 0) group.hexes.push_back(h);
+      make_set(group.hexes);
+      auto& blocks = out_.mesh.blocks;
+      const auto same = std::ranges::find(blocks, group.id, &Block::id);
+      const bool whole =
+          same != blocks.end() && same->name == group.name && std::ranges::includes(group.hexes, same->hexes);
+      if (same != blocks.end() && !whole) {
+        group.id = free_id(blocks);
+        out_.notices.push_back("element set " + std::to_string(id) + " is block " + std::to_string(group.id) +
+                               ": an element block has its id");
+      }
+      group_of_id(blocks, group.id) = group;
+    }
+  }
+
+  void fields(ex_entity_type type, Field::On on) {
+    int n = 0;
+    check(ex_get_variable_param(file_.id, type, &n), "fields");
+    const auto n_steps = ex_inquire_int(file_.id, EX_INQ_TIME);
+    if (n <= 0 || n_steps <= 0) return;
+    for (int v = 1; v <= n; ++v) {
+      std::string name(name_length_ + 1, '\0');
+      check(ex_get_variable_name(file_.id, type, v, name.data()), "names of fields");
+      Field field{std::string(trimmed(name.c_str())), on, 1, {}};
+      const int step = static_cast<int>(n_steps);
+      if (on == Field::On::node) {
+        field.values.resize(out_.mesh.points.size());
+        check(ex_get_var(file_.id, step, type, v, 1, init_.num_nodes, field.values.data()), "field " + field.name);
+        nodes_.sort(field.values);
+      } else {
+        field.values.assign(out_.mesh.hexes.size(), std::numeric_limits<double>::quiet_NaN());
+        bool any = false;
+        for (const FileBlock& block : blocks_) {
+          if (!block.hexes || block.n == 0) continue;
+          std::vector<double> values(static_cast<std::size_t>(block.n));
+          if (ex_get_var(file_.id, step, type, v, block.id, block.n, values.data()) != 0)
+            continue;  // not on this block
+          any = true;
+          for (std::int64_t i = 0; i < block.n; ++i) field.values[hex_of_element_[block.first + i]] = values[i];
+        }
+        if (!any) continue;
+      }
+      out_.mesh.fields.push_back(std::move(field));
+    }
+  }
+
+  std::string name_;
+  Handle file_;
+  std::size_t name_length_ = 256;
+  ex_init_params init_{};
+  MeshFile out_;
+  Ids nodes_, hexes_;
+  std::vector<FileBlock> blocks_;
+  std::vector<Index> hex_of_element_, quad_of_element_;
+  std::vector<Quad> quads_;
+  std::vector<Side> quad_sides_;
+  std::vector<SideSet> quad_sets_;
+};
+
+}  // namespace
+
+MeshFile read_exodus(const std::filesystem::path& file) {
+  check_readable(file);
+  return Reader(file).result();
+}
+
+}  // namespace hextwist::io

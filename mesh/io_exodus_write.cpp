@@ -1,0 +1,215 @@
+// Exodus II through its library.
+//
+// Element blocks divide the hexes. A hex in several of our blocks goes to the element block of the first; a block that
+// lost hexes that way is written whole as an element set of the same id and name. Hexes in no block go to an element
+// block of their own that readers of ours recognise by its name.
+#include <exodusII.h>
+
+#include <limits>
+#include <utility>
+
+#include "hextwist/mesh/io_exodus_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+using Int64s = std::vector<std::int64_t>;
+
+struct Divided {
+  int id;
+  std::string name;
+  std::vector<Index> hexes;
+};
+
+class Writer {
+ public:
+  Writer(const Replacement& file, const Mesh& mesh)
+      : replacement_(file), mesh_(mesh), fields_(split_components(mesh.fields, [](int) { return false; })) {
+    divide();
+    create();
+  }
+
+  void write() {
+    sizes();
+    nodes();
+    blocks();
+    sets();
+    fields();
+    const int id = std::exchange(id_, -1);
+    if (ex_close(id) < 0) fail();
+  }
+
+  ~Writer() {
+    if (id_ >= 0) ex_close(id_);
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+ private:
+  [[noreturn]] void fail() const { replacement_.fail("cannot be written (disk full?)"); }
+  void check(int status) const {
+    if (status < 0) fail();
+  }
+
+  void divide() {
+    std::vector<char> taken(mesh_.hexes.size(), 0);
+    for (const Block& block : mesh_.blocks) {
+      Divided part{block.id, block.name, {}};
+      for (const Index h : block.hexes)
+        if (!std::exchange(taken[h], 1)) part.hexes.push_back(h);
+      if (part.hexes.size() != block.hexes.size()) whole_.push_back(&block);
+      if (!part.hexes.empty() || block.hexes.empty()) parts_.push_back(std::move(part));
+    }
+    Divided rest{free_id(mesh_.blocks), exodus_rest_block, {}};
+    for (Index h = 0; h < mesh_.n_hexes(); ++h)
+      if (!taken[h]) rest.hexes.push_back(h);
+    if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
+    element_of_hex_.resize(mesh_.hexes.size());
+    std::int64_t element = 0;
+    for (const Divided& part : parts_)
+      for (const Index h : part.hexes) element_of_hex_[h] = ++element;
+  }
+
+  void create() {
+    const std::int64_t highest = std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
+                                          mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
+    const bool wide = highest > std::numeric_limits<std::int32_t>::max();
+    // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
+    const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / 32 - 1;
+    int mode = EX_CLOBBER | (wide || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL) | EX_ALL_INT64_API;
+    if (wide) mode |= EX_ALL_INT64_DB;
+    int memory = 8, disk = 8;
+    ex_opts(0);
+    id_ = ex_create(replacement_.temporary().c_str(), mode, &memory, &disk);
+    if (id_ < 0) fail();
+  }
+
+  void sizes() {
+    std::size_t longest = 32;
+    const auto measure = [&](const auto& groups) {
+      for (const auto& group : groups) longest = std::max(longest, group.name.size());
+    };
+    measure(parts_), measure(mesh_.blocks), measure(mesh_.node_sets), measure(mesh_.side_sets), measure(fields_);
+    check(ex_set_max_name_length(id_, static_cast<int>(std::min<std::size_t>(longest, 255))));
+    ex_init_params init{};
+    std::strncpy(init.title, "hextwist", sizeof init.title - 1);
+    init.num_dim = 3;
+    init.num_nodes = mesh_.n_nodes();
+    init.num_elem = mesh_.n_hexes();
+    init.num_elem_blk = std::ssize(parts_);
+    init.num_node_sets = std::ssize(mesh_.node_sets);
+    init.num_side_sets = std::ssize(mesh_.side_sets);
+    init.num_elem_sets = std::ssize(whole_);
+    check(ex_put_init_ext(id_, &init));
+  }
+
+  void nodes() {
+    std::array<std::vector<double>, 3> x;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const Vec3& p : mesh_.points) x[axis].push_back(p[axis]);
+    if (!mesh_.points.empty()) check(ex_put_coord(id_, x[0].data(), x[1].data(), x[2].data()));
+    std::array<std::string, 3> names = {"x", "y", "z"};
+    std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
+    check(ex_put_coord_names(id_, pointers.data()));
+    Int64s map;
+    for (Index n = 0; n < mesh_.n_nodes(); ++n) map.push_back(node_id(mesh_, n));
+    if (!map.empty()) check(ex_put_id_map(id_, EX_NODE_MAP, map.data()));
+  }
+
+  void blocks() {
+    Int64s map(mesh_.hexes.size()), nodes;
+    for (const Divided& part : parts_) {
+      const auto n = std::ssize(part.hexes);
+      check(ex_put_block(id_, EX_ELEM_BLOCK, part.id, "HEX8", n, 8, 0, 0, 0));
+      put_name(EX_ELEM_BLOCK, part.id, part.name);
+      nodes.clear();
+      for (const Index h : part.hexes) {
+        map[element_of_hex_[h] - 1] = hex_id(mesh_, h);
+        for (const int c : file_corner) nodes.push_back(mesh_.hexes[h][c] + 1);
+      }
+      if (n > 0) check(ex_put_conn(id_, EX_ELEM_BLOCK, part.id, nodes.data(), nullptr, nullptr));
+    }
+    if (!map.empty()) check(ex_put_id_map(id_, EX_ELEM_MAP, map.data()));
+  }
+
+  void put_name(ex_entity_type type, int id, const std::string& name) {
+    if (!name.empty()) check(ex_put_name(id_, type, id, name.substr(0, 255).c_str()));
+  }
+  void put_set(ex_entity_type type, int id, const std::string& name, const Int64s& members, const Int64s& sides) {
+    check(ex_put_set_param(id_, type, id, std::ssize(members), 0));
+    if (!members.empty()) check(ex_put_set(id_, type, id, members.data(), sides.empty() ? nullptr : sides.data()));
+    put_name(type, id, name);
+  }
+
+  void sets() {
+    for (const NodeSet& set : mesh_.node_sets) {
+      Int64s members;
+      for (const Index n : set.nodes) members.push_back(n + 1);
+      put_set(EX_NODE_SET, set.id, set.name, members, {});
+    }
+    std::array<std::int64_t, 6> side_of_face{};
+    for (int side = 0; side < 6; ++side) side_of_face[exodus_face[side]] = side + 1;
+    for (const SideSet& set : mesh_.side_sets) {
+      Int64s members, sides;
+      for (const Side& side : set.sides) {
+        members.push_back(element_of_hex_[side.hex]);
+        sides.push_back(side_of_face[side.face]);
+      }
+      put_set(EX_SIDE_SET, set.id, set.name, members, sides);
+    }
+    for (const Block* block : whole_) {
+      Int64s members;
+      for (const Index h : block->hexes) members.push_back(element_of_hex_[h]);
+      put_set(EX_ELEM_SET, block->id, block->name, members, {});
+    }
+  }
+
+  void fields() {
+    if (fields_.empty()) return;
+    const double time = 0;
+    std::array<std::vector<const Field*>, 2> of;
+    for (const Field& field : fields_) of[field.on == Field::On::hex].push_back(&field);
+    for (int hex = 0; hex < 2; ++hex) {
+      if (of[hex].empty()) continue;
+      const auto type = hex ? EX_ELEM_BLOCK : EX_NODAL;
+      check(ex_put_variable_param(id_, type, static_cast<int>(of[hex].size())));
+      for (std::size_t v = 0; v < of[hex].size(); ++v)
+        check(ex_put_variable_name(id_, type, static_cast<int>(v + 1), of[hex][v]->name.substr(0, 255).c_str()));
+    }
+    if (!of[1].empty()) {
+      std::vector<int> everywhere(parts_.size() * of[1].size(), 1);
+      check(ex_put_truth_table(id_, EX_ELEM_BLOCK, static_cast<int>(parts_.size()), static_cast<int>(of[1].size()),
+                               everywhere.data()));
+    }
+    check(ex_put_time(id_, 1, &time));
+    std::vector<double> values;
+    for (std::size_t v = 0; v < of[0].size(); ++v)
+      check(ex_put_var(id_, 1, EX_NODAL, static_cast<int>(v + 1), 1, mesh_.n_nodes(), of[0][v]->values.data()));
+    for (std::size_t v = 0; v < of[1].size(); ++v)
+      for (const Divided& part : parts_) {
+        if (part.hexes.empty()) continue;
+        values.clear();
+        for (const Index h : part.hexes) values.push_back(of[1][v]->values[h]);
+        check(ex_put_var(id_, 1, EX_ELEM_BLOCK, static_cast<int>(v + 1), part.id, std::ssize(values), values.data()));
+      }
+  }
+
+  const Replacement& replacement_;
+  const Mesh& mesh_;
+  std::vector<Field> fields_;
+  std::vector<Divided> parts_;
+  std::vector<const Block*> whole_;  // written as element sets
+  Int64s element_of_hex_;            // 1-based place in the file
+  int id_ = -1;
+};
+
+}  // namespace
+
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options) {
+  Replacement replacement(file, options.overwrite);
+  if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
+  Writer(replacement, mesh).write();
+  replacement.commit();
+}
+
+}  // namespace hextwist::io
