@@ -3,6 +3,7 @@
 
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -274,36 +275,46 @@ const OccModel::Sides& OccModel::sides() const {
 
 Vec3 OccModel::normal(int surface, Parameters at) const {
   entity({2, surface});
-  const Vec3 n = surfaces_[index(surface)]->normal(at.u, at.v);
+  Vec3 n = Vec3::Zero();
+  try {
+    n = surfaces_[index(surface)]->normal(at.u, at.v);
+  } catch (const Standard_Failure&) {
+    return n;  // no derivatives there
+  }
   return sides().flipped[index(surface)] ? Vec3(-n) : n;
+}
+
+void OccModel::project_some(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
+                            std::span<Projection> out) const {
+  try {
+    switch (owner.dim) {
+      case 0:
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const Vec3& vertex = vertices_[index(owner.id)];
+          out[i] = {vertex, {}, (vertex - points[i]).norm()};
+        }
+        return;
+      case 1:
+        return curves_[index(owner.id)]->project(points, seeds, out);
+      case 2:
+        return surfaces_[index(owner.id)]->project(points, seeds, out);
+      default:
+        throw Error("cannot project onto " + to_string(owner));
+    }
+  } catch (const Standard_Failure& failure) {  // a surface that has no derivatives somewhere
+    throw Error("cannot project onto " + to_string(owner) + ": " + failure.GetMessageString());
+  }
 }
 
 void OccModel::project(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
                        std::span<Projection> out) const {
   entity(owner);
-  const auto project_some = [&](std::size_t begin, std::size_t end) {
-    const auto p = points.subspan(begin, end - begin);
-    const auto s = seeds.empty() ? seeds : seeds.subspan(begin, end - begin);
-    const auto o = out.subspan(begin, end - begin);
-    switch (owner.dim) {
-      case 0:
-        for (std::size_t i = 0; i < p.size(); ++i) {
-          const Vec3& vertex = vertices_[index(owner.id)];
-          o[i] = {vertex, {}, (vertex - p[i]).norm()};
-        }
-        return;
-      case 1:
-        return curves_[index(owner.id)]->project(p, s, o);
-      case 2:
-        return surfaces_[index(owner.id)]->project(p, s, o);
-      default:
-        throw Error("cannot project onto " + to_string(owner));
-    }
-  };
   constexpr std::size_t grain = 512;
-  if (points.size() <= grain) return project_some(0, points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain),
-                    [&](const auto& r) { project_some(r.begin(), r.end()); });
+  if (points.size() <= grain) return project_some(owner, points, seeds, out);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& r) {
+    const auto part = [&](const auto& all) { return all.empty() ? all : all.subspan(r.begin(), r.size()); };
+    project_some(owner, part(points), part(seeds), part(out));
+  });
 }
 
 bool OccModel::contains(int volume, const Vec3& p) const {

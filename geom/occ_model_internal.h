@@ -63,6 +63,8 @@ class OccModel final : public Model {
 
   const TopoDS_Shape& entity(Owner owner) const;
   void build_adjacency();
+  void project_some(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
+                    std::span<Projection> out) const;
   double compute_measure(Owner entity) const;
   double signed_volume(int volume) const;
   const std::vector<Box>& boxes(int dim) const;

@@ -15,6 +15,7 @@
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
@@ -213,8 +214,17 @@ int Surface::closed_form(const Vec3& p, SurfaceFoot (&feet)[2]) const {
 }
 
 SurfaceFoot Surface::closest_on_boundary(const Vec3& p) const {
+  std::call_once(boundary_boxed_, [this] {
+    for (const Boundary& b : trim_->boundaries()) {
+      boundary_boxes_.push_back(edges_[static_cast<std::size_t>(b.edge)]->box());
+    }
+  });
   SurfaceFoot best;
-  for (const Boundary& b : trim_->boundaries()) {
+  for (std::size_t i = 0; i < boundary_boxes_.size(); ++i) {
+    const Boundary& b = trim_->boundaries()[i];
+    const Box& box = boundary_boxes_[i];
+    const Vec3 outside = (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0);
+    if (outside.norm() >= best.distance + b.tolerance) continue;
     const Curve& edge = *edges_[static_cast<std::size_t>(b.edge)];
     const CurveFoot foot = edge.closest(p, std::numeric_limits<double>::quiet_NaN());
     if (!(foot.distance < best.distance)) continue;
@@ -245,10 +255,15 @@ Surface::Tessellation Surface::tessellate() const {
                              std::array{0.25, 0.75}}) {
     size = std::max(size, (point(u.min + a * (u.max - u.min), v.min + b * (v.max - v.min)) - corner).norm());
   }
-  const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(face_, false, false).Shape());
-  BRepMesh_IncrementalMesh(copy, 2e-3 * size, false, 0.3, false);
-  TopLoc_Location location;
-  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(copy, location);
+  Handle(Poly_Triangulation) mesh;
+  try {
+    const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(face_, false, false).Shape());
+    BRepMesh_IncrementalMesh(copy, 2e-3 * size, false, 0.3, false);
+    TopLoc_Location location;
+    mesh = BRep_Tool::Triangulation(copy, location);
+  } catch (const Standard_Failure&) {
+    mesh.Nullify();  // the grid below does
+  }
   if (!mesh.IsNull() && mesh->HasUVNodes()) {
     for (int i = 1; i <= mesh->NbNodes(); ++i) {
       const gp_Pnt2d uv = mesh->UVNode(i);

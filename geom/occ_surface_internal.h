@@ -88,6 +88,8 @@ class Surface {
 
   mutable std::once_flag tessellated_;
   mutable Tessellation tessellation_;
+  mutable std::once_flag boundary_boxed_;
+  mutable std::vector<Box> boundary_boxes_;
   mutable std::once_flag integrated_;
   mutable FaceIntegrals integrals_;
 };

@@ -30,7 +30,7 @@ class OccShape {
   static OccShape vase();
   /// Two bricks side by side (separate solids that touch), named in no file.
   static OccShape two_bricks();
-  /// A brick inside a brick's hole, sharing nothing, as loose faces.
+  /// The faces of a brick and of a smaller one inside it, each on its own.
   static OccShape loose_faces_with_cavity();
   static OccShape open_shell();
   static OccShape brep(const std::filesystem::path& file);
@@ -45,7 +45,6 @@ class OccShape {
   void write(const std::filesystem::path& file, const std::string& unit = "MM") const;
   /// Distance from an entity (ids as in the model), by OpenCASCADE's general algorithm.
   double distance(Owner entity, const Vec3& p) const;
-  /// Distance of p from the surface's or curve's own boundary-aware point set, and whether the point lies in it.
   int count(int dim) const;
 
  private:
