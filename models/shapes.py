@@ -195,8 +195,8 @@ def plate_quarter():
         return hx.joined([hx.swept(quads, 2, lambda x, y, w: (x, y, w * t))])
 
     face = length * width - pi * r**2 / 4
-    return Shape("plate_quarter", "a quarter of a plate with a hole: symmetry planes, no seam, cells graded to the hole", cad,
-                 mesh, face * t, 2 * face + (length + width + length - r + width - r + pi * r / 2) * t,
+    return Shape("plate_quarter", "a quarter of a plate with a hole: symmetry planes, no seam, cells graded to the hole",
+                 cad, mesh, face * t, 2 * face + (length + width + length - r + width - r + pi * r / 2) * t,
                  groups=[(3, "plate", everything), (2, "symmetry_x", box_at(x=0)), (2, "symmetry_y", box_at(y=0)),
                          (2, "load", box_at(x=length)), (1, "hole_rims", lambda low, high: NEAR < high[0] < r + NEAR
                           and NEAR < high[1] < r + NEAR and high[2] - low[2] < NEAR),
@@ -424,7 +424,8 @@ def curved_plate():
     u, v = Spline(3, 3), Spline(3, 2)
     heights = np.array([[0, 2, 3, 2, 0], [2, 9, 8, 4, 1], [4, 12, 14, 6, 2], [3, 10, 15, 9, 4], [1, 5, 8, 9, 5],
                         [0, 1, 4, 6, 5]], float)
-    net = np.stack([np.repeat(x * u.greville()[:, None], v.n, 1), np.repeat(y * v.greville()[None], u.n, 0), heights], axis=2)
+    net = np.stack([np.repeat(x * u.greville()[:, None], v.n, 1), np.repeat(y * v.greville()[None], u.n, 0), heights],
+                   axis=2)
 
     def cad():
         occ().extrude([(2, occ_surface(u, v, net))], 0, 0, t)
@@ -436,8 +437,8 @@ def curved_plate():
         return hx.joined([hx.block(24, 16, 2, mapping)])
 
     return Shape("curved_plate", "thin doubly curved shell: B-spline faces, spline edges", cad, mesh, x * y * t,
-                 2 * measures(u, v, net)[0] + 2 * (x + y) * t, exact="volume closed form, area integral to rounding", splines=True,
-                 binary=True, measure_error=1e-6,
+                 2 * measures(u, v, net)[0] + 2 * (x + y) * t, exact="volume closed form, area integral to rounding",
+                 splines=True, binary=True, measure_error=1e-6,
                  groups=[(3, "shell", everything), (2, "clamped", box_at(x=0)), (0, "corners", everything)])
 
 
@@ -483,8 +484,9 @@ def cam():
     face = (tangent * (big + small) + big**2 * (pi / 2 + tilt) + small**2 * (pi / 2 - tilt) - pi * (bore**2 + pin**2))
     rim = 2 * tangent + big * (pi + 2 * tilt) + small * (pi - 2 * tilt) + 2 * pi * (bore + pin)
     return Shape("cam", "swept unstructured quads: irregular nodes, sheets that wind through the part", cad, mesh, face * t,
-                 2 * face + rim * t, groups=[(3, "cam", everything), (2, "bore", box_at(x=(-bore, bore), y=(-bore, bore))),
-                                             (2, "pin", box_at(x=(gap - pin, gap + pin), y=(-pin, pin)))])
+                 2 * face + rim * t, measure_error=1e-6,
+                 groups=[(3, "cam", everything), (2, "bore", box_at(x=(-bore, bore), y=(-bore, bore))),
+                         (2, "pin", box_at(x=(gap - pin, gap + pin), y=(-pin, pin)))])
 
 
 def l_block():
