@@ -1,0 +1,85 @@
+// What the README shows works, and what it states is what the files say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "source_tree.h"
+#include "support/grids.h"
+
+namespace hextwist::test {
+namespace {
+
+std::string readme() {
+  return content(source_folder() / "README.md");
+}
+
+/// The fenced blocks of one language, in order.
+std::vector<std::string> blocks(const std::string& language) {
+  std::vector<std::string> found;
+  bool inside = false;
+  for (const std::string& line : lines(readme())) {
+    if (!inside && line == "```" + language) {
+      inside = true;
+      found.emplace_back();
+    } else if (inside && line == "```") {
+      inside = false;
+    } else if (inside) {
+      found.back() += line + "\n";
+    }
+  }
+  return found;
+}
+
+TEST(Readme, shell_commands_work_in_the_order_shown) {
+  const auto folder = output_folder();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_directory_symlink(source_folder() / "models", folder / "models");
+  int n_run = 0;
+  for (const std::string& block : blocks("sh")) {
+    // Installing, building and ./dev itself are for a shell outside of the tests.
+    if (block.find("./dev") != std::string::npos || block.find("cmake") != std::string::npos) continue;
+    ++n_run;
+    const Outcome outcome = run("set -e; cd " + quoted(folder) + "; PATH=" + quoted(HEXTWIST_BINARY_DIR "/app") +
+                                ":$PATH; export PATH\n" + block);
+    EXPECT_EQ(outcome.status, 0) << block << outcome.output;
+  }
+  EXPECT_GE(n_run, 3) << "the README shows no commands";
+}
+
+TEST(Readme, embedding_example_is_part_of_the_one_that_is_compiled) {
+  const std::string example = content(source_folder() / "examples/minimal/main.cpp");
+  const auto shown = blocks("cpp");
+  ASSERT_FALSE(shown.empty());
+  for (const std::string& block : shown)
+    for (const std::string& line : lines(block)) EXPECT_NE(example.find(line), std::string::npos) << line;
+}
+
+TEST(Readme, table_of_models_is_that_of_models_json) {
+  const std::string text = readme();
+  for (const auto& row : nlohmann::json::parse(content(source_folder() / "models/models.json"))) {
+    char numbers[200];
+    std::snprintf(numbers, sizeof numbers, " | %.8g | %.8g | %.2f |\n", double(row["volume"]), double(row["area"]),
+                  double(row["min_scaled_jacobian"]));
+    const std::string expected = "| " + row["name"].get<std::string>() + " | " + row["hexes"].dump() + " | " +
+                                 row["exercises"].get<std::string>() + numbers;
+    EXPECT_NE(text.find(expected), std::string::npos) << "run models/make_models.py; missing:\n" << expected;
+  }
+}
+
+TEST(Readme, links_lead_to_files_that_exist) {
+  for (const std::string document : {"README.md", "CONTRIBUTING.md", "docs/design.md", "CHANGELOG.md"}) {
+    const auto file = source_folder() / document;
+    const std::string text = content(file);
+    for (std::size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
+      const std::string link = text.substr(at + 2, text.find(')', at) - at - 2);
+      if (link.starts_with("http") || link.starts_with("#")) continue;
+      EXPECT_TRUE(std::filesystem::exists(file.parent_path() / link.substr(0, link.find('#'))))
+          << document << ": " << link;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hextwist::test
