@@ -7,16 +7,16 @@ cd "${2:-.}"
 
 commands='
   quality volume all shape
-  refine surface 6            # everything that touches the bore
-  refine curve 22             # the concave corner of the L: cut once ...
-  refine vertex 6 numsplit 2  # one outer corner of the foot, twice
+  refine surface 6     # all hexes that touch the bore
+  refine curve 22      # the concave corner of the L
+  refine vertex 9      # a corner of the foot
   quality volume all shape
   export vtk "hextwist-demo.vtu" overwrite
   export gmsh "hextwist-demo.msh" overwrite
 '
-echo "hextwist --cad models/bracket.step models/bracket.msh -c '$commands' --json hextwist-demo.json"
+echo "hextwist --cad models/bracket.brep models/bracket.msh -c '$commands' --json hextwist-demo.json"
 echo
-"$program" --cad "$here/bracket.step" "$here/bracket.msh" -c "$commands" --json hextwist-demo.json
+"$program" --cad "$here/bracket.brep" "$here/bracket.msh" -c "$commands" --json hextwist-demo.json
 
 cat <<DONE
 

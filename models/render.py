@@ -23,7 +23,7 @@ def arguments():
     parser.add_argument("--up", type=numbers, default=[0, 0, 1])
     parser.add_argument("--cut", type=numbers)
     parser.add_argument("--zoom", type=float, default=1.0)
-    parser.add_argument("--size", type=numbers, default=[1400, 1000])
+    parser.add_argument("--size", type=numbers, default=[960, 860])
     return parser.parse_args()
 
 
@@ -69,7 +69,7 @@ def colours():
     table = vtk.vtkColorTransferFunction()
     table.SetColorSpaceToLab()
     for value, rgb in ((0.0, (0.55, 0.10, 0.15)), (0.35, (0.90, 0.45, 0.25)), (0.6, (0.98, 0.85, 0.55)),
-                       (0.8, (0.62, 0.80, 0.82)), (1.0, (0.20, 0.47, 0.66))):
+                       (0.8, (0.66, 0.84, 0.86)), (1.0, (0.33, 0.60, 0.78))):
         table.AddRGBPoint(value, *rgb)
     return table
 
@@ -88,7 +88,7 @@ def skin_actor(grid, table):
     look = actor.GetProperty()
     look.EdgeVisibilityOn()
     look.SetEdgeColor(0.12, 0.14, 0.18)
-    look.SetLineWidth(1.2)
+    look.SetLineWidth(0.8)
     look.SetInterpolationToFlat()
     look.SetAmbient(0.3)
     look.SetDiffuse(0.75)

@@ -2,8 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
 
+#include "hextwist/mesh/io.h"
 #include "source_tree.h"
 #include "support/grids.h"
 
@@ -65,6 +70,31 @@ TEST(Readme, table_of_models_is_that_of_models_json) {
                                  row["exercises"].get<std::string>() + numbers;
     EXPECT_NE(text.find(expected), std::string::npos) << "run models/make_models.py; missing:\n" << expected;
   }
+}
+
+/// Words that begin with a dot and stand in backquotes.
+std::set<std::string> extensions_in(const std::string& text) {
+  std::set<std::string> found;
+  static const std::regex extension(R"re(`(\.\w+)`)re");
+  for (std::sregex_iterator at(text.begin(), text.end(), extension), end; at != end; ++at) found.insert((*at)[1]);
+  return found;
+}
+
+TEST(Readme, table_of_files_says_what_is_read_and_written) {
+  std::set<std::string> read, written;
+  for (const std::string& line : lines(readme())) {
+    static const std::regex row(R"re(\| ([^|]*`\.\w+`[^|]*) \| (\w+) \| (\w+) \|.*)re");
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    if (match[2] == "yes") read.merge(extensions_in(match[1]));
+    if (match[3] == "yes") written.merge(extensions_in(match[1]));
+  }
+  const auto known = [](const std::string& text) {
+    std::istringstream words(text);
+    return std::set<std::string>(std::istream_iterator<std::string>(words), {});
+  };
+  EXPECT_EQ(read, known(readable_extensions()));
+  EXPECT_EQ(written, known(writable_extensions()));
 }
 
 TEST(Readme, links_lead_to_files_that_exist) {
