@@ -42,7 +42,7 @@ class SlowConsumer : public testing::Test {
 TEST_F(SlowConsumer, builds_the_example_through_find_package) {
   const auto folder = output_folder() / "build";
   const Outcome built =
-      run("cmake -S " + quoted(example) + " -B " + quoted(folder) + " -DCMAKE_BUILD_TYPE=None" +
+      run("cmake -S " + quoted(example) + " -B " + quoted(folder) + " -G Ninja -DCMAKE_BUILD_TYPE=None" +
           " -DCMAKE_CXX_COMPILER=" HEXTWIST_CXX_COMPILER " -DCMAKE_CXX_FLAGS=" + quoted(HEXTWIST_CXX_FLAGS) +
           " -DCMAKE_PREFIX_PATH=" + quoted(prefix) + " && cmake --build " + quoted(folder));
   ASSERT_EQ(built.status, 0) << built.output;
