@@ -35,6 +35,7 @@ constexpr Format formats[] = {
     {".exo", io::read_exodus, write_exodus},
     {".g", io::read_exodus, write_exodus},
     {".gen", io::read_exodus, write_exodus},
+    {".inp", io::read_abaqus, write_whole<io::write_abaqus>},
     {".mesh", read_whole<io::read_medit>, write_whole<io::write_medit>},
     {".vtu", nullptr, write_whole<io::write_vtu>},
 };

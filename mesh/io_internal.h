@@ -18,6 +18,8 @@ namespace hextwist::io {
 
 MeshFile read_gmsh(const Bytes& bytes);
 void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+MeshFile read_abaqus(const std::filesystem::path& file);
+void write_abaqus(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
 MeshFile read_medit(const Bytes& bytes);
 void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
