@@ -62,7 +62,7 @@ const std::vector<CommandSpec> table = {
     {"redo", "", "do again what was undone", "", {}, {}},
     {"refine",
      "refine {node|edge|face|hex|vertex|curve|surface|volume|~sheet} <range> "
-     "[numsplit <splits>] [depth <layers>] [bias <bias>] [concave {template|fill}] [{smooth|no_smooth}] [dry_run] "
+     "[numsplit <splits>] [depth <layers>] [bias <growth>] [concave {template|fill}] [{smooth|no_smooth}] [dry_run] "
      "[~size] [~radius] [~sizing_function] [~method] [~direction]",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
@@ -73,15 +73,15 @@ const std::vector<CommandSpec> table = {
      {{"range", Kind::range, 0, 0, false, range_help},
       {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
-      {"bias", Kind::number, 1, 1e100, false, "accepted when 1"}},
+      {"growth", Kind::number, 1, 1e100, false, "accepted when 1"}},
      {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine volume all numsplit 1"}},
     {"reset", "reset", "forget the mesh and the CAD", "", {}, {"reset"}},
-    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <tolerance>|threads <count>}", "change a setting",
+    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>}", "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
      "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores.",
      {{"degrees", Kind::number, 0, 180, false, "angle in degrees"},
-      {"tolerance", Kind::number, 0, 1, true, "relative to the model size"},
+      {"limit", Kind::number, 0, 1, true, "relative to the model size"},
       {"count", Kind::integer, 0, 1024, false, "number of threads"}},
      {"set glue on", "set feature_angle 20"}},
     {"sideset", "", "define a side set", "", {}, {}},

@@ -1,0 +1,111 @@
+// What the functions behind the commands share.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hextwist/command/selection.h"
+#include "hextwist/command/session.h"
+#include "hextwist/command/syntax.h"
+
+namespace hextwist {
+
+enum class Glue { automatic, on, off };
+
+/// Everything that a command may change; copied before each, so that a failure can put it back. The heavy parts are
+/// shared and never changed in place.
+struct SessionState {
+  std::shared_ptr<const MeshedModel> meshed = std::make_shared<const MeshedModel>();
+  std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
+  std::filesystem::path cad_file;           ///< empty: the model did not come from a file
+  bool has_cad = false;                     ///< false: no model, or the skin of the mesh
+  bool glued = false;
+  MeshState mesh_state;
+  OffModel off_cad;
+  double cad_volume = 0;
+
+  Glue glue = Glue::automatic;
+  double feature_angle = 35;  ///< degrees
+  double tolerance = 1e-5;    ///< of a mesh on its CAD, relative to the model size
+  bool finished = false;
+};
+
+struct Session::Core {
+  SessionState state;
+  SessionCallbacks callbacks;
+  bool keep_going = false;
+  std::vector<CommandRecord> records;
+  int nesting = 0;  ///< of playback
+  std::shared_ptr<const MeshedModel> topology_of;
+  std::shared_ptr<DerivedTopology> topology;
+  std::shared_ptr<void> thread_limit;
+
+  /// Ranges are evaluated against this; the topology is kept while the mesh stays the same.
+  Selector selector();
+  void say(const std::string& line) const;
+};
+
+/// One command on its way: where its function finds and leaves things.
+struct Execution {
+  Execution(Session::Core& session, const Command& said, CommandRecord& row)
+      : core(session), state(session.state), command(said), record(row) {}
+
+  Session::Core& core;
+  SessionState& state;
+  const Command& command;
+  CommandRecord& record;
+
+  void say(const std::string& line) const { core.say(line); }
+  void note(const std::string& line) const;
+  /// Begins a stage: its time goes to the record. Throws Cancelled when the user asked for it.
+  void stage(const char* name);
+  void close_stage();
+  /// Positions chosen by the command's range. Throws when there are none.
+  std::vector<Index> chosen(const Item& range) const;
+
+ private:
+  const char* stage_ = nullptr;
+  std::chrono::steady_clock::time_point since_;
+};
+
+/// The mesh and model of a state changed: checks nothing, measures everything that the records want.
+void take_meshed(SessionState& state, MeshedModel meshed);
+/// Repairs, checks and associates a mesh with the CAD of the state or its own skin.
+void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::string& what);
+QualityRow quality_row(const Mesh& mesh, const Summary& summary);
+ViolationRow violation_row(const Mesh& mesh, const Violation& violation);
+/// Puts the violations into the record (warnings apart) and returns a line on those that are not warnings, "" if none.
+std::string record_violations(CommandRecord& record, const Mesh& mesh, const std::vector<Violation>& violations);
+
+// The functions behind the commands. Each throws Error when it can't do what was asked.
+void do_check(Execution& run);
+void do_create(Execution& run);
+void do_export(Execution& run);
+void do_help(Execution& run);
+void do_import(Execution& run);
+void do_list(Execution& run);
+void do_playback(Execution& run);
+void do_quality(Execution& run);
+void do_quit(Execution& run);
+void do_refine(Execution& run);
+void do_reset(Execution& run);
+void do_set(Execution& run);
+
+/// Runs the commands of a text; see Session::run().
+int run_text(Session::Core& core, std::string_view text, std::string_view source_name);
+void run_command(Session::Core& core, const Command& command);
+/// The words and file of a command as if they had been typed.
+Command made_command(std::string_view name, std::string_view word, const std::filesystem::path& file,
+                     std::string_view last_word = "");
+
+/// 0.4913, 1.2e-15: four significant digits.
+std::string short_number(double value);
+/// "1 hex", "3 hexes".
+std::string counted(std::int64_t n, std::string_view one, std::string_view many);
+inline std::string counted(std::int64_t n, EntityKind kind) {
+  return counted(n, name(kind), plural(kind));
+}
+
+}  // namespace hextwist

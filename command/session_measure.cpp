@@ -1,0 +1,76 @@
+// What a session knows about its mesh, as rows of its records.
+
+#include <array>
+#include <cstdio>
+
+#include "hextwist/command/session_internal.h"
+
+namespace hextwist {
+namespace {
+
+// A broken file can have a violation per hex; nobody reads more rows than this, and the count says the rest.
+constexpr std::size_t max_rows = 1000;
+
+}  // namespace
+
+std::string short_number(double value) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
+  return buffer.data();
+}
+
+std::string counted(std::int64_t n, std::string_view one, std::string_view many) {
+  return std::to_string(n) + " " + std::string(n == 1 ? one : many);
+}
+
+QualityRow quality_row(const Mesh& mesh, const Summary& summary) {
+  if (summary.count == 0) return {};
+  return {summary.count,
+          summary.min,
+          summary.max,
+          summary.average,
+          summary.std_dev,
+          hex_id(mesh, summary.min_hex),
+          hex_id(mesh, summary.max_hex)};
+}
+
+ViolationRow violation_row(const Mesh& mesh, const Violation& violation) {
+  ViolationRow row{name(violation.kind), violation.text, {}, {}};
+  for (const Index hex : violation.hexes) row.hexes.push_back(hex_id(mesh, hex));
+  for (const Index node : violation.nodes) row.nodes.push_back(node_id(mesh, node));
+  return row;
+}
+
+std::string record_violations(CommandRecord& record, const Mesh& mesh, const std::vector<Violation>& violations) {
+  std::string first;
+  for (const Violation& violation : violations) {
+    const bool warning = is_warning(violation.kind);
+    if (!warning && first.empty()) first = violation.text;
+    if (!warning) ++record.n_violations;
+    auto& rows = warning ? record.warnings : record.violations;
+    if (rows.size() < max_rows) rows.push_back(violation_row(mesh, violation));
+  }
+  if (record.n_violations <= 1) return first;
+  return counted(record.n_violations, "violation", "violations") + ", the first: " + first;
+}
+
+void take_meshed(SessionState& state, MeshedModel meshed) {
+  const Mesh& mesh = meshed.mesh;
+  state.mesh_state = {};
+  state.mesh_state.hexes = mesh.n_hexes();
+  state.mesh_state.nodes = mesh.n_nodes();
+  if (mesh.n_hexes() > 0) {
+    state.mesh_state.shape = quality_row(mesh, summarize(quality(Metric::shape, mesh)));
+    state.mesh_state.scaled_jacobian = quality_row(mesh, summarize(quality(Metric::scaled_jacobian, mesh)));
+    state.mesh_state.volume = volume(mesh);
+  }
+  state.off_cad = {};
+  state.cad_volume = 0;
+  if (meshed.model) {
+    for (int id = 1; id <= meshed.model->count(3); ++id) state.cad_volume += meshed.model->measure({3, id});
+    if (!meshed.association.empty()) state.off_cad = off_model(mesh, meshed.association, *meshed.model);
+  }
+  state.meshed = std::make_shared<const MeshedModel>(std::move(meshed));
+}
+
+}  // namespace hextwist
