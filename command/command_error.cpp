@@ -49,7 +49,7 @@ struct Place {
 Place place_of(const Source& source, std::size_t offset) {
   const std::string_view text = source.text;
   Place place;
-  place.line = 1 + static_cast<int>(std::ranges::count(text.substr(0, offset), '\n'));
+  place.line = source.first_line + static_cast<int>(std::ranges::count(text.substr(0, offset), '\n'));
   const std::size_t before = offset == 0 ? std::string_view::npos : text.rfind('\n', offset - 1);
   place.begin = before == std::string_view::npos ? 0 : before + 1;
   place.text = text.substr(place.begin, std::min(text.find('\n', offset), text.size()) - place.begin);

@@ -85,8 +85,8 @@ bool Session::finished() const {
   return core_->state.finished;
 }
 
-int Session::run(std::string_view text, std::string_view source_name) {
-  return run_text(*core_, text, source_name);
+int Session::run(std::string_view text, std::string_view source_name, int first_line) {
+  return run_text(*core_, text, source_name, first_line);
 }
 void Session::import_cad(const std::filesystem::path& file) {
   run_command(*core_, made_command("import", "geometry", file));
@@ -193,9 +193,9 @@ void run_command(Session::Core& core, const Command& command) {
   }
 }
 
-int run_text(Session::Core& core, std::string_view text, std::string_view source_name) {
+int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line) {
   int n_failed = 0;
-  for (const Statement& statement : split_statements(text, source_name)) {
+  for (const Statement& statement : split_statements(text, source_name, first_line)) {
     if (core.state.finished) break;
     try {
       Command command;

@@ -89,7 +89,7 @@ class Session {
 
   /// Executes commands (see docs/commands.md); source_name is what errors call the text. Returns how many failed.
   /// Throws CommandError for the first that failed, unless it is to keep going; Cancelled's text is "cancelled".
-  int run(std::string_view text, std::string_view source_name = "");
+  int run(std::string_view text, std::string_view source_name = "", int first_line = 1);
 
   /// The same as the commands, for file names of any kind.
   void import_cad(const std::filesystem::path& file);

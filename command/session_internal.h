@@ -94,7 +94,7 @@ void do_reset(Execution& run);
 void do_set(Execution& run);
 
 /// Runs the commands of a text; see Session::run().
-int run_text(Session::Core& core, std::string_view text, std::string_view source_name);
+int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line = 1);
 void run_command(Session::Core& core, const Command& command);
 /// The words and file of a command as if they had been typed.
 Command made_command(std::string_view name, std::string_view word, const std::filesystem::path& file,

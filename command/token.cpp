@@ -84,8 +84,8 @@ Token next_token(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::vector<Statement> split_statements(std::string_view input, std::string_view source_name) {
-  const auto source = std::make_shared<const Source>(Source{std::string(source_name), std::string(input)});
+std::vector<Statement> split_statements(std::string_view input, std::string_view source_name, int first_line) {
+  const auto source = std::make_shared<const Source>(Source{std::string(source_name), std::string(input), first_line});
   const std::string_view text = source->text;
   std::vector<Statement> result;
   Statement statement{source, {}};

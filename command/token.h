@@ -15,6 +15,7 @@ namespace hextwist {
 struct Source {
   std::string name;
   std::string text;
+  int first_line = 1;
 };
 
 struct Token {
@@ -41,7 +42,7 @@ struct Statement {
 
 /// Splits text into statements. Never throws on any input: what can't be read becomes a bad token, so that the
 /// commands before it can run first.
-std::vector<Statement> split_statements(std::string_view text, std::string_view source_name = "");
+std::vector<Statement> split_statements(std::string_view text, std::string_view source_name = "", int first_line = 1);
 
 /// Does the text end in a backslash that asks for another line?
 bool wants_more(std::string_view text);

@@ -1,0 +1,48 @@
+// The terminal: what commands print, a progress line for long ones, and Ctrl-C.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "hextwist/command/session.h"
+
+namespace hextwist::app {
+
+/// Output and notices go to standard output, errors to standard error. Where that is a terminal, a command that runs
+/// for more than a second shows its stage there.
+class Console {
+ public:
+  Console();
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  SessionCallbacks callbacks();
+  void error(const std::string& text);
+  /// Nothing is running from here on: takes the progress line away.
+  void idle();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool running_ = false, shown_ = false;
+  std::chrono::steady_clock::time_point since_;
+  std::string stage_;
+  double fraction_ = 0;
+  std::jthread painter_;
+
+  bool progress(const char* stage, double fraction);
+  void print(std::FILE* to, const std::string& text);
+  void clear();  // with the mutex held
+  void paint(const std::stop_token& stop);
+};
+
+/// From now on the first Ctrl-C asks the running command to stop; a second one before it has ends the program.
+void catch_interrupts();
+/// Was Ctrl-C pressed since the last call?
+bool take_interrupt();
+
+}  // namespace hextwist::app

@@ -1,0 +1,116 @@
+#include "interactive.h"
+
+#include <readline/history.h>
+#include <readline/readline.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "hextwist/command/syntax.h"
+#include "hextwist/command/token.h"
+
+namespace hextwist::app {
+namespace {
+
+constexpr int history_length = 2000;
+
+/// Empty where there is no home.
+std::filesystem::path history_file() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  std::filesystem::path folder;
+  if (state && *state)
+    folder = state;
+  else if (home && *home)
+    folder = std::filesystem::path(home) / ".local" / "state";
+  else
+    return {};
+  folder /= "hextwist";
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  return failed ? std::filesystem::path() : folder / "history";
+}
+
+char** complete(const char* beginning, int start, int end) {
+  const std::string line(rl_line_buffer, static_cast<std::size_t>(end));
+  const bool is_path = std::strpbrk(beginning, "./") || (start > 0 && std::strchr("\"'", rl_line_buffer[start - 1]));
+  if (is_path) return nullptr;  // readline's own: file names
+  rl_attempted_completion_over = 1;
+  static std::vector<std::string> words;
+  words = completions(line);
+  return rl_completion_matches(beginning, [](const char*, int at) -> char* {
+    static std::size_t next = 0;
+    if (at == 0) next = 0;
+    return next < words.size() ? strdup(words[next++].c_str()) : nullptr;
+  });
+}
+
+int on_signal() {
+  if (take_interrupt()) {
+    std::cout << "^C\n" << std::flush;
+    rl_replace_line("", 0);
+    rl_on_new_line();
+    rl_redisplay();
+  }
+  return 0;
+}
+
+/// One command, continued lines joined; false at the end of input.
+bool read_command(std::string& text) {
+  text.clear();
+  do {
+    const std::unique_ptr<char, decltype(&std::free)> line(readline(text.empty() ? "hextwist> " : "        > "),
+                                                           &std::free);
+    if (!line) return !text.empty();
+    if (!text.empty()) text += '\n';
+    text += line.get();
+    if (*line && std::strspn(line.get(), " \t") < std::strlen(line.get())) add_history(line.get());
+  } while (wants_more(text));
+  return true;
+}
+
+}  // namespace
+
+void run_interactive(Session& session, Console& console) {
+  rl_readline_name = "hextwist";
+  rl_attempted_completion_function = complete;
+  rl_completer_quote_characters = "\"'";
+  rl_basic_word_break_characters = " \t\n;,\"'";
+  rl_signal_event_hook = on_signal;
+  const std::filesystem::path history = history_file();
+  stifle_history(history_length);
+  if (!history.empty()) read_history(history.c_str());
+  std::cout << "hextwist " HEXTWIST_VERSION ". 'help' lists the commands, 'quit' ends.\n" << std::flush;
+  std::string text;
+  while (!session.finished() && read_command(text)) {
+    take_interrupt();
+    try {
+      session.run(text);
+    } catch (const Error& error) {
+      console.error(error.what());
+    }
+    console.idle();
+  }
+  if (!session.finished()) std::cout << "\n";
+  if (!history.empty()) write_history(history.c_str());
+}
+
+int run_standard_input(Session& session) {
+  int n_failed = 0, line_number = 0;
+  std::string line;
+  while (!session.finished() && std::getline(std::cin, line)) {
+    const int first = ++line_number;
+    std::string text = line;
+    while (wants_more(text) && std::getline(std::cin, line)) {
+      text += "\n" + line;
+      ++line_number;
+    }
+    n_failed += session.run(text, "stdin", first);
+  }
+  return n_failed;
+}
+
+}  // namespace hextwist::app

@@ -1,0 +1,98 @@
+// The hextwist program: reads options, runs a session, writes the result and the report.
+#include <unistd.h>
+
+#include <iostream>
+#include <new>
+
+#include "console.h"
+#include "exit_status.h"
+#include "hextwist/command/session.h"
+#include "interactive.h"
+#include "options.h"
+#include "report.h"
+
+namespace hextwist::app {
+namespace {
+
+/// Runs one step of the batch; what it says goes to the console. Returns an error in one line, "" when all went well.
+template <class F>
+std::string attempt(Console& console, F step) {
+  try {
+    const int n_failed = step();
+    return n_failed ? std::to_string(n_failed) + " of the commands failed" : "";
+  } catch (const CommandError& error) {
+    console.error(error.what());
+    return error.message();
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory");
+    return "out of memory";
+  } catch (const std::exception& error) {
+    console.error(error.what());
+    return error.what();
+  }
+}
+
+/// Everything up to the report. Returns the first error.
+std::string run(const Options& options, Session& session, Console& console) {
+  const auto once = [](auto&& step) {
+    return [&] {
+      step();
+      return 0;
+    };
+  };
+  std::string error;
+  const auto attempt_step = [&](auto&& step) {
+    const std::string problem = attempt(console, step);
+    if (error.empty()) error = problem;
+    return problem.empty();
+  };
+  if (options.threads > 0) attempt_step([&] { return session.run("set threads " + std::to_string(options.threads)); });
+  // Without its input there is nothing to go on with.
+  if (!options.cad.empty() && !attempt_step(once([&] { session.import_cad(options.cad); }))) return error;
+  if (!options.mesh.empty() && !attempt_step(once([&] { session.import_mesh(options.mesh); }))) return error;
+  if (options.check) {
+    attempt_step([&] { return session.run("check"); });
+    return error;
+  }
+  session.set_keep_going(options.keep_going);
+  for (const Step& step : options.steps) {
+    if (session.finished()) break;
+    const bool ok = attempt_step([&] { return step.is_file ? session.playback(step.text) : session.run(step.text); });
+    if (!ok && !options.keep_going) return error;
+  }
+  if (options.steps.empty()) {
+    if (isatty(STDIN_FILENO))
+      run_interactive(session, console);
+    else
+      attempt_step([&] { return run_standard_input(session); });
+  }
+  session.set_keep_going(false);
+  if (error.empty() && !options.output.empty()) attempt_step(once([&] { session.export_mesh(options.output); }));
+  return error;
+}
+
+int main(int argc, char** argv) {
+  Options options;
+  if (const int status = read_options(argc, argv, options); status >= 0) return status;
+  catch_interrupts();
+  Session session;
+  Console console;
+  session.set_callbacks(console.callbacks());
+  std::string error = run(options, session, console);
+  console.idle();
+  if (!options.json.empty()) {
+    const std::string problem = attempt(console, [&] {
+      write_report(options.json, session.records(), error);
+      return 0;
+    });
+    if (error.empty()) error = problem;
+  }
+  return error.empty() ? done : command_failed;
+}
+
+}  // namespace
+}  // namespace hextwist::app
+
+int main(int argc, char** argv) {
+  return hextwist::app::main(argc, argv);
+}

@@ -1,0 +1,99 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+
+#include "exit_status.h"
+#include "hextwist/mesh/io.h"
+
+namespace hextwist::app {
+namespace {
+
+constexpr const char* description =
+    "Local, conforming refinement of all-hex meshes on CAD.\n\n"
+    "Reads the CAD and the mesh, runs the commands of every -c and every journal (.jou) in their order, and writes "
+    "the\n"
+    "result to OUT when all of them succeeded. Without commands it is interactive; when standard input is not a\n"
+    "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh.\n";
+
+bool is_journal(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".jou";
+}
+
+/// Runs a parse, prints help, version or the error; status to end with, -1 to go on.
+template <class F>
+int parsed(CLI::App& app, F parse) {
+  try {
+    parse();
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error, std::cout, std::cerr);
+    return status == 0 ? status : wrong_usage;
+  }
+  return -1;
+}
+
+int wrong(const std::string& message) {
+  std::cerr << message << "\nRun with --help for more information.\n";
+  return wrong_usage;
+}
+
+int read_check(int argc, char** argv, Options& options) {
+  CLI::App app("Verifies a mesh: conformity, orientation, quality, ownership, distance from the CAD, volume.",
+               "hextwist check");
+  app.add_option("MESH", options.mesh, "mesh to verify")->required();
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("--json", options.json, "write a report to this file");
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  options.check = true;
+  return parsed(app, [&] { app.parse(argc - 1, argv + 1); });
+}
+
+}  // namespace
+
+int read_options(int argc, char** argv, Options& options) {
+  if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
+  CLI::App app(description, "hextwist");
+  std::vector<std::string> files, commands;
+  CLI::Option* file_option = app.add_option("MESH, JOURNALS", files, "a mesh to start from, journals (.jou) to run");
+  CLI::Option* command_option =
+      app.add_option("-c,--commands", commands, "commands to run, separated by ';'")->expected(1)->take_all();
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("-o,--output", options.output,
+                 "write the mesh here when every command succeeded; format by extension: " + writable_extensions());
+  app.add_option("--json", options.json, "write a report on every command to this file, also when one failed");
+  app.add_flag("--keep-going", options.keep_going, "go on after a command that failed");
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  app.set_version_flag("--version", "hextwist " HEXTWIST_VERSION);
+  if (const int status = parsed(app, [&] { app.parse(argc, argv); }); status >= 0) return status;
+
+  // CLI11 keeps the values of an option together; the order between options is in parse_order().
+  auto file = files.begin();
+  auto command = commands.begin();
+  for (const CLI::Option* option : app.parse_order()) {
+    if (option == command_option && command != commands.end()) {
+      options.steps.push_back({false, *command++});
+    } else if (option == file_option && file != files.end()) {
+      if (is_journal(*file))
+        options.steps.push_back({true, *file});
+      else if (options.mesh.empty())
+        options.mesh = *file;
+      else
+        return wrong("two meshes: " + options.mesh.string() + " and " + *file + " (journals end in .jou)");
+      ++file;
+    }
+  }
+  if (!options.output.empty()) {
+    // Better now than after an hour of work.
+    std::string extension = options.output.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (extension.empty() || (" " + writable_extensions() + " ").find(" " + extension + " ") == std::string::npos)
+      return wrong(options.output.string() + ": unknown format to write; extensions are " + writable_extensions());
+  }
+  return -1;
+}
+
+}  // namespace hextwist::app

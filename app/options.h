@@ -1,0 +1,26 @@
+// The command line of the program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hextwist::app {
+
+struct Step {
+  bool is_file = false;  ///< a journal, else commands
+  std::string text;
+};
+
+struct Options {
+  std::filesystem::path cad, mesh, output, json;  ///< empty: not given
+  std::vector<Step> steps;                        ///< -c and journals, as they came
+  bool keep_going = false;
+  bool check = false;  ///< hextwist check MESH
+  int threads = 0;     ///< 0: all
+};
+
+/// Status to end with at once (help, version, wrong usage: the text has been printed), or -1 to go on.
+int read_options(int argc, char** argv, Options& options);
+
+}  // namespace hextwist::app
