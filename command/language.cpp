@@ -16,16 +16,22 @@ const std::vector<CommandSpec> table = {
      "Prints what was checked and fails when the mesh breaks a promise, naming ids.", {},
      {"check"}},
     {"create",
-     "create {brick x <width> [y <depth>] [z <height>]|cylinder {radius <radius> height <height>|height <height> radius <radius>}|sphere radius <radius>} [interval <n>]",
+     "create {brick x <width> [y <depth>] [z <height>] [interval <n> [<n_y> <n_z>]]"
+     "|cylinder {radius <radius> height <height>|height <height> radius <radius>} [interval <n>]"
+     "|sphere radius <radius> [interval <n>]}",
      "make a small CAD solid with a hex mesh on it",
-     "A brick stands with one corner at the origin (y and z default to x) and gets a mapped mesh; a cylinder stands on "
-     "the origin along z and gets an O-grid; a sphere around the origin gets seven blocks. What was there before is replaced.",
+     "All stand with their centre at the origin, a cylinder along z. A brick (y and z default to x) gets a mapped mesh "
+     "with n cells along each edge, or n, n_y and n_z along x, y and z; a cylinder an O-grid with n cells along its height and "
+     "each quarter circle; a sphere seven blocks with n cells along each eighth of a great circle. What was there before "
+     "is replaced.",
      {{"width", Kind::number, 0, 1e100, true, "length along x"},
       {"depth", Kind::number, 0, 1e100, true, "length along y"},
       {"height", Kind::number, 0, 1e100, true, "length along z"},
-      {"radius", Kind::number, 0, 1e100, true, ""},
-      {"n", Kind::integer, 1, 400, false, "hexes along each edge of a block; default 4"}},
-     {"create brick x 10 y 5 z 2 interval 6", "create cylinder radius 2 height 10", "create sphere radius 1 interval 5"}},
+      {"radius", Kind::number, 0, 1e100, true, "radius"},
+      {"n", Kind::integer, 1, 1000, false, "number of cells; default 4, for a sphere 2"},
+      {"n_y", Kind::integer, 1, 1000, false, ""},
+      {"n_z", Kind::integer, 1, 1000, false, ""}},
+     {"create brick x 10 y 5 z 2 interval 10 5 2", "create cylinder radius 2 height 10", "create sphere radius 1 interval 3"}},
     {"draw", "", "draw the mesh into a file", "", {}, {}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
     {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit} <file> [overwrite]", "write the mesh to a file",

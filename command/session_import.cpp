@@ -72,26 +72,7 @@ std::shared_ptr<const Model> read_model(Execution& run, const std::filesystem::p
   return read.model;
 }
 
-std::string shown(const OffModel& off, bool has_cad) {
-  if (off.node < 0) return "";
-  return "; nodes at most " + short_number(off.max) + " off " + (has_cad ? "the CAD" : "the skin");
-}
-
-void say_mesh(const Execution& run, const std::string& what) {
-  const Mesh& mesh = run.state.meshed->mesh;
-  std::string line =
-      what + ": " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node);
-  if (!mesh.blocks.empty()) line += ", " + counted(static_cast<std::int64_t>(mesh.blocks.size()), EntityKind::block);
-  if (!mesh.node_sets.empty())
-    line += ", " + counted(static_cast<std::int64_t>(mesh.node_sets.size()), EntityKind::nodeset);
-  if (!mesh.side_sets.empty())
-    line += ", " + counted(static_cast<std::int64_t>(mesh.side_sets.size()), EntityKind::sideset);
-  const QualityRow& shape = run.state.mesh_state.shape;
-  line += "; smallest shape " + short_number(shape.min) + " (hex " + std::to_string(shape.min_hex) + ")";
-  run.say(line + shown(run.state.off_cad, run.state.has_cad));
-}
-
-std::string say_model(const Model& model) {
+std::string model_text(const Model& model) {
   std::string line;
   for (int dim = 3; dim >= 0; --dim)
     line += (dim == 3 ? "" : ", ") +
@@ -115,7 +96,7 @@ void import_cad(Execution& run, const std::filesystem::path& file) {
   auto model = read_model(run, file, state.glued);
   state.has_cad = true;
   state.cad_file = file;
-  const std::string line = file.string() + ": " + say_model(*model);
+  const std::string line = file.string() + ": " + model_text(*model);
   take_meshed(state, {{}, std::move(model), {}});
   if (mesh.n_hexes() == 0) return run.say(line);
   try {

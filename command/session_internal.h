@@ -74,6 +74,8 @@ struct Execution {
 void take_meshed(SessionState& state, MeshedModel meshed);
 /// Repairs, checks and associates a mesh with the CAD of the state or its own skin.
 void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::string& what);
+/// The line that tells of a mesh that came in.
+void say_mesh(const Execution& run, const std::string& what);
 QualityRow quality_row(const Mesh& mesh, const Summary& summary);
 ViolationRow violation_row(const Mesh& mesh, const Violation& violation);
 /// Puts the violations into the record (warnings apart) and returns a line on those that are not warnings, "" if none.

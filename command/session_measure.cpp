@@ -11,6 +11,11 @@ namespace {
 // A broken file can have a violation per hex; nobody reads more rows than this, and the count says the rest.
 constexpr std::size_t max_rows = 1000;
 
+std::string off_text(const OffModel& off, bool has_cad) {
+  if (off.node < 0) return "";
+  return "; nodes at most " + short_number(off.max) + " off " + (has_cad ? "the CAD" : "the skin");
+}
+
 }  // namespace
 
 std::string short_number(double value) {
@@ -71,6 +76,20 @@ void take_meshed(SessionState& state, MeshedModel meshed) {
     if (!meshed.association.empty()) state.off_cad = off_model(mesh, meshed.association, *meshed.model);
   }
   state.meshed = std::make_shared<const MeshedModel>(std::move(meshed));
+}
+
+void say_mesh(const Execution& run, const std::string& what) {
+  const Mesh& mesh = run.state.meshed->mesh;
+  std::string line =
+      what + ": " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node);
+  if (!mesh.blocks.empty()) line += ", " + counted(static_cast<std::int64_t>(mesh.blocks.size()), EntityKind::block);
+  if (!mesh.node_sets.empty())
+    line += ", " + counted(static_cast<std::int64_t>(mesh.node_sets.size()), EntityKind::nodeset);
+  if (!mesh.side_sets.empty())
+    line += ", " + counted(static_cast<std::int64_t>(mesh.side_sets.size()), EntityKind::sideset);
+  const QualityRow& shape = run.state.mesh_state.shape;
+  line += "; smallest shape " + short_number(shape.min) + " (hex " + std::to_string(shape.min_hex) + ")";
+  run.say(line + off_text(run.state.off_cad, run.state.has_cad));
 }
 
 }  // namespace hextwist

@@ -170,9 +170,9 @@ class Matcher {
     if (!integer && spec.kind != ArgumentSpec::Kind::number) return;
     const bool low = spec.open ? item.number > spec.min : item.number >= spec.min;
     if (low && item.number <= spec.max && !(integer && item.number != std::floor(item.number))) return;
-    const std::string_view option = out_.items.empty() ? "" : std::string_view(out_.items.back().name);
-    reader_.fail(item.token,
-                 std::string(option) + " must be a " + (integer ? "whole " : "") + "number" + bounds_text(spec));
+    const auto option =
+        std::find_if(out_.items.rbegin(), out_.items.rend(), [](const Item& said) { return said.is_word; });
+    reader_.fail(item.token, option->name + " must be a " + (integer ? "whole " : "") + "number" + bounds_text(spec));
   }
 
   /// The kind of entity named last.

@@ -1,0 +1,377 @@
+// What commands do to a session.
+#include "hextwist/command/session.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "hextwist/mesh/io.h"
+#include "hextwist/mesh/quality.h"
+#include "support/checkers.h"
+#include "support/grids.h"
+
+namespace hextwist {
+namespace {
+
+/// A session and what it says.
+struct Fixture {
+  Session session;
+  std::vector<std::string> output, notices, errors;
+  bool go_on = true;
+
+  Fixture() {
+    session.set_callbacks({.output = [this](const std::string& line) { output.push_back(line); },
+                           .notice = [this](const std::string& line) { notices.push_back(line); },
+                           .error = [this](const CommandError& error) { errors.emplace_back(error.what()); },
+                           .progress = [this](const char*, double) { return go_on; }});
+  }
+
+  std::string error(std::string_view text) {
+    try {
+      session.run(text);
+    } catch (const CommandError& error) {
+      return error.message();
+    }
+    return "no error";
+  }
+  std::string all_output() const {
+    std::string result;
+    for (const std::string& line : output) result += line + "\n";
+    return result;
+  }
+  const CommandRecord& last() const { return session.records().back(); }
+};
+
+std::filesystem::path written(const std::string& name, const std::string& text) {
+  const auto file = test::output_folder() / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(Session, CreatesRefinesAndChecksABrick) {
+  Fixture f;
+  EXPECT_EQ(f.session.run("create brick x 1 interval 4; refine hex 1; check"), 0);
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 138);
+  EXPECT_EQ(f.session.meshed().mesh.n_nodes(), 223);
+  EXPECT_TRUE(test::conformal(f.session.meshed().mesh));
+  EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
+  ASSERT_EQ(f.session.records().size(), 3u);
+  const CommandRecord& record = f.session.records()[1];
+  EXPECT_EQ(record.command, "refine hex 1");
+  EXPECT_TRUE(record.ok);
+  EXPECT_EQ(record.before.hexes, 64);
+  EXPECT_EQ(record.after.hexes, 138);
+  EXPECT_EQ(record.before.nodes, 125);
+  EXPECT_EQ(record.after.nodes, 223);
+  EXPECT_NEAR(record.before.shape.min, 1, 1e-12);
+  EXPECT_LT(record.after.shape.min, 1);
+  EXPECT_EQ(record.after.shape.count, 138);
+  EXPECT_NEAR(record.after.volume, 1, 1e-12);
+  EXPECT_NEAR(record.cad_volume, 1, 1e-12);
+  EXPECT_TRUE(record.has_cad);
+  EXPECT_LT(record.off_cad.max_relative, 1e-9);
+  EXPECT_GT(record.off_cad_node, 0);
+  EXPECT_FALSE(record.seconds.empty());
+  EXPECT_GT(record.peak_memory_bytes, 1000000u);
+  EXPECT_NE(f.all_output().find("refine hex 1: 64 -> 138 hexes, smallest shape 1 -> "), std::string::npos)
+      << f.all_output();
+  EXPECT_NE(f.all_output().find("no violations"), std::string::npos);
+}
+
+TEST(Session, CreatesSolidsWithTheIntervalsAsked) {
+  Fixture f;
+  f.session.run("create brick x 4 y 3 z 2 interval 8 6 4");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8 * 6 * 4);
+  EXPECT_NEAR(f.last().after.volume, 24, 1e-9);
+  f.session.run("create brick x 2 interval 3");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 27);
+  EXPECT_NEAR(f.last().cad_volume, 8, 1e-9);
+  f.session.run("create cylinder height 10 radius 2 interval 6; check");
+  EXPECT_NEAR(f.last().cad_volume, 40 * 3.14159265358979, 1e-6);
+  f.session.run("create sphere radius 1; refine surface all; check");
+  EXPECT_LT(f.last().off_cad.max_relative, 1e-9);
+  EXPECT_NE(f.error("create sphere radius 1e80").find("radius"), std::string::npos);
+}
+
+TEST(Session, EveryKindOfTargetCanBeRefined) {
+  for (const char* target : {"node 1", "edge 1", "face 1", "hex 1", "vertex 1", "curve 1", "surface 1", "volume 1"}) {
+    Fixture f;
+    f.session.run(std::string("create brick x 3 interval 3; refine ") + target);
+    EXPECT_GT(f.session.meshed().mesh.n_hexes(), 27) << target;
+    EXPECT_TRUE(test::conformal(f.session.meshed().mesh)) << target;
+    EXPECT_EQ(f.last().off_cad.max_relative < 1e-9, true) << target;
+  }
+}
+
+TEST(Session, AllVolumesTogetherAreRefinedUniformly) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2; refine volume all numsplit 3");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8 * 64);
+  EXPECT_EQ(f.error("refine hex 1 numsplit 9"), "numsplit must be at most 8 unless all volumes are refined");
+}
+
+TEST(Session, ConcavePlacesAreFilledWhenAsked) {
+  // An L of three hexes in a plane: filling adds the fourth.
+  const std::string start = "create brick x 6 interval 6; refine hex 87 88 93 concave ";
+  Fixture fill, other;
+  fill.session.run(start + "fill");
+  other.session.run(start + "template");
+  EXPECT_EQ(fill.last().filled_hexes, 1);
+  EXPECT_EQ(other.last().filled_hexes, 0);
+  EXPECT_GT(fill.last().after.hexes, other.last().after.hexes);
+}
+
+TEST(Session, ADryRunSaysWhatWouldHappenAndDoesNothing) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 4");
+  const MeshedModel* before = &f.session.meshed();
+  f.session.run("refine hex 1 dry_run");
+  EXPECT_EQ(&f.session.meshed(), before);
+  EXPECT_TRUE(f.last().dry_run);
+  EXPECT_EQ(f.last().after.hexes, 138);
+  EXPECT_NE(f.output.back().find("64 -> 138 hexes"), std::string::npos) << f.output.back();
+}
+
+TEST(Session, AFailedCommandLeavesEverythingAsItWas) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  const MeshedModel* before = &f.session.meshed();
+  for (const char* text : {"refine hex 9", "refine curve 13", "refine crve 1", "import mesh \"none.msh\"",
+                           "import step \"none.step\"", "refine curve 1 bias 1.5", "export vtk \"/nowhere/at/all.vtu\"",
+                           "playback \"none.jou\"", "create sphere radius 1e80", "refine hex 1 except 1", "help bogus",
+                           "export vtk \"a.msh\"", "import gmsh \"a.e\""}) {
+    EXPECT_NE(f.error(text), "no error") << text;
+    EXPECT_EQ(&f.session.meshed(), before) << text;
+    EXPECT_FALSE(f.last().ok);
+    EXPECT_EQ(f.last().error, f.error(text));
+    EXPECT_EQ(f.last().after.hexes, 8);
+    EXPECT_EQ(f.last().command, text);
+  }
+  EXPECT_EQ(f.error("refine hex 1 except 1"), "this names no hex");
+  EXPECT_EQ(f.error("refine curve 1 bias 1.5"), "a bias other than 1 is not supported yet");
+  EXPECT_EQ(f.error("help bogus"), "there is no command 'bogus'; 'help' lists them");
+  EXPECT_EQ(f.error("export vtk \"a.msh\""), "vtk files end in .vtu here, not in '.msh'");
+  EXPECT_EQ(f.error("import gmsh \"a.e\""), "gmsh files end in .msh here, not in '.e'");
+  f.session.run("check");
+}
+
+TEST(Session, ACancelledCommandLeavesEverythingAsItWas) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  const MeshedModel* before = &f.session.meshed();
+  f.go_on = false;
+  EXPECT_EQ(f.error("refine hex 1"), "cancelled");
+  EXPECT_EQ(&f.session.meshed(), before);
+  f.session.set_keep_going(true);
+  EXPECT_EQ(f.error("refine hex 1; refine hex 2"), "cancelled");  // the user wants all of it to stop
+  f.go_on = true;
+  f.session.run("refine hex 1");
+  EXPECT_GT(f.session.meshed().mesh.n_hexes(), 8);
+}
+
+TEST(Session, WithoutAMeshCommandsSaySo) {
+  Fixture f;
+  EXPECT_EQ(f.error("refine hex 1"), "there is no mesh to refine");
+  EXPECT_EQ(f.error("quality hex all"), "there is no mesh");
+  EXPECT_EQ(f.error("check"), "there is no mesh to check");
+  EXPECT_EQ(f.error("export mesh \"a.msh\""), "there is no mesh to export");
+  EXPECT_EQ(f.error("list hex 1"), "there are no hexes: no mesh was read");
+  f.session.run("list");
+  EXPECT_EQ(f.output.back(), "nothing: neither CAD nor mesh was read");
+}
+
+TEST(Session, StopsAtTheFirstErrorUnlessToldToKeepGoing) {
+  Fixture f;
+  EXPECT_NE(f.error("create brick x 1 interval 2; bogus; refine hex 1").find("found 'bogus'"), std::string::npos);
+  EXPECT_EQ(f.session.records().size(), 2u);
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
+  Fixture g;
+  g.session.set_keep_going(true);
+  EXPECT_EQ(g.session.run("create brick x 1 interval 2; bogus; refine hex 99; refine hex 1"), 2);
+  EXPECT_GT(g.session.meshed().mesh.n_hexes(), 8);
+  ASSERT_EQ(g.errors.size(), 2u);
+  EXPECT_NE(g.errors[1].find("hex 99 does not exist"), std::string::npos);
+}
+
+TEST(Session, QuitEndsIt) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2; quit; refine hex 1");
+  EXPECT_TRUE(f.session.finished());
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
+}
+
+TEST(Session, JournalsArePlayedBackAndErrorsNameTheirLine) {
+  Fixture f;
+  const auto inner = written("inner.jou", "# comment\nrefine hex 1\n");
+  const auto outer =
+      written("outer.jou", "create brick x 1 interval 4\nplayback '" + inner.string() + "'\nbogus\nreset\n");
+  try {
+    f.session.run("playback \"" + outer.string() + "\"");
+    FAIL();
+  } catch (const CommandError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with(outer.string() + ":3:1: expected check, create")) << error.what();
+  }
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 138);  // what was done before the error stays done
+  const auto endless = test::output_folder() / "endless.jou";
+  std::ofstream(endless) << "playback '" << endless.string() << "'";
+  EXPECT_EQ(f.error("playback \"" + endless.string() + "\""), "journals play each other back without end");
+}
+
+TEST(Session, ListsWhatThereIs) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
+           {"list", "mesh: 27 hexes, 64 nodes, volume 27, 1 block, 0 nodesets, 0 sidesets, 0 fields"},
+           {"list surface 1", "surface 1: plane, area 9, curves "},
+           {"list curve 1", "curve 1: line, length 3, vertices "},
+           {"list volume 1", "volume 1: solid"},
+           {"list vertex 1", "vertex 1: point (-1.5, -1.5, "},
+           {"list hex 14", "in volume 1, block 1, volume 1, shape 1, scaled Jacobian 1"},
+           {"list node 1", "node 1: (-1.5, -1.5, -1.5), on vertex "},
+           {"list edge 1", "edge 1: nodes 1 2, length 1, on curve "},
+           {"list face 1", ", hexes 1, on surface "},
+           {"list sheet 1", "sheet 1: 48 edges, 27 hexes"},
+           {"list block 1", "27 hexes"},
+       }) {
+    f.output.clear();
+    f.session.run(text);
+    EXPECT_NE(f.all_output().find(line), std::string::npos) << text << "\n" << f.all_output();
+  }
+}
+
+TEST(Session, QualityIsATable) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 4; refine hex 1");
+  f.output.clear();
+  f.session.run("quality volume 1 all");
+  ASSERT_EQ(f.output.size(), 3u);
+  EXPECT_NE(f.output[0].find("std. dev."), std::string::npos);
+  EXPECT_TRUE(f.output[1].starts_with("shape "));
+  EXPECT_TRUE(f.output[2].starts_with("scaled Jacobian "));
+  const Mesh& mesh = f.session.meshed().mesh;
+  const Summary summary = summarize(quality(Metric::shape, mesh));
+  std::istringstream row(f.output[1].substr(5));
+  double count = 0, average = 0, deviation = 0, min = 0, min_hex = 0, max = 0, max_hex = 0;
+  row >> count >> average >> deviation >> min >> min_hex >> max >> max_hex;
+  EXPECT_EQ(count, 138);
+  EXPECT_NEAR(average, summary.average, 1e-4);
+  EXPECT_NEAR(deviation, summary.std_dev, 1e-4);
+  EXPECT_NEAR(min, summary.min, 1e-4);
+  EXPECT_EQ(min_hex, hex_id(mesh, summary.min_hex));
+  EXPECT_NEAR(max, summary.max, 1e-4);
+  EXPECT_EQ(max_hex, hex_id(mesh, summary.max_hex));
+  // Entities of less than three dimensions stand for the hexes that touch them.
+  f.output.clear();
+  f.session.run("quality vertex all scaled");
+  EXPECT_NE(f.output[1].find(" 8 "), std::string::npos) << f.output[1];
+}
+
+TEST(Session, FilesComeBackAsTheyWentOut) {
+  const auto file = test::output_folder() / "brick.msh";
+  Fixture f;
+  f.session.run("create brick x 3 interval 3; refine curve 1; export mesh '" + file.string() + "' overwrite");
+  const auto n = f.session.meshed().mesh.n_hexes();
+  EXPECT_NE(f.error("export mesh '" + file.string() + "'").find("exists"), std::string::npos);
+  Fixture g;
+  g.session.run("import mesh '" + file.string() + "'; check");
+  EXPECT_EQ(g.session.meshed().mesh.n_hexes(), n);
+  EXPECT_FALSE(g.last().has_cad);
+  EXPECT_EQ(g.session.meshed().model->count(2), 6);
+  g.session.run("refine curve all; check; reset; list");
+  EXPECT_EQ(g.session.meshed().mesh.n_hexes(), 0);
+}
+
+TEST(Session, AnUpsideDownMeshIsTurnedWithANotice) {
+  Mesh mesh = test::grid(2, 2, 2);
+  for (Hex& hex : mesh.hexes)
+    for (int c = 0; c < 4; ++c) std::swap(hex[c], hex[c + 4]);
+  Fixture f;
+  f.session.take(mesh, nullptr);
+  EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
+  ASSERT_EQ(f.notices.size(), 1u);
+}
+
+TEST(Session, ABrokenMeshIsRefusedWithItsViolations) {
+  Mesh mesh = test::grid(2, 2, 2);
+  mesh.points[13] += Vec3(1.5, 1.5, 1.5);  // the middle node goes through the corner
+  const auto file = test::output_folder() / "broken.msh";
+  write_mesh(file, mesh, nullptr);
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  const MeshedModel* before = &f.session.meshed();
+  const std::string error = f.error("import mesh '" + file.string() + "'");
+  EXPECT_NE(error.find("violations, the first: "), std::string::npos) << error;
+  EXPECT_EQ(&f.session.meshed(), before);
+  EXPECT_GT(f.last().n_violations, 1);
+  EXPECT_EQ(f.last().violations.at(0).kind, name(ViolationKind::inverted));
+  EXPECT_FALSE(f.last().violations.at(0).hexes.empty());
+  EXPECT_THROW(f.session.take(mesh, nullptr), Error);
+  EXPECT_THROW(f.session.take({}, nullptr), Error);
+  EXPECT_EQ(&f.session.meshed(), before);
+}
+
+TEST(Session, SettingsTakeEffectAndAreKept) {
+  // A roof of two quads that meet at 30 degrees: a curve below that angle, none above.
+  Mesh mesh = test::grid(2, 1, 1);
+  for (const Index i : {7, 10}) mesh.points[i].z() += 0.27;
+  const auto file = test::output_folder() / "roof.msh";
+  write_mesh(file, mesh, nullptr);
+  Fixture f;
+  f.session.run("import mesh '" + file.string() + "'");
+  const int blunt = f.session.meshed().model->count(1);
+  f.session.run("set feature_angle 10; set glue off; set tolerance 1e-3; set threads 1; reset; import mesh '" +
+                file.string() + "'");
+  EXPECT_EQ(f.session.meshed().model->count(1), blunt + 1);
+}
+
+TEST(Session, RealPartsAreReadRefinedAndWritten) {
+  if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
+  const auto cad = test::data_folder() / "cad";
+  for (const char* part : {"plate_hole", "two_material"})
+    for (const char* format : {".brep", ".step"}) {
+      Fixture f;
+      f.session.import_cad((cad / part).string() + format);
+      f.session.import_mesh((cad / part).string() + "_1k.msh");
+      f.session.run("check; refine curve 1; check");
+      EXPECT_GT(f.last().after.hexes, f.session.records()[1].after.hexes);
+      EXPECT_LT(f.last().off_cad.max_relative, 1e-7);
+      EXPECT_TRUE(f.last().has_cad);
+    }
+}
+
+TEST(Session, SolidsThatTheMeshJoinsAreGlued) {
+  if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
+  const auto cad = test::data_folder() / "cad";
+  Fixture f;
+  f.session.import_cad(cad / "two_material.step");
+  const int apart = f.session.meshed().model->count(2);
+  f.session.import_mesh(cad / "two_material_1k.msh");
+  EXPECT_LT(f.session.meshed().model->count(2), apart);
+  std::string notices;
+  for (const std::string& line : f.notices) notices += line + "\n";
+  EXPECT_NE(notices.find("reading it again with touching solids glued"), std::string::npos) << notices;
+  Fixture off;
+  off.session.run("set glue off");
+  off.session.import_cad(cad / "two_material.step");
+  EXPECT_THROW(off.session.import_mesh(cad / "two_material_1k.msh"), Error);
+  Fixture on;
+  on.session.run("set glue on");
+  on.session.import_cad(cad / "two_material.step");
+  EXPECT_EQ(on.session.meshed().model->count(2), f.session.meshed().model->count(2));
+}
+
+TEST(Session, AMeshOfAnotherPartIsRefused) {
+  if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
+  const auto cad = test::data_folder() / "cad";
+  Fixture f;
+  f.session.import_cad(cad / "plate_hole.brep");
+  EXPECT_THROW(f.session.import_mesh(cad / "sphere7_1k.msh"), Error);
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 0);
+  f.session.import_mesh(cad / "plate_hole_1k.msh");
+  EXPECT_NE(f.error("import brep '" + (cad / "sphere7.brep").string() + "'").find("('reset' drops the mesh"),
+            std::string::npos);
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 1404);
+}
+
+}  // namespace
+}  // namespace hextwist
