@@ -58,7 +58,7 @@ int read_options(int argc, char** argv, Options& options) {
   if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
   CLI::App app(description, "hextwist");
   std::vector<std::string> files, commands;
-  CLI::Option* file_option = app.add_option("MESH, JOURNALS", files, "a mesh to start from, journals (.jou) to run");
+  CLI::Option* file_option = app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");
   CLI::Option* command_option =
       app.add_option("-c,--commands", commands, "commands to run, separated by ';'")->expected(1)->take_all();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 
 #include "hextwist/command/session_internal.h"
 #include "hextwist/mesh/association.h"
@@ -8,8 +8,8 @@ namespace hextwist {
 namespace {
 
 void add_violation(CommandRecord& record, const char* kind, const std::string& text) {
-  record.violations.push_back({kind, text, {}, {}});
   ++record.n_violations;
+  if (record.violations.size() < max_violation_rows) record.violations.push_back({kind, text, {}, {}});
 }
 
 std::string quality_text(const char* metric, const QualityRow& row) {
@@ -30,11 +30,10 @@ void do_check(Execution& run) {
     for (const std::string& line : check_association(mesh, association, *model))
       add_violation(run.record, "association", line);
     const OffModel off = off_model(mesh, association, *model);
-    if (!(off.max_relative <= state.tolerance)) {
+    if (!(off.max_relative <= state.tolerance)) {  // NaN too
       add_violation(run.record, "off cad",
                     "node " + std::to_string(node_id(mesh, off.node)) + " lies " + short_number(off.max) + " off " +
                         to_string(off.owner));
-      run.record.violations.back().nodes.push_back(node_id(mesh, off.node));
     }
     run.say("model: " + std::string(state.has_cad ? "CAD" : "skin of the mesh") + ", " +
             counted(model->count(3), EntityKind::volume) + ", " + counted(model->count(2), EntityKind::surface) + ", " +
@@ -50,7 +49,10 @@ void do_check(Execution& run) {
   run.say(quality_text("scaled Jacobian", state.mesh_state.scaled_jacobian));
   for (const ViolationRow& row : run.record.warnings) run.note(row.text);
   if (run.record.n_violations > 0) {
-    for (const ViolationRow& row : run.record.violations) run.say("violation: " + row.text);
+    constexpr std::size_t max_lines = 20;
+    const auto& rows = run.record.violations;
+    for (std::size_t i = 0; i < std::min(rows.size(), max_lines); ++i) run.say("violation: " + rows[i].text);
+    if (rows.size() > max_lines) run.say("... and " + std::to_string(run.record.n_violations - max_lines) + " more");
     throw Error(counted(run.record.n_violations, "violation", "violations") +
                 ", the first: " + run.record.violations.front().text);
   }

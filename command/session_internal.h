@@ -47,6 +47,9 @@ struct Session::Core {
   void say(const std::string& line) const;
 };
 
+/// A broken file can have a violation per hex; nobody reads more rows than this, and the count says the rest.
+inline constexpr std::size_t max_violation_rows = 1000;
+
 /// One command on its way: where its function finds and leaves things.
 struct Execution {
   Execution(Session::Core& session, const Command& said, CommandRecord& row)

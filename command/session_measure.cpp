@@ -8,9 +8,6 @@
 namespace hextwist {
 namespace {
 
-// A broken file can have a violation per hex; nobody reads more rows than this, and the count says the rest.
-constexpr std::size_t max_rows = 1000;
-
 std::string off_text(const OffModel& off, bool has_cad) {
   if (off.node < 0) return "";
   return "; nodes at most " + short_number(off.max) + " off " + (has_cad ? "the CAD" : "the skin");
@@ -53,7 +50,7 @@ std::string record_violations(CommandRecord& record, const Mesh& mesh, const std
     if (!warning && first.empty()) first = violation.text;
     if (!warning) ++record.n_violations;
     auto& rows = warning ? record.warnings : record.violations;
-    if (rows.size() < max_rows) rows.push_back(violation_row(mesh, violation));
+    if (rows.size() < max_violation_rows) rows.push_back(violation_row(mesh, violation));
   }
   if (record.n_violations <= 1) return first;
   return counted(record.n_violations, "violation", "violations") + ", the first: " + first;

@@ -17,6 +17,17 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// The folder of this test, emptied when it starts.
+const std::filesystem::path& folder() {
+  static std::filesystem::path result;
+  static const testing::TestInfo* of = nullptr;
+  if (const auto* now = testing::UnitTest::GetInstance()->current_test_info(); now != of) {
+    of = now;
+    result = test::output_folder();
+  }
+  return result;
+}
+
 std::string content(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -33,17 +44,16 @@ std::string quoted(const std::string& text) {
 
 /// Runs the program with arguments as a shell would see them, and a text on standard input.
 Outcome run(const std::string& arguments, const std::string& input = "") {
-  const auto folder = test::output_folder();
-  std::ofstream(folder / "stdin") << input;
-  const std::string command = quoted(HEXTWIST_PROGRAM) + " " + arguments + " < " + quoted((folder / "stdin").string()) +
-                              " > " + quoted((folder / "stdout").string()) + " 2> " +
-                              quoted((folder / "stderr").string());
+  std::ofstream(folder() / "stdin") << input;
+  const std::string command = quoted(HEXTWIST_PROGRAM) + " " + arguments + " < " +
+                              quoted((folder() / "stdin").string()) + " > " + quoted((folder() / "stdout").string()) +
+                              " 2> " + quoted((folder() / "stderr").string());
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder / "stdout"), content(folder / "stderr")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder() / "stdout"), content(folder() / "stderr")};
 }
 
 std::string path(const std::string& name) {
-  return (test::output_folder() / name).string();
+  return (folder() / name).string();
 }
 
 Json report(const std::string& name) {

@@ -13,6 +13,17 @@
 namespace hextwist {
 namespace {
 
+/// The folder of this test, emptied when it starts.
+const std::filesystem::path& folder() {
+  static std::filesystem::path result;
+  static const testing::TestInfo* of = nullptr;
+  if (const auto* now = testing::UnitTest::GetInstance()->current_test_info(); now != of) {
+    of = now;
+    result = test::output_folder();
+  }
+  return result;
+}
+
 /// A session and what it says.
 struct Fixture {
   Session session;
@@ -43,7 +54,7 @@ struct Fixture {
 };
 
 std::filesystem::path written(const std::string& name, const std::string& text) {
-  const auto file = test::output_folder() / name;
+  const auto file = folder() / name;
   std::ofstream(file) << text;
   return file;
 }
@@ -212,7 +223,7 @@ TEST(Session, JournalsArePlayedBackAndErrorsNameTheirLine) {
     EXPECT_TRUE(std::string(error.what()).starts_with(outer.string() + ":3:1: expected check, create")) << error.what();
   }
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 138);  // what was done before the error stays done
-  const auto endless = test::output_folder() / "endless.jou";
+  const auto endless = folder() / "endless.jou";
   std::ofstream(endless) << "playback '" << endless.string() << "'";
   EXPECT_EQ(f.error("playback \"" + endless.string() + "\""), "journals play each other back without end");
 }
@@ -267,7 +278,7 @@ TEST(Session, QualityIsATable) {
 }
 
 TEST(Session, FilesComeBackAsTheyWentOut) {
-  const auto file = test::output_folder() / "brick.msh";
+  const auto file = folder() / "brick.msh";
   Fixture f;
   f.session.run("create brick x 3 interval 3; refine curve 1; export mesh '" + file.string() + "' overwrite");
   const auto n = f.session.meshed().mesh.n_hexes();
@@ -294,7 +305,7 @@ TEST(Session, AnUpsideDownMeshIsTurnedWithANotice) {
 TEST(Session, ABrokenMeshIsRefusedWithItsViolations) {
   Mesh mesh = test::grid(2, 2, 2);
   mesh.points[13] += Vec3(1.5, 1.5, 1.5);  // the middle node goes through the corner
-  const auto file = test::output_folder() / "broken.msh";
+  const auto file = folder() / "broken.msh";
   write_mesh(file, mesh, nullptr);
   Fixture f;
   f.session.run("create brick x 1 interval 2");
@@ -314,7 +325,7 @@ TEST(Session, SettingsTakeEffectAndAreKept) {
   // A roof of two quads that meet at 30 degrees: a curve below that angle, none above.
   Mesh mesh = test::grid(2, 1, 1);
   for (const Index i : {7, 10}) mesh.points[i].z() += 0.27;
-  const auto file = test::output_folder() / "roof.msh";
+  const auto file = folder() / "roof.msh";
   write_mesh(file, mesh, nullptr);
   Fixture f;
   f.session.run("import mesh '" + file.string() + "'");
