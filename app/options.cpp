@@ -59,8 +59,9 @@ int read_options(int argc, char** argv, Options& options) {
   CLI::App app(description, "hextwist");
   std::vector<std::string> files, commands;
   CLI::Option* file_option = app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");
-  CLI::Option* command_option =
-      app.add_option("-c,--commands", commands, "commands to run, separated by ';'")->expected(1)->take_all();
+  CLI::Option* command_option = app.add_option("-c,--commands", commands, "commands to run, separated by ';'")
+                                    ->allow_extra_args(false)
+                                    ->take_all();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
   app.add_option("-o,--output", options.output,
                  "write the mesh here when every command succeeded; format by extension: " + writable_extensions());

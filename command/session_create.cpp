@@ -24,7 +24,7 @@ Solid brick(const Command& command) {
   shape.depth = number_of(command, "depth", shape.width);
   shape.height = number_of(command, "height", shape.width);
   BrickIntervals intervals;
-  if (command.has("n")) intervals = brick_intervals(whole_number_of(command, "n", 0));
+  if (command.find("n")) intervals = brick_intervals(whole_number_of(command, "n", 0));
   intervals.depth = whole_number_of(command, "n_y", intervals.depth);
   intervals.height = whole_number_of(command, "n_z", intervals.height);
   return {cad_brick(shape), mesh_brick(shape, intervals)};
@@ -33,14 +33,14 @@ Solid brick(const Command& command) {
 Solid cylinder(const Command& command) {
   const CylinderShape shape{number_of(command, "radius", 1), number_of(command, "height", 1)};
   CylinderIntervals intervals;
-  if (command.has("n")) intervals = cylinder_intervals(whole_number_of(command, "n", 0));
+  if (command.find("n")) intervals = cylinder_intervals(whole_number_of(command, "n", 0));
   return {cad_cylinder(shape), mesh_cylinder(shape, intervals)};
 }
 
 Solid sphere(const Command& command) {
   const SphereShape shape{number_of(command, "radius", 1)};
   SphereIntervals intervals;
-  if (command.has("n")) intervals = sphere_intervals(whole_number_of(command, "n", 0));
+  if (command.find("n")) intervals = sphere_intervals(whole_number_of(command, "n", 0));
   return {cad_sphere(shape), mesh_sphere(shape, intervals)};
 }
 

@@ -26,8 +26,7 @@ void do_quality(Execution& run) {
   const Mesh& mesh = run.state.meshed->mesh;
   std::vector<Metric> metrics;
   const bool scaled = run.command.has("scaled") || run.command.has("scaled_jacobian");
-  const bool all =
-      std::ranges::any_of(run.command.items, [](const Item& item) { return item.is_word && item.name == "all"; });
+  const bool all = run.command.has("all");
   if (all || !scaled) metrics.push_back(Metric::shape);
   if (all || scaled) metrics.push_back(Metric::scaled_jacobian);
   run.say(formatted("%-16s %9s %9s %9s %9s %10s %9s %10s", "", "count", "average", "std. dev.", "min", "(hex)", "max",

@@ -207,8 +207,13 @@ Command parse(Reader& reader) {
 
 }  // namespace
 
-const Item* Command::find(std::string_view name) const {
-  const auto found = std::ranges::find(items, name, &Item::name);
+bool Command::has(std::string_view word) const {
+  return std::ranges::any_of(items, [&](const Item& item) { return item.is_word && item.name == word; });
+}
+
+const Item* Command::find(std::string_view argument) const {
+  const auto found =
+      std::ranges::find_if(items, [&](const Item& item) { return !item.is_word && item.name == argument; });
   return found == items.end() ? nullptr : &*found;
 }
 

@@ -59,9 +59,10 @@ struct Command {
   Statement statement;
   std::vector<Item> items;  ///< in the order said, the command's own name first
 
-  /// The word or value of that name, null where it was not said.
-  const Item* find(std::string_view name) const;
-  bool has(std::string_view name) const { return find(name) != nullptr; }
+  /// Was this word said?
+  bool has(std::string_view word) const;
+  /// The value of that name, null where there was none.
+  const Item* find(std::string_view argument) const;
 };
 
 /// The table of all commands, alphabetical.

@@ -107,10 +107,10 @@ TEST(Program, HelpAndVersionAreDone) {
 TEST(Program, BadInputIsOneClearLine) {
   std::ofstream(path("cut.msh")) << "$MeshFormat\n4.1 0 8\n";
   std::ofstream(path("cut.step")) << "ISO-10303-21;\nHEADER;\n";
-  for (const std::string& arguments :
-       {path("none.msh"), path("cut.msh"), "--cad " + path("none.step"), "--cad " + path("cut.step"), path("none.jou"),
-        "-c 'create brick x 1' -o /nowhere/at/all.vtu", "-c reset -o " + path("a.msh"),
-        "-c 'create brick x 1' --json /nowhere/a.json", std::string("-c 'import mesh none.msh'")}) {
+  for (const std::string& arguments : std::vector<std::string>{
+           path("none.msh"), path("cut.msh"), "--cad " + path("none.step"), "--cad " + path("cut.step"),
+           path("none.jou"), "-c 'create brick x 1' -o /nowhere/at/all.vtu", "-c reset -o " + path("a.msh"),
+           "-c 'create brick x 1' --json /nowhere/a.json", "-c 'import mesh none.msh'"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 1) << arguments;
     EXPECT_TRUE(outcome.err.starts_with("error: ")) << arguments << ": " << outcome.err;
@@ -128,12 +128,12 @@ TEST(Program, AFullDiskLeavesNoHalfFile) {
 TEST(Program, CommandsAndJournalsRunInTheirOrder) {
   std::ofstream(path("a.jou")) << "refine hex 1 # comment\nquality hex all\n";
   const Outcome outcome =
-      run("-c 'create brick x 1 interval 4' " + path("a.jou") + " -c list -c 'refine hex 2' --json " + path("a.json"));
+      run("-c 'create brick x 1 interval 4' " + path("a.jou") + " -c list -c 'refine hex 64' --json " + path("a.json"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::vector<std::string> commands;
   for (const Json& row : report("a.json")["commands"]) commands.push_back(row["command"]);
   EXPECT_EQ(commands, (std::vector<std::string>{"create brick x 1 interval 4", "playback \"" + path("a.jou") + "\"",
-                                                "refine hex 1", "quality hex all", "list", "refine hex 2"}));
+                                                "refine hex 1", "quality hex all", "list", "refine hex 64"}));
 }
 
 TEST(Program, ErrorsInJournalsNameFileLineAndColumn) {
