@@ -1,4 +1,4 @@
-// The JSON report: one row per command. Fields are described in docs/report.md.
+// The JSON report: one row per command. Fields are described in docs/commands.md.
 #pragma once
 
 #include <filesystem>

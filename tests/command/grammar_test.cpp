@@ -1,6 +1,8 @@
 // What commands look like: what is accepted, and where errors point.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <random>
 
 #include "hextwist/command/command_error.h"
@@ -206,6 +208,20 @@ TEST(Grammar, EveryCommandHasHelpAndItsExamplesParse) {
   }
   EXPECT_NE(help("range").find("except"), std::string::npos);
   EXPECT_THROW(help("bogus"), Error);
+}
+
+TEST(Grammar, TheManualHasEveryCommandAndExample) {
+  std::ifstream file(std::string(HEXTWIST_SOURCE_DIR) + "/docs/commands.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    for (const auto example : spec.examples) {
+      EXPECT_NE(manual.find(example), std::string::npos) << example;
+    }
+    for (const ArgumentSpec& argument : spec.arguments) {
+      EXPECT_NE(manual.find("<" + std::string(argument.name) + ">"), std::string::npos) << argument.name;
+    }
+  }
 }
 
 TEST(Grammar, GarbageGivesAnErrorWithAPlaceOrParsesAndNeverCrashes) {

@@ -131,7 +131,8 @@ TEST(Program, CommandsAndJournalsRunInTheirOrder) {
       run("-c 'create brick x 1 interval 4' " + path("a.jou") + " -c list -c 'refine hex 64' --json " + path("a.json"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::vector<std::string> commands;
-  for (const Json& row : report("a.json")["commands"]) commands.push_back(row["command"]);
+  const Json json = report("a.json");
+  for (const Json& row : json["commands"]) commands.push_back(row["command"]);
   EXPECT_EQ(commands, (std::vector<std::string>{"create brick x 1 interval 4", "playback \"" + path("a.jou") + "\"",
                                                 "refine hex 1", "quality hex all", "list", "refine hex 64"}));
 }
@@ -165,7 +166,9 @@ TEST(Program, StandardInputIsReadWhenThereAreNoCommands) {
 
 TEST(Program, TheReportHasTheFieldsThatScriptsRelyOn) {
   run("-c 'create brick x 1 interval 4; refine hex 1' --json " + path("a.json"));
-  for (const Json& row : report("a.json")["commands"]) {
+  const Json json = report("a.json");
+  ASSERT_EQ(json["commands"].size(), 2u);
+  for (const Json& row : json["commands"]) {
     for (const char* key :
          {"command", "ok", "error", "hexes_before", "hexes_after", "nodes_before", "nodes_after", "filled_hexes",
           "shape", "scaled_jacobian", "off_cad", "violations", "seconds", "peak_memory_bytes"})
@@ -175,7 +178,7 @@ TEST(Program, TheReportHasTheFieldsThatScriptsRelyOn) {
     EXPECT_GT(row["peak_memory_bytes"], 1000000);
     EXPECT_TRUE(row["violations"].is_array());
   }
-  const Json row = report("a.json")["commands"][1];
+  const Json& row = json["commands"][1];
   EXPECT_EQ(row["hexes_before"], 64);
   EXPECT_EQ(row["hexes_after"], 138);
   EXPECT_EQ(row["nodes_before"], 125);
