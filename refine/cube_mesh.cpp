@@ -21,6 +21,10 @@ std::array<Vec3, 8> unit_corners() {
   return result;
 }
 
+bool is_inside_cube(const Vec3& p) {
+  return p.minCoeff() > 1e-9 && p.maxCoeff() < 1 - 1e-9;
+}
+
 Vec3 trilinear(const std::array<Vec3, 8>& corners, const Vec3& at) {
   Vec3 sum = Vec3::Zero();
   for (int c = 0; c < 8; ++c) {

@@ -18,6 +18,8 @@ struct CubeMesh {
 
 /// The unit cube's corners.
 std::array<Vec3, 8> unit_corners();
+/// Strictly inside, not on the skin.
+bool is_inside_cube(const Vec3& p);
 /// Image of a point of the unit cube under the trilinear map to eight corners.
 Vec3 trilinear(const std::array<Vec3, 8>& corners, const Vec3& at);
 /// Adds `piece`, a mesh of the unit cube, mapped to the hex with the given corners.

@@ -44,7 +44,7 @@ struct Request {
   TargetKind kind = TargetKind::hex;
   /// Mesh entities by index (0-based; edges and faces as numbered by edges() and faces()), CAD entities by id.
   /// Ascending, each once.
-  std::vector<Index> targets;
+  std::vector<Index> targets = {};
   /// How often each target edge is cut in three. 1 .. 8. All volumes of the model together are refined uniformly
   /// instead: every edge in numsplit + 1 pieces, 1 .. 29.
   int numsplit = 1;

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "hextwist/mesh/quality.h"
 #include "hextwist/refine/trisect.h"
 #include "support/checkers.h"
 #include "support/grids.h"
@@ -47,6 +48,27 @@ TEST(trisect_table, a_hex_has_the_counts_of_the_paper) {
   EXPECT_EQ(n_children(0b00001111), 13u);
   EXPECT_EQ(n_children(0b00000011), 5u);
   EXPECT_EQ(n_children(0b00000001), 1u);
+}
+
+TEST(trisect_table, the_worst_child_of_any_node_marking_in_the_unit_cube_is_good) {
+  const Mesh cube = test::grid(1, 1, 1);
+  for (int corners = 0; corners < 256; ++corners) {
+    const std::vector<std::uint16_t> codes = {static_cast<std::uint16_t>(edge_mask_of_corners(corners))};
+    const Mesh mesh = refined(cube, split(cube.hexes, cube.n_nodes(), trisect_table(), codes));
+    const double goal = is_convex(codes[0]) ? 0.44 : 0.40;
+    EXPECT_GE(summarize(quality(Metric::shape, mesh)).min, goal) << corners;
+    EXPECT_GE(summarize(quality(Metric::scaled_jacobian, mesh)).min, goal) << corners;
+  }
+}
+
+TEST(trisect_table, a_single_interior_hex_of_a_unit_grid_is_refined_well_before_any_smoothing) {
+  const Mesh grid = test::grid(3, 3, 3);
+  std::vector<char> marked(grid.points.size(), 0);
+  for (const Index n : grid.hexes[13]) marked[n] = 1;
+  const Mesh mesh =
+      refined(grid, split(grid.hexes, grid.n_nodes(), trisect_table(), test::codes_of_nodes(grid, marked)));
+  EXPECT_GE(summarize(quality(Metric::shape, mesh)).min, 0.47);
+  EXPECT_GE(summarize(quality(Metric::scaled_jacobian, mesh)).min, 0.47);
 }
 
 }  // namespace
