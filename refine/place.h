@@ -30,10 +30,10 @@ struct Disappointment {
 /// Hexes among those with index >= first whose smallest corner Jacobian is not positive, ascending.
 std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
 
-/// Turns inverted children right again: first by moving the new nodes inside volumes around them, then, where that
-/// does not help, by moving new nodes back towards their place in the straight-sided parent, off their curve or
-/// surface if need be. Nodes that end up off their owner come back as rows; hexes that are still inverted are left for
-/// the caller to find (inverted_hexes).
+/// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
+/// surfaces; where need be, old nodes inside volumes give way), and where that does not help by moving new nodes back
+/// towards their place in the straight-sided parent, off their curve or surface. Nodes that end up off their owner come
+/// back as rows; hexes that are still inverted are left for the caller to find (inverted_hexes).
 std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                             Association& association);
 

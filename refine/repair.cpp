@@ -6,45 +6,14 @@
 #include <cmath>
 
 #include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/place.h"
 
 namespace hextwist {
 namespace {
 
-constexpr int max_sweeps = 20;
 constexpr int max_halvings = 4;
-
-double smallest_scaled_jacobian(const Mesh& mesh, std::span<const Index> hexes) {
-  double smallest = 1;
-  for (const Index h : hexes) {
-    std::array<Vec3, 8> corners;
-    for (int c = 0; c < 8; ++c) corners[c] = mesh.points[mesh.hexes[h][c]];
-    // The sign of the corner Jacobian counts first: scaled Jacobian alone would hide a flat corner.
-    const double value = quality(Metric::scaled_jacobian, corners);
-    smallest = std::min(smallest, value);
-  }
-  return smallest;
-}
-
-/// Hexes around the given nodes: pairs sorted by node.
-struct Around {
-  std::vector<Index> nodes;               // ascending
-  std::vector<std::vector<Index>> hexes;  // per node; few, so small vectors are no burden
-};
-
-Around hexes_around(const Mesh& mesh, std::vector<Index> nodes) {
-  Around around;
-  around.hexes.resize(nodes.size());
-  around.nodes = std::move(nodes);
-  if (around.nodes.empty()) return around;
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    for (const Index n : mesh.hexes[h]) {
-      const auto found = std::ranges::lower_bound(around.nodes, n);
-      if (found != around.nodes.end() && *found == n) around.hexes[found - around.nodes.begin()].push_back(h);
-    }
-  return around;
-}
 
 std::vector<Index> nodes_of(const Mesh& mesh, std::span<const Index> hexes, Index first_node) {
   std::vector<Index> nodes;
@@ -56,29 +25,34 @@ std::vector<Index> nodes_of(const Mesh& mesh, std::span<const Index> hexes, Inde
   return nodes;
 }
 
-/// Moves one node so that the worst hex around it gets better; pattern search with shrinking steps.
-void improve_node(Mesh& mesh, Index node, std::span<const Index> hexes) {
-  double step = 0;
-  for (const Index h : hexes)
-    for (int c = 0; c < 8; ++c)
-      if (mesh.hexes[h][c] == node)
-        for (int axis = 0; axis < 3; ++axis)
-          step = std::max(step, (mesh.points[mesh.hexes[h][c ^ 1 << axis]] - mesh.points[node]).norm());
-  double best = smallest_scaled_jacobian(mesh, hexes);
-  for (step *= 0.25; step > 0; step *= 0.5) {
-    const double before = best;
-    for (int direction = 0; direction < 6; ++direction) {
-      const Vec3 here = mesh.points[node];
-      mesh.points[node][direction >> 1] += direction & 1 ? step : -step;
-      const double value = smallest_scaled_jacobian(mesh, hexes);
-      if (value > best)
-        best = value;
-      else
-        mesh.points[node] = here;
-    }
-    if (best == before && best > 0) return;
-    if (step < 1e-4 * (mesh.points[node] - mesh.points[mesh.hexes[hexes[0]][0]]).norm() + 1e-300) return;
+/// How far untangling may reach: layers of hexes around the inverted ones; whether old nodes inside volumes may move
+/// too, and whether new nodes may slide along their curves and surfaces.
+struct Reach {
+  int layers;
+  bool old_nodes;
+  bool slide;
+};
+constexpr Reach reaches[] = {{1, false, true}, {2, false, true}, {3, true, true}};
+constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
+
+/// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
+/// stay. Returns the hexes that are inverted still.
+std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, Association& association,
+                            const std::vector<Index>& bad, Reach reach) {
+  const auto may_move = [&](Index n) {
+    const bool inside = association.empty() || association.node_owner[n].dim == 3;
+    return n < split.lineage.n_old_nodes ? reach.old_nodes && inside : reach.slide || inside;
+  };
+  SmoothOptions options;
+  options.scheme = SmoothScheme::untangle;
+  options.nodes = nodes_of(mesh, hex_band(mesh, bad, reach.layers), 0);
+  std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
+  if (smooth(mesh, association, model, options).not_repaired.empty()) {
+    options.scheme = SmoothScheme::mean_ratio;
+    options.iterations = 10;
+    smooth(mesh, association, model, options);
   }
+  return inverted_hexes(mesh, reach.old_nodes ? 0 : split.n_kept());
 }
 
 /// Straight places of the new nodes among `wanted` (ascending).
@@ -117,21 +91,11 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
   const Index first_new = split.lineage.n_old_nodes;
   const auto owner = [&](Index node) { return association.empty() ? Owner{3, 1} : association.node_owner[node]; };
 
-  // 1. Move nodes inside volumes.
-  const auto untangle = [&] {
-    for (int sweep = 0; sweep < max_sweeps && !bad.empty(); ++sweep) {
-      std::vector<Index> nodes = nodes_of(mesh, bad, first_new);
-      std::erase_if(nodes, [&](Index n) { return owner(n).dim != 3; });
-      if (nodes.empty()) return;
-      const Around around = hexes_around(mesh, std::move(nodes));
-      for (std::size_t i = 0; i < around.nodes.size(); ++i) improve_node(mesh, around.nodes[i], around.hexes[i]);
-      std::vector<Index> now = inverted_hexes(mesh, split.n_kept());
-      const bool stuck = sweep > 4 && now == bad;
-      bad = std::move(now);
-      if (stuck) return;
-    }
-  };
-  untangle();
+  // 1. Move nodes in space and along their curves and surfaces.
+  for (const Reach reach : reaches) {
+    if (bad.empty()) return rows;
+    bad = untangle(split, model, mesh, association, bad, reach);
+  }
   if (bad.empty()) return rows;
 
   // 2. Back off from the CAD.
@@ -143,7 +107,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
       mesh.points[nodes[i]] = halving == max_halvings ? straight[i] : Vec3((mesh.points[nodes[i]] + straight[i]) / 2);
     backed_off.insert(backed_off.end(), nodes.begin(), nodes.end());
     bad = inverted_hexes(mesh, split.n_kept());
-    untangle();
+    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach);
   }
   std::ranges::sort(backed_off);
   backed_off.erase(std::ranges::unique(backed_off).begin(), backed_off.end());
