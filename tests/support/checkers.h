@@ -10,7 +10,8 @@ namespace hextwist::test {
 
 /// Every node used, none repeated in a hex; every quad shared by at most two hexes, in opposite sense; no node of the
 /// skin lies inside an edge or quad of the skin of a hex that does not have it (within 1e-7 of the quad's size).
-testing::AssertionResult conformal(const Mesh& mesh);
+enum class UnusedNodes { refused, allowed };
+testing::AssertionResult conformal(const Mesh& mesh, UnusedNodes unused = UnusedNodes::refused);
 
 /// Every corner Jacobian of every hex positive.
 testing::AssertionResult uninverted(const Mesh& mesh);
