@@ -51,6 +51,17 @@ double distance2(const CGAL::Bbox_3& box, const Vec3& p) {
   return sum;
 }
 
+/// The same for the box of an item's corners.
+template <std::size_t n>
+double box_distance2(const std::array<Vec3, n>& item, const Vec3& p) {
+  Vec3 low = item[0], high = item[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    low = low.cwiseMin(item[i]);
+    high = high.cwiseMax(item[i]);
+  }
+  return (p - p.cwiseMax(low).cwiseMin(high)).squaredNorm();
+}
+
 /// The box of an item, for CGAL: a property map from its number.
 template <class Item>
 struct ItemBox {
@@ -98,12 +109,14 @@ class ItemTree {
     tree_.build();
   }
 
-  /// The closest point that is strictly nearer than `bound`; item -1 if there is none. `start`: item to try first.
-  Foot closest(const Vec3& p, double bound2 = std::numeric_limits<double>::infinity(), std::int32_t start = -1) const {
+  /// The closest point that is strictly nearer than the root of `bound2`; item -1 if there is none. `start`: item to
+  /// try first; it is taken at once if it is nearer than the root of `near2`.
+  Foot closest(const Vec3& p, double bound2 = std::numeric_limits<double>::infinity(), std::int32_t start = -1,
+               double near2 = 0) const {
     Closest query{items_, {}};
     query.best.distance2 = bound2;
     if (start >= 0) query.try_item(p, start);
-    if (query.go_further()) tree_.traversal_with_priority(p, query);
+    if (query.best.distance2 > near2) tree_.traversal_with_priority(p, query);
     return query.best;
   }
 
@@ -125,6 +138,8 @@ class ItemTree {
     Foot best;
 
     void try_item(const Vec3& p, std::int32_t item) {
+      // CGAL asks about both items of a leaf; most are done with their box.
+      if (box_distance2(items[item], p) >= best.distance2) return;
       Foot foot = foot_on(items[item], p);
       foot.item = item;
       if (foot.distance2 < best.distance2) best = foot;
@@ -247,6 +262,7 @@ class FacetModel final : public Model {
   std::vector<double> volumes_;  ///< measures
   Incidence incidence_;
   Box box_;
+  double on_it2_ = 0;  ///< squared distance below which a point is on the seed's facet or segment: rounding only
 };
 
 FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
@@ -290,6 +306,7 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
   }
   for (const auto& [surface, curve] : skin.surface_curves) incidence_.add({2, surface}, {1, curve});
   for (const FacetSurface& surface : surfaces_) box_.add(surface.box);
+  on_it2_ = 1e-30 * (box_.max - box_.min).squaredNorm();
   const Vec3 centre = (box_.min + box_.max) / 2;
   for (int s = 0; s < skin.n_surfaces; ++s) {
     FacetSurface& surface = surfaces_[s];
@@ -350,7 +367,7 @@ Vec3 FacetModel::point(Owner entity, Parameters at) const {
 
 Parameters FacetModel::closest_on_curve(const FacetCurve& curve, const Vec3& p, Parameters seed) const {
   const std::int32_t start = std::isfinite(seed.u) ? curve.locate(seed.u).first : -1;
-  const Foot foot = curve.tree->closest(p, std::numeric_limits<double>::infinity(), start);
+  const Foot foot = curve.tree->closest(p, std::numeric_limits<double>::infinity(), start, on_it2_);
   const double from = curve.start[foot.item], to = curve.start[foot.item + 1];
   const double t = foot.s < 1 ? std::min(from + foot.s * (to - from), to) : to;
   return {curve.closed && t >= curve.length() ? 0 : t, std::numeric_limits<double>::quiet_NaN()};
@@ -358,7 +375,7 @@ Parameters FacetModel::closest_on_curve(const FacetCurve& curve, const Vec3& p, 
 
 Parameters FacetModel::closest_on_surface(int surface, const Vec3& p, Parameters seed) const {
   const std::int32_t start = std::isfinite(seed.u) ? facet_of(surface, seed) : -1;
-  const Foot foot = surfaces_[surface - 1].tree->closest(p, std::numeric_limits<double>::infinity(), start);
+  const Foot foot = surfaces_[surface - 1].tree->closest(p, std::numeric_limits<double>::infinity(), start, on_it2_);
   return {2.0 * foot.item + foot.s, foot.t};
 }
 
