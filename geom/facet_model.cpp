@@ -428,7 +428,8 @@ bool FacetModel::contains(int volume, const Vec3& p) const {
     if (surfaces_[surface - 1].tree->closest(p, slack * slack).item >= 0) return true;
   }
   // A ray from an inner point leaves the volume once more than it enters. Where a ray meets an edge or grazes a
-  // facet, another direction decides; directions are fixed, so that answers repeat.
+  // facet, another direction decides; directions are fixed, so that answers repeat. If none of them were clear (a skin
+  // of slivers), the last one's count stands.
   int count = 0;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const double turn = 1 + 2.399963229728653 * attempt;  // golden angle

@@ -358,6 +358,18 @@ TEST(facet_model, a_projection_is_the_same_in_batches_with_any_seed_and_on_any_t
     }
 }
 
+TEST(facet_model, near_finds_what_meets_at_a_corner_and_nothing_else) {
+  const auto [model, classes] = test::facet_model_of(test::grid(4, 4, 4));
+  const Vec3 corner(4, 4, 0);
+  EXPECT_EQ(model->near(0, corner, 0).size(), 1u);
+  EXPECT_EQ(model->near(1, corner, 0).size(), 3u);
+  EXPECT_EQ(model->near(2, corner, 0).size(), 3u);
+  EXPECT_EQ(model->near(2, corner + Vec3(0.1, 0, 0), 0.099).size(), 0u);
+  EXPECT_EQ(model->near(2, corner + Vec3(0.1, 0, 0), 0.1).size(), 3u);
+  EXPECT_EQ(model->near(2, Vec3(2, 2, 2), 2).size(), 6u);
+  EXPECT_EQ(model->near(1, Vec3(2, 2, 2), 2).size(), 0u);
+}
+
 TEST(facet_model, an_angle_that_is_no_angle_is_refused) {
   const Mesh mesh = test::grid(1, 1, 1);
   for (const double angle : {-1.0, 180.5, std::numeric_limits<double>::quiet_NaN()}) {
