@@ -50,7 +50,7 @@ char** complete(const char* beginning, int start, int end) {
 
 int on_signal() {
   if (take_interrupt()) {
-    std::cout << "^C\n" << std::flush;
+    std::cout << "\n" << std::flush;  // the terminal has shown the ^C
     rl_replace_line("", 0);
     rl_on_new_line();
     rl_redisplay();
