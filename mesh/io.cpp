@@ -37,7 +37,8 @@ constexpr Format formats[] = {
     {".gen", io::read_exodus, write_exodus},
     {".inp", io::read_abaqus, write_whole<io::write_abaqus>},
     {".mesh", read_whole<io::read_medit>, write_whole<io::write_medit>},
-    {".vtu", nullptr, write_whole<io::write_vtu>},
+    {".vtk", read_whole<io::read_vtk>, nullptr},
+    {".vtu", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };
 
 const Format* format_of(const std::filesystem::path& file) {

@@ -2,7 +2,8 @@
 //
 //   .msh        Gmsh 2.2 and 4.1, ASCII and binary; entity tags kept
 //   .e .exo .g .gen   Exodus II; blocks, node sets, side sets, names, fields of the last time step
-//   .vtk        VTK legacy, ASCII and binary (read only);  .vtu  VTK XML (write only)
+//   .vtk        VTK legacy, ASCII and binary (read only)
+//   .vtu        VTK XML: fields, ids, owners, blocks, quality as point and cell data; all sets kept
 //   .inp        Abaqus: C3D8*, *NSET, *ELSET, *SURFACE
 //   .mesh       MEDIT (Medit/Mmg/Hexotic), ASCII
 #pragma once

@@ -22,6 +22,8 @@ MeshFile read_abaqus(const std::filesystem::path& file);
 void write_abaqus(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
 MeshFile read_medit(const Bytes& bytes);
 void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+MeshFile read_vtk(const Bytes& bytes);
+MeshFile read_vtu(const Bytes& bytes);
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
 
 MeshFile read_exodus(const std::filesystem::path& file);

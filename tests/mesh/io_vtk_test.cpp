@@ -1,0 +1,186 @@
+#include "io_support.h"
+
+namespace hextwist {
+namespace {
+
+/// Runs a Python script with the system's VTK; false where there is none.
+bool python(const std::filesystem::path& folder, const std::string& script) {
+  const auto file = test::write_text(folder / "script.py", script);
+  if (std::system("/usr/bin/python3 -c 'import vtk' > /dev/null 2>&1") != 0) return false;
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + file.string()).c_str()), 0) << script;
+  return true;
+}
+
+TEST(vtk_files, a_mesh_with_everything_comes_back_bit_for_bit) {
+  for (const bool binary : {false, true})
+    for (unsigned seed = 1; seed < 5; ++seed) {
+      SCOPED_TRACE(testing::Message() << binary << " " << seed);
+      const Mesh mesh = test::rich_mesh(seed, seed % 2);
+      const auto tags = test::brick_association(mesh, Vec3(4, 3, 3));
+      const auto file = test::output_folder() / "mesh.vtu";
+      WriteOptions options;
+      options.binary = binary;
+      write_mesh(file, mesh, &tags, options);
+      // Fields come back in the order point data, cell data.
+      const auto back = read_mesh(file);
+      EXPECT_TRUE(test::same_mesh(mesh, back.mesh));
+      EXPECT_TRUE(test::same_owners(tags, back.tags));
+      write_mesh(file, mesh, nullptr, options);
+      EXPECT_TRUE(test::same_mesh(mesh, read_mesh(file).mesh));
+      EXPECT_TRUE(read_mesh(file).tags.empty());
+    }
+}
+
+TEST(vtk_files, a_field_named_like_one_of_ours_stays_a_field) {
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.fields = {{"shape", Field::On::hex, 1, {4, 5}}, {"a<b & \"c\"", Field::On::hex, 2, {1, 2, 3, 4}}};
+  mesh.node_sets = {{1, "x < y & \"z\"", {0}}};
+  const auto file = test::output_folder() / "mesh.vtu";
+  write_mesh(file, mesh, nullptr);
+  EXPECT_TRUE(test::same_mesh(mesh, read_mesh(file).mesh));
+}
+
+TEST(vtk_files, vtk_reads_what_we_write_and_we_read_what_vtk_writes) {
+  const auto folder = test::output_folder();
+  const Mesh mesh = test::rich_mesh(3, true);
+  const auto tags = test::brick_association(mesh, Vec3(4, 3, 3));
+  WriteOptions options;
+  write_mesh(folder / "binary.vtu", mesh, &tags, options);
+  options.binary = false;
+  write_mesh(folder / "text.vtu", mesh, &tags, options);
+  const bool there = python(folder, "folder = '" + folder.string() + R"('
+import vtk
+for name in ('binary', 'text'):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(folder + '/' + name + '.vtu')
+    reader.Update()
+    grid = reader.GetOutput()
+    assert grid.GetNumberOfPoints() == 80 and grid.GetNumberOfCells() == 36
+    assert grid.GetCellType(35) == 12
+    assert grid.GetPointData().GetArray('velocity').GetNumberOfComponents() == 3
+    assert grid.GetPointData().GetArray('owner_dim') and grid.GetCellData().GetArray('block')
+    low, high = grid.GetCellData().GetArray('shape').GetRange()
+    assert 0.5 < low <= high <= 1
+    low, high = grid.GetCellData().GetArray('scaled_jacobian').GetRange()
+    assert 0.5 < low <= high <= 1
+for mode in ('Ascii', 'Binary', 'Appended'):
+    for compressor in (None, vtk.vtkZLibDataCompressor()):
+        for header in (32, 64):
+            for encode in (0, 1):
+                for order in (0, 1):
+                    writer = vtk.vtkXMLUnstructuredGridWriter()
+                    writer.SetInputData(grid)
+                    getattr(writer, 'SetDataModeTo' + mode)()
+                    writer.SetCompressor(compressor)
+                    if compressor: writer.SetBlockSize(1024)
+                    writer.SetHeaderType(header)
+                    writer.SetEncodeAppendedData(encode)
+                    writer.SetByteOrder(order)
+                    writer.SetFileName('%s/%s_%d_%d_%d_%d.vtu' % (folder, mode, bool(compressor), header, encode, order))
+                    assert writer.Write()
+for version in (42, 51):
+    for binary in (1, 2):
+        writer = vtk.vtkUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileVersion(version)
+        writer.SetFileType(binary)
+        writer.SetFileName('%s/legacy_%d_%d.vtk' % (folder, version, binary))
+        assert writer.Write()
+)");
+  if (!there) GTEST_SKIP() << "no python3 with VTK";
+  int n_files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto name = entry.path().filename().string();
+    if (entry.path().extension() == ".py") continue;
+    ++n_files;
+    SCOPED_TRACE(name);
+    const auto back = read_mesh(entry.path());
+    if (name.find("legacy") == std::string::npos && name.find("Ascii") == std::string::npos) {
+      EXPECT_TRUE(test::same_mesh(mesh, back.mesh));
+      EXPECT_TRUE(test::same_owners(tags, back.tags));
+    } else {
+      // VTK's own text has fewer digits; all else is there.
+      EXPECT_EQ(back.mesh.hexes, mesh.hexes);
+      EXPECT_EQ(back.mesh.blocks, mesh.blocks);
+      EXPECT_EQ(back.mesh.side_sets, mesh.side_sets);
+      EXPECT_EQ(back.mesh.node_ids, mesh.node_ids);
+      ASSERT_EQ(back.mesh.fields.size(), mesh.fields.size());
+      for (const Field& field : mesh.fields) {
+        const auto same = std::ranges::find(back.mesh.fields, field.name, &Field::name);
+        ASSERT_NE(same, back.mesh.fields.end()) << field.name;
+        for (std::size_t i = 0; i < field.values.size(); ++i) EXPECT_NEAR(same->values[i], field.values[i], 1e-6);
+      }
+      for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        EXPECT_NEAR((back.mesh.points[n] - mesh.points[n]).norm(), 0, 1e-5);
+    }
+  }
+  EXPECT_EQ(n_files, 2 + 48 + 4);
+}
+
+constexpr const char* legacy =
+    "# vtk DataFile Version 2.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0 1 0 0 0 1 0 1 1 0\n"
+    "0 0 1 1 0 1 0 1 1 1 1 1\n";
+
+TEST(vtk_files, legacy_files_with_voxels_quads_and_arrays_are_understood) {
+  const auto file =
+      test::write_text(test::output_folder() / "a.vtk",
+                       std::string(legacy) +
+                           "CELLS 3 17\n8 0 1 2 3 4 5 6 7\n4 0 1 3 2\n2 0 1\nCELL_TYPES 3\n11 9 3\n"
+                           "CELL_DATA 3\nSCALARS MaterialID int 1\nLOOKUP_TABLE default\n7 3 2\nVECTORS v double\n"
+                           "1 2 3 0 0 0 0 0 0\nPOINT_DATA 8\nSCALARS t double\nLOOKUP_TABLE default\n"
+                           "0 1 2 3 4 5 6 7\nFIELD FieldData 1\nspeed%20up 2 8 float\n"
+                           "0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n");
+  const auto read = read_mesh(file);
+  EXPECT_EQ(read.mesh.hexes[0], (Hex{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{7, "", {0}}}));
+  EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{3, "", {{0, 4}}}}));
+  EXPECT_EQ(
+      read.mesh.fields,
+      (std::vector<Field>{{"MaterialID", Field::On::hex, 1, {7}},
+                          {"v", Field::On::hex, 3, {1, 2, 3}},
+                          {"t", Field::On::node, 1, {0, 1, 2, 3, 4, 5, 6, 7}},
+                          {"speed up", Field::On::node, 2, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}}}));
+}
+
+TEST(vtk_files, what_is_wrong_is_said) {
+  const auto folder = test::output_folder();
+  const auto says = [&](const std::string& text, const std::string& expected) {
+    const auto file = test::write_text(folder / "bad.vtk", text);
+    EXPECT_EQ(test::refusal(file), file.string() + expected);
+  };
+  const std::string good = legacy;
+  says(good + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n", ": cell 1 is a tetrahedron; only 8-node hexes are accepted");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n25\n",
+       ": cell 1 is a quadratic hex; only 8-node hexes are accepted");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ": cell 1 names point 8 of 8 (counted from 0)");
+  says(good + "CELLS 1 8\n7 0 1 2 3 4 5 6\nCELL_TYPES 1\n12\n", ": cell 1 has 7 nodes instead of 8");
+  says(good + "CELLS 1 9\n9 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ":8: cell 1 does not fit in the list of cells");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\n", ":10: the file ends without cells");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 2\n12 12\n", ":12: 2 cell types for 1 cells");
+  says(good + "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n", ":12: there is no hex in the file");
+  says(good + "WONDERS 1\n", ":8: expected a section, found 'WONDERS'");
+  says("# vtk DataFile Version 2.0\n\nASCII\nDATASET POLYDATA\n",
+       ":4: data set 'POLYDATA'; only UNSTRUCTURED_GRID is read");
+  says("# vtk DataFile Version 2.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 nan 0\n",
+       ": a coordinate of point 0 (counted from 0) is not finite");
+  says("# vtk DataFile Version 9.0\n", ":1: version '9.0' is not known, 1.0 to 5.1 are");
+  says("solid\n", ":1: not a VTK file: it does not begin with '# vtk DataFile'");
+}
+
+TEST(vtk_files, real_meshes_have_the_known_counts) {
+  const auto data = test::data_folder();
+  if (data.empty()) GTEST_SKIP() << "no folder of real meshes";
+  const auto ball = read_mesh(data / "mesh/hyper_ball_balanced_r1.vtk");
+  const auto moebius = read_mesh(data / "mesh/moebius_rot1_r1.vtk");
+  EXPECT_EQ(ball.mesh.n_nodes(), 321);
+  EXPECT_EQ(ball.mesh.n_hexes(), 256);
+  EXPECT_EQ(moebius.mesh.n_nodes(), 216);
+  EXPECT_EQ(moebius.mesh.n_hexes(), 96);
+  for (const auto* file : {&ball, &moebius}) {
+    EXPECT_TRUE(test::conformal(file->mesh));
+    EXPECT_TRUE(test::sets_valid(file->mesh));
+  }
+}
+
+}  // namespace
+}  // namespace hextwist
