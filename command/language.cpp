@@ -68,11 +68,14 @@ const std::vector<CommandSpec> table = {
     {"redo", "", "do again what was undone", "", {}, {}},
     {"refine",
      "refine {node|edge|face|hex|vertex|curve|surface|volume|~sheet} <range> "
-     "[numsplit <splits>] [depth <layers>] [bias <growth>] [concave {template|fill}] [{smooth|no_smooth}] [dry_run] "
-     "[~size] [~radius] [~sizing_function] [~method] [~direction]",
+     "[numsplit <splits>] [depth <layers>] [bias <growth>] [concave {template|fill}] [method {auto|single|parallel|combination}] "
+     "[{smooth|no_smooth}] [dry_run] [~size] [~radius] [~sizing_function] [~direction]",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
      "every hex that touches it, with 2 one layer more; the default is 0 for hexes and volumes, 1 for everything else. "
+     "Depth 0 of a node, edge, face, vertex, curve or surface is 'method combination', which stays within the elements "
+     "that touch it; 'method parallel' halves the edges that leave it. 'smooth' moves the new nodes, and those of two "
+     "layers around them, to better shapes. "
      "All volumes of the model together are refined uniformly instead: each edge in numsplit + 1 pieces.\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
@@ -80,7 +83,8 @@ const std::vector<CommandSpec> table = {
       {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
       {"growth", Kind::number, 1, 1e100, false, "accepted when 1"}},
-     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine volume all numsplit 1"}},
+     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 depth 0 smooth",
+      "refine volume all numsplit 1"}},
     {"reset", "reset", "forget the mesh and the CAD", "", {}, {"reset"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>}", "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "

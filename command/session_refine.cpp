@@ -30,6 +30,8 @@ Request request_of(const Execution& run) {
     throw error_at(command.statement, growth->token, "a bias other than 1 is not supported yet");
   request.concave = command.has("fill") ? Concave::fill : Concave::templates;
   request.smooth = command.has("smooth");
+  for (const Method method : {Method::automatic, Method::single, Method::parallel, Method::combination})
+    if (command.has(name(method))) request.method = method;
   request.dry_run = command.has("dry_run");
   return request;
 }
@@ -53,8 +55,6 @@ void do_refine(Execution& run) {
     throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh to refine");
   run.stage("select");
   const Request request = request_of(run);
-  if (request.smooth)
-    run.note("smooth: smoothing after refinement is not there yet; new nodes are blended and placed only");
   run.close_stage();
   RefineResult result = refine(*state.meshed, request, run.core.callbacks.progress);
   const Report& report = result.report;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/enclose.h"
 #include "hextwist/refine/marks.h"
@@ -15,6 +16,7 @@ namespace hextwist {
 namespace {
 
 constexpr int max_numsplit = 8;
+constexpr int smooth_layers = 2;  // around the new hexes
 
 /// Times stages, passes them to the progress callback and stops the run when that says so.
 class Stages {
@@ -26,8 +28,10 @@ class Stages {
     close();
     stage_ = stage;
     since_ = Clock::now();
-    if (progress_ && !progress_(stage, fraction)) throw Cancelled();
+    if (!report(stage, fraction)) throw Cancelled();
   }
+  /// False: the run should stop. (Within a stage; begin() throws.)
+  bool report(const char* stage, double fraction) const { return !progress_ || progress_(stage, fraction); }
   void close() {
     if (!stage_) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - since_).count();
@@ -113,6 +117,7 @@ class Run {
     } else {
       sub_element_passes(method);
     }
+    if (request_.smooth && !request_.dry_run) smooth_band();
     stages_.begin("verify", 0.9);
     return std::move(result_);
   }
@@ -155,6 +160,23 @@ class Run {
       pass(trisect_table(), combination_codes(current_->mesh, target));
       target = carried_target(target, result_.lineage, current_->mesh);
     }
+  }
+
+  /// Smooths the new hexes and a few layers around them.
+  void smooth_band() {
+    stages_.begin("smooth", fraction());
+    Mesh& mesh = result_.refined.mesh;
+    // Hexes that were there before have their old ids and come first.
+    const std::int64_t last_old = hex_id(input_.mesh, input_.mesh.n_hexes() - 1);
+    std::vector<Index> fresh;
+    for (Index h = mesh.n_hexes() - 1; h >= 0 && hex_id(mesh, h) > last_old; --h) fresh.push_back(h);
+    SmoothOptions options;
+    options.nodes = nodes_inside(mesh, hex_band(mesh, fresh, smooth_layers));
+    const SmoothReport smoothed = smooth(mesh, result_.refined.association, input_.model.get(), options,
+                                         [&](const char* stage, double) { return stages_.report(stage, 0.9); });
+    if (smoothed.stopped) throw Cancelled();
+    report_.notices.push_back("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " +
+                              std::to_string(smoothed.sweeps) + " sweeps");
   }
 
   /// One pass over the pipeline from split to improve; the result becomes the current mesh.
@@ -209,6 +231,11 @@ void verify(const MeshedModel& input, MeshedModel& refined, Report& report) {
 const char* name(TargetKind kind) {
   constexpr const char* names[] = {"node", "edge", "face", "hex", "vertex", "curve", "surface", "volume"};
   return names[static_cast<int>(kind)];
+}
+
+const char* name(Method method) {
+  constexpr const char* names[] = {"auto", "single", "parallel", "combination"};
+  return names[static_cast<int>(method)];
 }
 
 RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress) {

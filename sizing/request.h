@@ -39,6 +39,9 @@ enum class Method {
   combination,  ///< enclosing at a third, then trisecting along the target: section 5.4
 };
 
+/// "auto", "single", "parallel", "combination".
+const char* name(Method method);
+
 /// Which entities to refine and how much.
 struct Request {
   TargetKind kind = TargetKind::hex;
@@ -54,7 +57,7 @@ struct Request {
   std::optional<int> depth = std::nullopt;
   Method method = Method::automatic;
   Concave concave = Concave::templates;
-  bool smooth = false;   ///< reserved for smoothing after the split
+  bool smooth = false;   ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
   bool dry_run = false;  ///< count only: the result holds no mesh
 };
 

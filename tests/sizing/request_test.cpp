@@ -114,6 +114,40 @@ TEST(request, parallel_halves_the_elements_around_the_target) {
   EXPECT_EQ(growth(input, {.kind = TargetKind::surface, .targets = {5}, .method = Method::parallel}), 16);
 }
 
+TEST(request, smoothing_reaches_the_goals_of_unit_grids_and_moves_no_node_far_away) {
+  // Smallest shape after smoothing (goals in the order: hex, node, edge, face, whole side, convex edge row, concave L).
+  const MeshedModel input = brick(7, 7, 5);
+  const auto node = [](int i, int j, int k) { return i + 8 * (j + 8 * k); };
+  const auto hex = [](int i, int j, int k) { return i + 7 * (j + 7 * k); };
+  const Edges all = edges(input.mesh);
+  const Faces quads = faces(input.mesh);
+  const Index edge = find_edge(all, node(3, 3, 2), node(4, 3, 2));
+  const Index face = find_face(quads, {node(3, 3, 2), node(4, 3, 2), node(3, 4, 2), node(4, 4, 2)});
+  struct Row {
+    Request request;
+    double goal;
+  };
+  const std::vector<Row> rows = {
+      {{.kind = TargetKind::hex, .targets = {hex(3, 3, 2)}}, 0.57},
+      {{.kind = TargetKind::node, .targets = {node(3, 3, 2)}, .depth = 0}, 0.73},
+      {{.kind = TargetKind::edge, .targets = {edge}, .depth = 0}, 0.60},
+      {{.kind = TargetKind::face, .targets = {face}, .depth = 0}, 0.52},
+      {{.kind = TargetKind::surface, .targets = {5}, .depth = 0}, 0.40},
+      {{.kind = TargetKind::curve, .targets = {1}}, 0.42},
+      {{.kind = TargetKind::hex, .targets = {hex(2, 2, 2), hex(3, 2, 2), hex(4, 2, 2), hex(2, 3, 2), hex(2, 4, 2)}},
+       0.46}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(i);
+    Request request = rows[i].request;
+    request.smooth = true;
+    const RefineResult result = checked(input, request);
+    EXPECT_GE(result.report.shape_after.min, rows[i].goal);
+    if (request.kind == TargetKind::hex) {
+      EXPECT_EQ(result.refined.mesh.points[node(0, 7, 0)], input.mesh.points[node(0, 7, 0)]);
+    }
+  }
+}
+
 TEST(request, a_dry_run_counts_and_changes_nothing) {
   const MeshedModel input = brick(4, 4, 4);
   const Request request{.kind = TargetKind::surface, .targets = {1}, .numsplit = 2};
