@@ -129,7 +129,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"refine curve 3 size 0.5", 16, "'size' is not supported yet"},
            {"refine curve 3 radius 2", 16, "'radius' is not supported yet"},
            {"refine curve 3 sizing_function f", 16, "'sizing_function' is not supported yet"},
-           {"refine curve 3 method auto", 16, "'method' is not supported yet"},
+           {"refine curve 3 method fast", 23, "expected auto, single, parallel or combination"},
            {"refine sheet edge 3", 8, "'sheet' is not supported yet"},
            {"smooth volume all", 1, "'smooth' is not supported yet"},
            {"undo", 1, "'undo' is not supported yet"},
