@@ -40,7 +40,9 @@ struct Emphasis {
 constexpr Emphasis none = {0, 1};
 constexpr Emphasis gentle = {1, 2};
 constexpr Emphasis rounds[] = {{10, 1.25}, {30, 1.1}, {100, 1.05}};
-constexpr int max_lifts = 15;  // sweeps per round
+constexpr int first_sweeps = 3;  // before the first round
+constexpr int max_lifts = 15;    // sweeps per round
+constexpr int max_averages = 5;  // sweeps per round, until the end
 
 class Smoother {
  public:
@@ -107,22 +109,23 @@ class Smoother {
   }
 
   /// Sweeps until all nodes are at rest, beginning with those that are awake.
-  void settle(const char* stage, Sweep sweep, Emphasis emphasis) {
+  void settle(const char* stage, Sweep sweep, Emphasis emphasis, int max_sweeps = std::numeric_limits<int>::max()) {
     measure();
     const SweepRule fixed_rule = rule(emphasis);
-    while (!finished()) {
+    for (int i = 0; i < max_sweeps && !finished(); ++i) {
       const SweepCount count = sweep(state_, fixed_rule);
       if (!end_sweep(stage, count)) return;
-      if (count.moved == 0) {
+      if (count.moved * 1000 <= state_.problem.n_nodes()) {
         report_.converged = true;
         return;
       }
     }
   }
 
-  /// Sweeps over the nodes of bad hexes until the worst improves no more. Those that were visited stay awake.
+  /// Sweeps over the nodes of bad hexes until the worst improves no more. Those that were visited are awake after it,
+  /// beside those that were before.
   void lift(Sweep sweep, Emphasis emphasis) {
-    std::vector<std::uint8_t> visited(state_.awake.size(), 0);
+    std::vector<std::uint8_t> visited = state_.awake;
     measure();
     int idle = 0;
     for (int i = 0; i < max_lifts && idle < 3 && !finished(); ++i) {
@@ -147,19 +150,20 @@ class Smoother {
   }
 
   void optimise(const char* stage, Sweep sweep) {
-    settle(stage, sweep, gentle);
+    settle(stage, sweep, gentle, first_sweeps);
     const double least_average = report_.shape_before.average - options_.average_loss;
     for (const Emphasis& emphasis : rounds) {
       if (finished()) return;
       const std::vector<Vec3> points = state_.mesh.points;
       const std::vector<Parameters> parameters = state_.association.node_parameters;
       lift(sweep, emphasis);
-      settle("average", sweep, none);
+      settle("average", sweep, none, max_averages);
       if (report_.stopped || shape_summary(state_.mesh, state_.problem.hexes).average >= least_average) continue;
       state_.mesh.points = points;
       state_.association.node_parameters = parameters;
-      return;
+      break;
     }
+    settle("average", sweep, none);
   }
 
   std::vector<double> distortions_;  // per hex of the problem

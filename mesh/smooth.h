@@ -48,10 +48,11 @@ struct SmoothOptions {
   bool free_boundary = false;
   /// Sweeps over the nodes at most, all stages together. >= 0.
   int iterations = 100;
-  /// A node is at rest when its step is shorter than this times its edges; the end is when all are. > 0.
+  /// A node is at rest when its step is shorter than this times its edges; the end is when all but one in a
+  /// thousand are. > 0.
   double tolerance = 1e-3;
-  /// The worst hexes are lifted while the average shape stays above its start less this (below 0: stop at the first
-  /// minimum of the average distortion). Shape units.
+  /// The worst hexes are lifted as far as the average shape stays above its start less this. Shape units; infinite:
+  /// the worst at any price; below 0: the average must rise by as much.
   double average_loss = 0;
   /// Fill SmoothReport::history (costs a pass over the hexes per sweep).
   bool record_history = false;

@@ -31,7 +31,7 @@ inline Four columns_with_x() {
   return Four(3, 1, 1, 1);
 }
 
-inline CornerTerms corner_terms(const Vec3* points, const Vec3& x0, const Ring& ring) {
+[[gnu::always_inline]] inline CornerTerms corner_terms(const Vec3* points, const Vec3& x0, const Ring& ring) {
   const Vec3 a = points[ring.edge[0]] - x0, b = points[ring.edge[1]] - x0, c = points[ring.edge[2]] - x0;
   const Vec3 ab = points[ring.face[0]] - x0, ac = points[ring.face[1]] - x0, bc = points[ring.face[2]] - x0;
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
@@ -63,7 +63,7 @@ inline CornerTerms corner_terms(const Vec3* points, const Vec3& x0, const Ring& 
 struct CornerValues {
   Four determinant, square;
 };
-inline CornerValues values(const CornerTerms& t, const Vec3& y, double y_squared) {
+[[gnu::always_inline]] inline CornerValues values(const CornerTerms& t, const Vec3& y, double y_squared) {
   return {t.d + t.gx * y.x() + t.gy * y.y() + t.gz * y.z(),
           t.n - 2 * (t.sx * y.x() + t.sy * y.y() + t.sz * y.z()) + columns_with_x() * y_squared};
 }
@@ -86,8 +86,8 @@ struct DerivativeSums {
 
   DerivativeSums() { x = y = z = xx = xy = xz = yy = yz = zz = identity = Four::Zero(); }
 
-  void add(const CornerTerms& t, const Four& inverse_determinant, const Four& inverse_square, const Four& first,
-           const Four& second) {
+  [[gnu::always_inline]] inline void add(const CornerTerms& t, const Four& inverse_determinant,
+                                         const Four& inverse_square, const Four& first, const Four& second) {
     const Four scale = -2 * inverse_square;
     const Four mx = t.sx * scale, my = t.sy * scale, mz = t.sz * scale;
     const Four cx = t.gx * inverse_determinant, cy = t.gy * inverse_determinant, cz = t.gz * inverse_determinant;
