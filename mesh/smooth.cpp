@@ -201,6 +201,8 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   check(options);
   SmoothReport report;
   const auto start = std::chrono::steady_clock::now();
+  // Tags of a file may name owners without places on them; those are found when they are needed.
+  if (!association.empty()) association.node_parameters.resize(mesh.points.size());
   const SmoothProblem problem = make_smooth_problem(mesh, association, model, options);
   SmoothState state{problem, mesh, association, model, std::vector<std::uint8_t>(problem.nodes.size(), 1)};
   report.n_nodes = problem.n_nodes();
