@@ -40,9 +40,10 @@ struct Emphasis {
 constexpr Emphasis none = {0, 1};
 constexpr Emphasis gentle = {1, 2};
 constexpr Emphasis rounds[] = {{10, 1.25}, {30, 1.1}, {100, 1.05}};
-constexpr int first_sweeps = 3;  // before the first round
-constexpr int max_lifts = 15;    // sweeps per round
-constexpr int max_averages = 5;  // sweeps per round, until the end
+constexpr Emphasis milder_rounds[] = {{3, 1.5}, {1, 1.5}, {1, 2}};  // when the first of those costs too much
+constexpr int first_sweeps = 3;                                     // before the first round
+constexpr int max_lifts = 15;                                       // sweeps per round
+constexpr int max_averages = 5;                                     // sweeps per round, until the end
 
 class Smoother {
  public:
@@ -151,19 +152,29 @@ class Smoother {
 
   void optimise(const char* stage, Sweep sweep) {
     settle(stage, sweep, gentle, first_sweeps);
-    const double least_average = report_.shape_before.average - options_.average_loss;
-    for (const Emphasis& emphasis : rounds) {
-      if (finished()) return;
-      const std::vector<Vec3> points = state_.mesh.points;
-      const std::vector<Parameters> parameters = state_.association.node_parameters;
-      lift(sweep, emphasis);
-      settle("average", sweep, none, max_averages);
-      if (report_.stopped || shape_summary(state_.mesh, state_.problem.hexes).average >= least_average) continue;
-      state_.mesh.points = points;
-      state_.association.node_parameters = parameters;
-      break;
+    if (lift_and_average(sweep, rounds[0])) {
+      for (std::size_t i = 1; i < std::size(rounds); ++i)
+        if (!lift_and_average(sweep, rounds[i])) break;
+    } else {
+      for (const Emphasis& emphasis : milder_rounds)
+        if (lift_and_average(sweep, emphasis)) break;
     }
     settle("average", sweep, none);
+  }
+  /// One round; taken back when it cost the average too much.
+  bool lift_and_average(Sweep sweep, Emphasis emphasis) {
+    if (finished()) return true;
+    const std::vector<Vec3> points = state_.mesh.points;
+    const std::vector<Parameters> parameters = state_.association.node_parameters;
+    const std::vector<std::uint8_t> awake = state_.awake;
+    lift(sweep, emphasis);
+    settle("average", sweep, none, max_averages);
+    const double least = report_.shape_before.average - options_.average_loss;
+    if (report_.stopped || shape_summary(state_.mesh, state_.problem.hexes).average >= least) return true;
+    state_.mesh.points = points;
+    state_.association.node_parameters = parameters;
+    state_.awake = awake;
+    return false;
   }
 
   std::vector<double> distortions_;  // per hex of the problem
