@@ -4,85 +4,42 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
-#include "hextwist/mesh/hex_lanes_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/mesh/quality_internal.h"
 
 namespace hextwist {
 namespace {
 
-// Roots are monotone, so each metric compares powers at the corners and takes one root at the end.
-
-template <int N>
-Lanes<N> shape(const LaneHex<N>& x) {
-  const LaneEdges<N> edges(x);
-  std::array<std::array<Lanes<N>, 4>, 3> squares;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) squares[axis][k] = edges.along[axis][k].squared();
-  Lanes<N> worst = Lanes<N>::Ones();  // (shape / 3)^3, with the sign of the determinant; nothing is better than 1/27
-  for (int c = 0; c < 8; ++c) {
-    const Lanes<N> det = determinant(edges.at(0, c), edges.at(1, c), edges.at(2, c));
-    const Lanes<N> frobenius =
-        squares[0][gather_bits(0, c)] + squares[1][gather_bits(1, c)] + squares[2][gather_bits(2, c)];
-    const Lanes<N> power = det * det.abs() / (frobenius * frobenius * frobenius);
-    worst = worst.min((frobenius > 0).select(power, Lanes<N>::Zero()));
-  }
-  for (int lane = 0; lane < N; ++lane) worst[lane] = worst[lane] > 0 ? 3 * std::cbrt(worst[lane]) : 0;
-  return worst;
-}
-
-template <int N>
-Lanes<N> scaled_jacobian(const LaneHex<N>& x) {
-  const LaneEdges<N> edges(x);
-  std::array<std::array<Lanes<N>, 4>, 3> squares;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) squares[axis][k] = edges.along[axis][k].squared();
-  // The square of the metric, with its sign.
-  const auto signed_square = [](const auto& a, const auto& b, const auto& c, const Lanes<N>& product) {
-    const Lanes<N> det = determinant(a, b, c);
-    return Lanes<N>((product > 0).select(det * det.abs() / product, Lanes<N>::Zero()));
-  };
-  std::array<LaneVec<N>, 3> centre;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& e = edges.along[axis];
-    centre[axis] = e[0] + e[1] + (e[2] + e[3]);
-  }
-  Lanes<N> worst =
-      signed_square(centre[0], centre[1], centre[2], centre[0].squared() * centre[1].squared() * centre[2].squared());
-  for (int c = 0; c < 8; ++c)
-    worst = worst.min(
-        signed_square(edges.at(0, c), edges.at(1, c), edges.at(2, c),
-                      squares[0][gather_bits(0, c)] * squares[1][gather_bits(1, c)] * squares[2][gather_bits(2, c)]));
-  for (int lane = 0; lane < N; ++lane)
-    worst[lane] = std::copysign(std::sqrt(std::abs(worst[lane])), worst[lane]) + 0.0;  // no -0
-  return worst;
-}
-
-template <int N>
-Lanes<N> corner_jacobian(const LaneHex<N>& x) {
-  const LaneEdges<N> edges(x);
-  Lanes<N> worst = determinant(edges.at(0, 0), edges.at(1, 0), edges.at(2, 0));
-  for (int c = 1; c < 8; ++c) worst = worst.min(determinant(edges.at(0, c), edges.at(1, c), edges.at(2, c)));
-  return worst;
-}
-
-constexpr int n_lanes = 4;
-struct Kernel {
-  Lanes<1> (*one)(const LaneHex<1>&);
-  Lanes<n_lanes> (*some)(const LaneHex<n_lanes>&);
-};
-
-/// A new metric is a kernel above, a line here and one in the enum, in the same order.
 struct Entry {
   Metric metric;
   const char* name;
-  Kernel kernel;
+  bool small_is_better;
+  double ideal;
+  const Kernel* kernel;
 };
+constexpr double none = std::numeric_limits<double>::infinity();
+/// A new metric is a kernel in quality_*.cpp, a line here and one in the enum, in the same order.
 constexpr Entry table[] = {
-    {Metric::shape, "shape", {shape<1>, shape<n_lanes>}},
-    {Metric::scaled_jacobian, "scaled Jacobian", {scaled_jacobian<1>, scaled_jacobian<n_lanes>}},
+    {Metric::shape, "shape", false, 1, &shape_kernel},
+    {Metric::scaled_jacobian, "scaled Jacobian", false, 1, &scaled_jacobian_kernel},
+    {Metric::mean_ratio, "mean ratio", false, 1, &mean_ratio_kernel},
+    {Metric::condition_number, "condition number", true, 1, &condition_number_kernel},
+    {Metric::skew, "skew", true, 0, &skew_kernel},
+    {Metric::stretch, "stretch", false, 1, &stretch_kernel},
+    {Metric::taper, "taper", true, 0, &taper_kernel},
+    {Metric::aspect_ratio, "aspect ratio", true, 1, &aspect_ratio_kernel},
+    {Metric::edge_ratio, "edge ratio", true, 1, &edge_ratio_kernel},
+    {Metric::diagonal, "diagonal", false, 1, &diagonal_kernel},
+    {Metric::relative_size, "relative size", false, 1, &relative_size_kernel},
+    {Metric::shear, "shear", false, 1, &shear_kernel},
+    {Metric::oddy, "oddy", true, 0, &oddy_kernel},
+    {Metric::distortion, "distortion", false, 1, &distortion_kernel},
+    {Metric::volume, "volume", false, none, &volume_kernel},
+    {Metric::jacobian, "Jacobian", false, none, &jacobian_kernel},
+    {Metric::dimension, "dimension", false, none, &dimension_kernel},
 };
-constexpr Kernel corner_jacobian_kernel = {corner_jacobian<1>, corner_jacobian<n_lanes>};
 constexpr std::size_t n_metrics = std::size(table);
 
 constexpr auto metric_list = [] {
@@ -100,13 +57,13 @@ const Entry& entry(Metric metric) {
   return table[static_cast<std::size_t>(metric)];
 }
 
-std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh) {
+std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double average) {
   std::vector<double> values(mesh.hexes.size());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     Index h = begin;
     for (; h + n_lanes <= end; h += n_lanes)
-      Eigen::Map<Lanes<n_lanes>>(values.data() + h) = kernel.some(load<n_lanes>(mesh, h));
-    for (; h < end; ++h) values[h] = kernel.one(load<1>(mesh, h))[0];
+      Eigen::Map<Lanes<n_lanes>>(values.data() + h) = kernel.some(load<n_lanes>(mesh, h), average);
+    for (; h < end; ++h) values[h] = kernel.one(load<1>(mesh, h), average)[0];
   });
   return values;
 }
@@ -185,6 +142,12 @@ std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
 const char* name(Metric metric) {
   return entry(metric).name;
 }
+bool small_is_better(Metric metric) {
+  return entry(metric).small_is_better;
+}
+double ideal(Metric metric) {
+  return entry(metric).ideal;
+}
 std::span<const Metric> metrics() {
   return metric_list;
 }
@@ -204,14 +167,32 @@ Metric metric(std::string_view name) {
               "': " + (fitting.empty() ? "known are " : "could be ") + known);
 }
 
-double quality(Metric metric, std::span<const Vec3, 8> corners) {
-  return entry(metric).kernel.one(load(corners))[0];
+double quality(Metric metric, std::span<const Vec3, 8> corners, double average) {
+  return entry(metric).kernel->one(load(corners), average)[0];
 }
-double quality(Metric metric, const Mesh& mesh, Index hex) {
-  return quality(metric, corners_of(mesh, hex));
+double quality(Metric metric, const Mesh& mesh, Index hex, double average) {
+  return quality(metric, corners_of(mesh, hex), average);
+}
+std::vector<double> quality(Metric metric, const Mesh& mesh, double average) {
+  return evaluate(*entry(metric).kernel, mesh, average);
 }
 std::vector<double> quality(Metric metric, const Mesh& mesh) {
-  return evaluate(entry(metric).kernel, mesh);
+  return quality(metric, mesh, metric == Metric::relative_size ? average_volume(mesh) : 1);
+}
+std::vector<double> quality(Metric metric, const Mesh& mesh, std::span<const Index> hexes) {
+  const double average = metric == Metric::relative_size ? average_volume(mesh, hexes) : 1;
+  std::vector<double> values(hexes.size());
+  parallel_ranges(static_cast<Index>(hexes.size()), [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) values[i] = quality(metric, mesh, hexes[i], average);
+  });
+  return values;
+}
+
+double average_volume(const Mesh& mesh) {
+  return summarize(quality(Metric::volume, mesh)).average;
+}
+double average_volume(const Mesh& mesh, std::span<const Index> hexes) {
+  return summarize(quality(Metric::volume, mesh, hexes)).average;
 }
 
 Summary summarize(std::span<const double> values) {
@@ -222,13 +203,13 @@ Summary summarize(std::span<const double> values, std::span<const Index> hexes) 
 }
 
 double min_corner_jacobian(std::span<const Vec3, 8> corners) {
-  return corner_jacobian(load(corners))[0];
+  return corner_jacobian_kernel.one(load(corners), 1)[0];
 }
 double min_corner_jacobian(const Mesh& mesh, Index hex) {
   return min_corner_jacobian(corners_of(mesh, hex));
 }
 std::vector<double> min_corner_jacobian(const Mesh& mesh) {
-  return evaluate(corner_jacobian_kernel, mesh);
+  return evaluate(corner_jacobian_kernel, mesh, 1);
 }
 
 }  // namespace hextwist
