@@ -57,12 +57,20 @@ const std::vector<CommandSpec> table = {
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
     {"quality",
-     "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> [{shape|scaled [jacobian]|=scaled_jacobian|all}] [~histogram] [~low] [~high]",
+     "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> "
+     "[{shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number]|=condition_number|skew"
+     "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal|relative [size]|=relative_size|shear"
+     "|oddy|distortion|volume|jacobian|dimension|all}] [histogram] [low <lowest>] [high <highest>]",
      "print the quality of hexes",
      "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
-     "the entities. 1 is perfect, 0 degenerate. Without a metric: shape; 'all': both.",
-     {{"range", Kind::range, 0, 0, false, range_help}},
-     {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all"}},
+     "the entities. Without a metric: shape, 1 for a cube, 0 where flat; 'all': every one. The values are those of "
+     "Verdict, so of VTK and ParaView. 'low' and 'high' leave out hexes with smaller or larger values; 'histogram' shows "
+     "how the values are spread. Where 'in' comes before it, write edge_ratio in one word, and volume after another option.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"lowest", Kind::number, -1e300, 1e300, false, "only hexes with at least this value"},
+      {"highest", Kind::number, -1e300, 1e300, false, "only hexes with at most this value"}},
+     {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all",
+      "quality volume all condition number histogram", "quality volume 1 skew low 0.5"}},
     {"quit", "quit", "end the session", "", {}, {"quit"}},
     {"record", "", "write commands to a journal", "", {}, {}},
     {"redo", "", "do again what was undone", "", {}, {}},

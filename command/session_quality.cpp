@@ -1,7 +1,11 @@
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <limits>
+#include <sstream>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/mesh/histogram.h"
 #include "hextwist/mesh/quality.h"
 
 namespace hextwist {
@@ -14,6 +18,25 @@ std::string formatted(const char* format, Values... values) {
   return buffer.data();
 }
 
+/// Nine places wide: four decimals where they say something.
+std::string cell(double value) {
+  const double size = std::abs(value);
+  return formatted(size == 0 || (size >= 1e-3 && size < 999.99995) ? "%9.4f" : "%9.3g", value);
+}
+
+/// The metric's words, those after the range that are no option of another kind.
+std::vector<Metric> chosen_metrics(const Command& command) {
+  if (command.has("all")) return {metrics().begin(), metrics().end()};
+  std::string words;
+  bool after_range = false;
+  for (const Item& item : command.items) {
+    const bool option = item.name == "histogram" || item.name == "low" || item.name == "high";
+    if (after_range && item.is_word && !option) words += item.name + " ";
+    after_range |= item.name == "range";
+  }
+  return {words.empty() ? Metric::shape : metric(words)};
+}
+
 }  // namespace
 
 void do_quality(Execution& run) {
@@ -24,18 +47,37 @@ void do_quality(Execution& run) {
   if (hexes.empty()) throw error_at(run.command.statement, range.range.token, "no hex lies there");
 
   const Mesh& mesh = run.state.meshed->mesh;
-  std::vector<Metric> metrics;
-  const bool scaled = run.command.has("scaled") || run.command.has("scaled_jacobian");
-  const bool all = run.command.has("all");
-  if (all || !scaled) metrics.push_back(Metric::shape);
-  if (all || scaled) metrics.push_back(Metric::scaled_jacobian);
+  const auto limit = [&](const char* name, double otherwise) {
+    const Item* said = run.command.find(name);
+    return said ? said->number : otherwise;
+  };
+  const double low = limit("lowest", -std::numeric_limits<double>::infinity());
+  const double high = limit("highest", std::numeric_limits<double>::infinity());
   run.say(formatted("%-16s %9s %9s %9s %9s %10s %9s %10s", "", "count", "average", "std. dev.", "min", "(hex)", "max",
                     "(hex)"));
-  for (const Metric metric : metrics) {
-    const QualityRow row = quality_row(mesh, summarize(quality(metric, mesh), hexes));
-    run.say(formatted("%-16s %9lld %9.4f %9.4f %9.4f %10lld %9.4f %10lld", name(metric),
-                      static_cast<long long>(row.count), row.average, row.std_dev, row.min,
-                      static_cast<long long>(row.min_hex), row.max, static_cast<long long>(row.max_hex)));
+  for (const Metric metric : chosen_metrics(run.command)) {
+    std::vector<double> values;
+    std::vector<Index> kept;
+    const auto all = quality(metric, mesh, hexes);
+    for (std::size_t i = 0; i < hexes.size(); ++i)
+      if (all[i] >= low && all[i] <= high) {
+        values.push_back(all[i]);
+        kept.push_back(hexes[i]);
+      }
+    if (kept.empty()) {
+      run.say(formatted("%-16s %9d", name(metric), 0));
+      continue;
+    }
+    Summary summary = summarize(values);
+    summary.min_hex = kept[summary.min_hex];
+    summary.max_hex = kept[summary.max_hex];
+    const QualityRow row = quality_row(mesh, summary);
+    run.say(formatted("%-16s %9lld %9s %9s %9s %10lld %9s %10lld", name(metric), static_cast<long long>(row.count),
+                      cell(row.average).c_str(), cell(row.std_dev).c_str(), cell(row.min).c_str(),
+                      static_cast<long long>(row.min_hex), cell(row.max).c_str(), static_cast<long long>(row.max_hex)));
+    if (!run.command.has("histogram")) continue;
+    std::istringstream lines(histogram(values));
+    for (std::string line; std::getline(lines, line);) run.say("  " + line);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "hextwist/mesh/io.h"
@@ -256,7 +257,7 @@ TEST(Session, QualityIsATable) {
   f.session.run("create brick x 1 interval 4; refine hex 1");
   f.output.clear();
   f.session.run("quality volume 1 all");
-  ASSERT_EQ(f.output.size(), 3u);
+  ASSERT_EQ(f.output.size(), 1 + metrics().size());
   EXPECT_NE(f.output[0].find("std. dev."), std::string::npos);
   EXPECT_TRUE(f.output[1].starts_with("shape "));
   EXPECT_TRUE(f.output[2].starts_with("scaled Jacobian "));
@@ -276,6 +277,48 @@ TEST(Session, QualityIsATable) {
   f.output.clear();
   f.session.run("quality vertex all scaled");
   EXPECT_NE(f.output[1].find(" 8 "), std::string::npos) << f.output[1];
+}
+
+TEST(Session, QualityKnowsEveryMetricByName) {
+  Fixture f;
+  f.session.run("create brick x 4 y 2 z 1 interval 4 2 1");
+  for (const Metric metric : metrics()) {
+    f.output.clear();
+    f.session.run(std::string("quality volume 1 ") + name(metric));
+    ASSERT_EQ(f.output.size(), 2u);
+    EXPECT_TRUE(f.output[1].starts_with(std::string(name(metric)) + " ")) << f.output[1];
+    std::istringstream row(f.output[1].substr(std::string(name(metric)).size()));
+    double count = 0, average = 0;
+    row >> count >> average;
+    EXPECT_EQ(count, 8);
+    EXPECT_NEAR(average, quality(metric, f.session.meshed().mesh, 0), 1e-4) << name(metric);
+  }
+}
+
+TEST(Session, QualityCanBeLimitedAndShownAsAHistogram) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 4; refine hex 1");
+  const auto shapes = quality(Metric::shape, f.session.meshed().mesh);
+  const auto n_below = std::ranges::count_if(shapes, [](double v) { return v <= 0.9; });
+  ASSERT_GT(n_below, 0);
+  f.output.clear();
+  f.session.run("quality volume 1 high 0.9 histogram");
+  ASSERT_EQ(f.output.size(), 12u);
+  long total = 0;
+  for (std::size_t i = 2; i < f.output.size(); ++i) {
+    std::istringstream row(f.output[i]);
+    std::string low, dots, high;
+    long count = 0;
+    row >> low >> dots >> high >> count;
+    EXPECT_EQ(dots, "..");
+    total += count;
+  }
+  EXPECT_EQ(total, n_below);
+  EXPECT_NE(f.output[1].find(" " + std::to_string(n_below) + " "), std::string::npos) << f.output[1];
+  f.output.clear();
+  f.session.run("quality volume 1 low 2 histogram");
+  ASSERT_EQ(f.output.size(), 2u);
+  EXPECT_TRUE(f.output[1].ends_with(" 0")) << f.output[1];
 }
 
 TEST(Session, FilesComeBackAsTheyWentOut) {
