@@ -245,6 +245,11 @@ TEST(mesh_files, a_full_disk_leaves_the_old_file) {
   const auto disk = folder / "disk";
   std::filesystem::create_directory(disk);
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=128k") != 0) GTEST_SKIP() << "a small disk cannot be mounted";
+  struct Mounted {
+    std::filesystem::path at;
+    // Lazily: netCDF keeps a file open that it could not close.
+    ~Mounted() { ::umount2(at.c_str(), MNT_DETACH); }
+  } const mounted{disk};
   for (const char* name : written) {
     SCOPED_TRACE(name);
     test::write_text(disk / name, "old");
@@ -254,7 +259,6 @@ TEST(mesh_files, a_full_disk_leaves_the_old_file) {
     EXPECT_EQ(n_entries(disk), 1u);
     std::filesystem::remove(disk / name);
   }
-  ::umount(disk.c_str());
 }
 
 TEST(mesh_files, a_folder_without_permission_is_refused) {
