@@ -5,6 +5,7 @@
 // Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes.
 #include <exodusII.h>
 
+#include <fstream>
 #include <limits>
 
 #include "hextwist/mesh/io_exodus_internal.h"
@@ -17,6 +18,11 @@ using Int64s = std::vector<std::int64_t>;
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
+    const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
+    std::array<char, 3> magic{};
+    std::ifstream(file, std::ios::binary).read(magic.data(), magic.size());
+    const bool classic = std::string_view(magic.data(), magic.size()) == "CDF";
+    most_items_ = classic ? bytes / 4 : 300 * bytes;
     ex_opts(0);  // no messages on the terminal
     int memory = 8, disk = 0;
     float version = 0;
@@ -57,8 +63,11 @@ class Reader {
   void check(int status, const std::string& what) const {
     if (status < 0) fail(what + " cannot be read (damaged file)");
   }
+  /// A number of items, each at least four bytes in the file (HDF5 files can be compressed, at most about a
+  /// thousandfold): a damaged one must not become a huge allocation.
   std::size_t size(std::int64_t n, const std::string& what) const {
-    if (n < 0 || n > std::numeric_limits<Index>::max()) fail("impossible number of " + what + ": " + std::to_string(n));
+    if (n < 0 || n > std::min<std::int64_t>(most_items_, std::numeric_limits<Index>::max()))
+      fail("impossible number of " + what + ": " + std::to_string(n));
     return static_cast<std::size_t>(n);
   }
   Int64s ids(ex_entity_type type, std::int64_t n) const {
@@ -299,6 +308,7 @@ class Reader {
 
   std::string name_;
   Handle file_;
+  std::int64_t most_items_ = 0;
   std::size_t name_length_ = 256;
   ex_init_params init_{};
   MeshFile out_;

@@ -1,7 +1,17 @@
 // Nodes, elements and entities of Gmsh's formats 1, 2.2 and 4.1.
+#include <limits>
+
 #include "hextwist/mesh/io_gmsh_internal.h"
 
 namespace hextwist::io {
+namespace {
+
+/// Physical groups of reversed orientation have negative tags.
+int positive(int physical) {
+  return physical == std::numeric_limits<int>::min() ? 0 : std::abs(physical);
+}
+
+}  // namespace
 
 void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametric) {
   Cursor& cursor = source.cursor;
@@ -36,7 +46,7 @@ void add_element(GmshContents& contents, GmshSource& source, int dim, int tag, i
   GmshElements& elements = contents.elements[dim];
   begin_run(elements, at);
   elements.tags.push_back(tag);
-  elements.physical.push_back(std::abs(physical));
+  elements.physical.push_back(positive(physical));
   elements.entity.push_back(std::max(entity, 0));
   read_gmsh_nodes(contents, source, dim, tag, at);
 }
@@ -127,7 +137,7 @@ void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool parti
       }
       for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) source.real("a box");
       auto& physicals = contents.entity_physicals[entity];
-      list("physical groups", [&](int tag) { physicals.push_back(std::abs(tag)); });
+      list("physical groups", [&](int tag) { physicals.push_back(positive(tag)); });
       if (dim > 0) list("bounding entities", nothing);
     }
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -179,7 +180,12 @@ Group& group_of_id(std::vector<Group>& groups, int id) {
 
 template <class Group>
 int free_id(const std::vector<Group>& groups) {
-  return groups.empty() ? 1 : std::ranges::max(groups, {}, &Group::id).id + 1;
+  const auto taken = [&](int id) { return std::ranges::find(groups, id, &Group::id) != groups.end(); };
+  const int highest = groups.empty() ? 0 : std::ranges::max(groups, {}, &Group::id).id;
+  if (highest < std::numeric_limits<int>::max()) return highest + 1;
+  int id = 1;
+  while (taken(id)) ++id;
+  return id;
 }
 
 }  // namespace hextwist::io
