@@ -341,10 +341,13 @@ SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u
   into_range(u, v);
   State s = evaluate(u, v);
   const double resolution = rounding * (scale_ + p.cwiseAbs().maxCoeff());
+  const auto stuck = [&] {
+    return std::pair{!wraps_u_ && ((s.u <= natural_u_.min && s.gu > 0) || (s.u >= natural_u_.max && s.gu < 0)),
+                     !wraps_v_ && ((s.v <= natural_v_.min && s.gv > 0) || (s.v >= natural_v_.max && s.gv < 0))};
+  };
   for (int iteration = 0; iteration < 60; ++iteration) {
     const double a0 = s.su.squaredNorm(), b0 = s.su.dot(s.sv), c0 = s.sv.squaredNorm();
-    const bool stuck_u = !wraps_u_ && ((s.u <= natural_u_.min && s.gu > 0) || (s.u >= natural_u_.max && s.gu < 0));
-    const bool stuck_v = !wraps_v_ && ((s.v <= natural_v_.min && s.gv > 0) || (s.v >= natural_v_.max && s.gv < 0));
+    const auto [stuck_u, stuck_v] = stuck();
     const bool free_u = !stuck_u && a0 > 0, free_v = !stuck_v && c0 > 0;
     if (!free_u && !free_v) break;
     double a = a0 + s.suu.dot(s.r), b = b0 + s.suv.dot(s.r), c = c0 + s.svv.dot(s.r);
@@ -385,6 +388,8 @@ SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u
     if (!moved) break;
   }
   SurfaceFoot foot{s.u, s.v, s.r + p, std::sqrt(s.value)};
+  const auto [stuck_u, stuck_v] = stuck();
+  foot.at_bound = (stuck_u || stuck_v) && foot.distance > 16 * resolution;
   const Range ru = trim_->u(), rv = trim_->v();
   const double a = s.su.norm() * (ru.max - ru.min), b = s.sv.norm() * (rv.max - rv.min);
   foot.singular = std::min(a, b) <= 1e-6 * std::max(a, b);
@@ -395,7 +400,8 @@ template <class Evaluator>
 SurfaceFoot Surface::find(const Evaluator& evaluator, const Vec3& p, const Parameters& seed) const {
   if (std::isfinite(seed.u) && std::isfinite(seed.v)) {
     const SurfaceFoot foot = descend(evaluator, p, seed.u, seed.v);
-    if (trim_->inside(foot.u, foot.v) && !foot.singular) return foot;
+    // One that ended at a bound may have started at the wrong side of a surface that closes on itself.
+    if (trim_->inside(foot.u, foot.v) && !foot.singular && !foot.at_bound) return foot;
   }
   const Tessellation& tess = tessellation();
   thread_local std::vector<NearTriangle> near;

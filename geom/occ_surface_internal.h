@@ -30,6 +30,7 @@ struct SurfaceFoot {
   Vec3 point = Vec3::Zero();
   double distance = std::numeric_limits<double>::infinity();
   bool singular = false;  // on a side of the parameter rectangle that is a single point
+  bool at_bound = false;  // would go on, but for the end of the parameters
 };
 
 class Surface {

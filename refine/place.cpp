@@ -187,7 +187,7 @@ void project_batch(Work& work, int surface, const Batch& batch) {
   });
   parallel(result.size(), [&](std::size_t i) {
     // A seeded search is local; one that went far may have found another sheet of the surface.
-    if (!(result[i].distance < 0.5 * batch.reach[i])) {
+    if (!(result[i].distance < 0.1 * batch.reach[i])) {
       const Projection global = work.model.project({2, surface}, batch.points[i]);
       if (!(global.distance >= result[i].distance)) result[i] = global;
     }
