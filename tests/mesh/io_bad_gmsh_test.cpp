@@ -13,10 +13,7 @@ const std::string nodes2 =
     "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n";
 
 void says(const std::string& text, const std::string& expected) {
-  static int n = 0;
-  const auto folder = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "bad_gmsh";
-  std::filesystem::create_directories(folder);
-  const auto file = test::write_text(folder / ("bad" + std::to_string(++n) + ".msh"), text);
+  const auto file = test::write_text(test::output_folder() / "bad.msh", text);
   EXPECT_EQ(test::refusal(file), file.string() + expected);
 }
 

@@ -1,5 +1,6 @@
 // A stranger's project finds the installed library by CMake and by pkg-config, builds against it and refines with it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -15,11 +16,12 @@ namespace {
 class SlowConsumer : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    prefix = std::filesystem::path(HEXTWIST_BINARY_DIR) / "test-output/installed";
-    std::filesystem::remove_all(prefix);
+    // Each test may run as a process of its own, several at a time.
+    prefix = std::filesystem::path(HEXTWIST_BINARY_DIR) / ("test-output/installed-" + std::to_string(getpid()));
     const Outcome installed = run("cmake --install " HEXTWIST_BINARY_DIR " --prefix " + quoted(prefix.string()));
     ASSERT_EQ(installed.status, 0) << installed.output;
   }
+  static void TearDownTestSuite() { std::filesystem::remove_all(prefix); }
   inline static std::filesystem::path prefix;
   const std::filesystem::path example = source_folder() / "examples/minimal";
   const std::filesystem::path models = source_folder() / "models";
