@@ -140,7 +140,9 @@ class Matcher {
 
   void options(const PatternNode& node) {
     std::vector<bool> said(node.choices.size());
-    while (const auto choice = choose(node, said)) {
+    while (true) {
+      const auto choice = choose(node, said);
+      if (!choice) return;
       if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
       sequence(node.choices[*choice]);

@@ -93,7 +93,7 @@ std::vector<Index> sorted_nodes(const Quad& quad) {
 
 std::vector<Index> find_bad_indices(const Mesh& mesh, Report& report) {
   const auto missing = [&](Index node) { return node < 0 || node >= mesh.n_nodes(); };
-  const auto bad = where(mesh.n_hexes(), [&](Index h) { return std::ranges::any_of(mesh.hexes[h], missing); });
+  auto bad = where(mesh.n_hexes(), [&](Index h) { return std::ranges::any_of(mesh.hexes[h], missing); });
   for (const Index h : bad) {
     const auto n = std::ranges::count_if(mesh.hexes[h], missing);
     report.add(ViolationKind::bad_index, {h}, {},
@@ -113,7 +113,7 @@ std::vector<char> find_not_finite(const Mesh& mesh, Report& report) {
 }
 
 std::vector<Index> find_repeated_nodes(const Mesh& mesh, Report& report) {
-  const auto bad = where(mesh.n_hexes(), [&](Index h) {
+  auto bad = where(mesh.n_hexes(), [&](Index h) {
     const Hex& hex = mesh.hexes[h];
     bool twice = false;
     for (int i = 0; i < 8; ++i)
@@ -152,7 +152,7 @@ std::vector<Index> find_duplicate_hexes(const Part& part, const Lists& corners, 
           first = i;
     }
   });
-  const auto copies = where(mesh.n_hexes(), [&](Index h) { return first_copy[h] >= 0; });
+  auto copies = where(mesh.n_hexes(), [&](Index h) { return first_copy[h] >= 0; });
   std::map<Index, std::vector<Index>> groups;
   for (const Index h : copies) groups[first_copy[h]].push_back(part.original_of(h));
   for (auto& [first, group] : groups) {
