@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "hextwist/refine/cube_mesh.h"
+#include "hextwist/refine/marks.h"
 
 namespace hextwist {
 namespace {
@@ -131,12 +132,6 @@ std::shared_ptr<const SplitTable> make_enclose_table(EncloseAt at) {
   for (int code = 0; code < 16; ++code) table->face.push_back(make_face_pattern(code, reach));
   complete_face_patterns(*table);
   return table;
-}
-
-int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
-  int mask = 0;
-  for (int c = 0; c < n_hex_corners; ++c) mask |= (marked[hex[c]] != 0) << c;
-  return mask;
 }
 
 /// The smallest superset with a template. Among several the unmarked nodes (compared from the highest down) decide.

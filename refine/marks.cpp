@@ -34,12 +34,6 @@ const CornerTable& corner_table() {
   return table;
 }
 
-int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
-  int mask = 0;
-  for (int c = 0; c < n_hex_corners; ++c) mask |= (marked[hex[c]] != 0) << c;
-  return mask;
-}
-
 }  // namespace
 
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {

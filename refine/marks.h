@@ -9,6 +9,13 @@
 
 namespace hextwist {
 
+/// The marked corners of a hex as bits.
+inline int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
+  int mask = 0;
+  for (int c = 0; c < 8; ++c) mask |= (marked[hex[c]] != 0) << c;
+  return mask;
+}
+
 /// One code per hex: an edge is cut when both its nodes are marked. marked: one byte per node, 0 or 1.
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
 
