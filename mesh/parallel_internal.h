@@ -22,6 +22,17 @@ void parallel_ranges(Index n, F&& f, Index grain = 2048) {
   tbb::parallel_for(tbb::blocked_range<Index>(0, n, grain), [&](const auto& range) { f(range.begin(), range.end()); });
 }
 
+/// Calls f(i) for every i in 0..n, on all threads. What f writes must not depend on the order.
+template <class F>
+void parallel_each(std::size_t n, F&& f, Index grain = 512) {
+  parallel_ranges(
+      static_cast<Index>(n),
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) f(static_cast<std::size_t>(i));
+      },
+      grain);
+}
+
 /// Pieces of 0..n of a fixed size, whatever the threads: f(chunk, begin, end), for results kept per chunk and then
 /// joined in order. n_chunks(n, size) of them.
 inline Index n_chunks(Index n, Index size) {

@@ -1,29 +1,20 @@
 #include "hextwist/refine/carry.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {
 namespace {
 
-template <typename Body>
-void parallel(std::size_t n, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 512), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-  });
-}
-
 /// Calls per_node(new node, its origin) for all new nodes, in parallel.
 template <typename Body>
 void for_each_new_node(const Mesh& old_mesh, const Lineage& lineage, const Body& per_node) {
-  parallel(lineage.edges.size(), [&](std::size_t i) { for_each_node(lineage, lineage.edges[i], per_node); });
-  parallel(lineage.faces.size(), [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], per_node); });
-  parallel(lineage.hexes.size(),
-           [&](std::size_t i) { for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node); });
+  parallel_each(lineage.edges.size(), [&](std::size_t i) { for_each_node(lineage, lineage.edges[i], per_node); });
+  parallel_each(lineage.faces.size(), [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], per_node); });
+  parallel_each(lineage.hexes.size(),
+                [&](std::size_t i) { for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node); });
 }
 
 std::vector<std::int64_t> carried_ids(const std::vector<std::int64_t>& kept, std::int64_t next, std::size_t n) {
@@ -42,7 +33,7 @@ void carry_ids(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
     return;
   }
   std::vector<std::int64_t> kept(split.n_kept());
-  parallel(kept.size(), [&](std::size_t i) { kept[i] = hex_id(old_mesh, split.lineage.parent[i]); });
+  parallel_each(kept.size(), [&](std::size_t i) { kept[i] = hex_id(old_mesh, split.lineage.parent[i]); });
   mesh.hex_ids = carried_ids(kept, hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1, mesh.hexes.size());
 }
 
@@ -117,7 +108,7 @@ void carry_fields(const Mesh& old_mesh, const Lineage& lineage, Mesh& mesh) {
       });
     } else {
       carried.values.resize(mesh.hexes.size() * width);
-      parallel(mesh.hexes.size(), [&](std::size_t h) {
+      parallel_each(mesh.hexes.size(), [&](std::size_t h) {
         std::copy_n(field.values.begin() + static_cast<std::ptrdiff_t>(lineage.parent[h] * width), width,
                     carried.values.begin() + static_cast<std::ptrdiff_t>(h * width));
       });
@@ -133,15 +124,15 @@ void carry_node_owners(const Association& old, const Split& split, Association& 
     for (std::size_t s = 0; s < n; ++s) association.node_owner[first + s] = owner;
   };
   const auto n_edge_nodes = [&](const CutEdge& edge) { return lineage.table->edge[edge.code].at.size(); };
-  parallel(lineage.edges.size(), [&](std::size_t i) {
+  parallel_each(lineage.edges.size(), [&](std::size_t i) {
     const CutEdge& edge = lineage.edges[i];
     set_nodes(edge.first_node, n_edge_nodes(edge), {3, old.hex_volume[edge.hex]});
   });
-  parallel(lineage.faces.size(), [&](std::size_t i) {
+  parallel_each(lineage.faces.size(), [&](std::size_t i) {
     const CutFace& face = lineage.faces[i];
     set_nodes(face.first_node, lineage.table->face[face.code].at.size(), {3, old.hex_volume[face.side.hex]});
   });
-  parallel(lineage.hexes.size(), [&](std::size_t i) {
+  parallel_each(lineage.hexes.size(), [&](std::size_t i) {
     const CutHex& hex = lineage.hexes[i];
     set_nodes(hex.first_node, lineage.table->hex(hex.code).inside.size(), {3, old.hex_volume[hex.hex]});
   });
@@ -229,8 +220,8 @@ Association carried_association(const Association& old, const Split& split, cons
   association.node_parameters = old.node_parameters;
   association.node_parameters.resize(split.n_nodes);
   association.hex_volume.resize(split.lineage.parent.size());
-  parallel(split.lineage.parent.size(),
-           [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
+  parallel_each(split.lineage.parent.size(),
+                [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
   carry_node_owners(old, split, association);
   carry_curve_edges(old, split.lineage, association);
   carry_surface_faces(old, split, mesh, association);

@@ -6,19 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {
 namespace {
 
 constexpr std::size_t grain = 256;
-
-template <typename Body>
-void parallel(std::size_t n, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-  });
-}
 
 /// Indices sorted by owner, with the runs of equal owners.
 struct ByOwner {
@@ -109,7 +103,7 @@ double divide_curve(const Model& model, int curve, double a, double b, double at
 void place_on_curves(Work& work) {
   const auto& edges = work.lineage.edges;
   const auto owner = [&](std::size_t i) { return work.association.node_owner[edges[i].first_node]; };
-  parallel(edges.size(), [&](std::size_t i) {
+  parallel_each(edges.size(), [&](std::size_t i) {
     if (owner(i).dim != 1) return;
     const int curve = owner(i).id;
     const auto [a, b] = curve_interval(work, edges[i], curve);
@@ -141,7 +135,7 @@ class RimParameters {
     }
     std::ranges::sort(entries_, {}, &Entry::key);
     entries_.erase(std::ranges::unique(entries_, {}, &Entry::key).begin(), entries_.end());
-    parallel(entries_.size(), [&](std::size_t i) {
+    parallel_each(entries_.size(), [&](std::size_t i) {
       entries_[i].parameters =
           work.model.project({2, entries_[i].surface}, work.old_mesh.points[entries_[i].node]).parameters;
     });
@@ -185,7 +179,7 @@ void project_batch(Work& work, int surface, const Batch& batch) {
     work.model.project({2, surface}, std::span(batch.points).subspan(first, n),
                        std::span(batch.seeds).subspan(first, n), std::span(result).subspan(first, n));
   });
-  parallel(result.size(), [&](std::size_t i) {
+  parallel_each(result.size(), [&](std::size_t i) {
     // A seeded search is local; one that went far may have found another sheet of the surface.
     if (!(result[i].distance < 0.1 * batch.reach[i])) {
       const Projection global = work.model.project({2, surface}, batch.points[i]);
@@ -321,7 +315,7 @@ void place_faces_on_surfaces(Work& work, const RimParameters& parameters_of) {
 }
 
 void place_inner_faces(Work& work) {
-  parallel(work.lineage.faces.size(), [&](std::size_t i) {
+  parallel_each(work.lineage.faces.size(), [&](std::size_t i) {
     const CutFace& face = work.lineage.faces[i];
     if (work.association.node_owner[face.first_node].dim != 3) return;
     const Cell cell{work, work.split.cut_index(face.side.hex), work.old_mesh.hexes[face.side.hex]};
@@ -334,7 +328,7 @@ void place_inner_faces(Work& work) {
 }
 
 void place_inside_hexes(Work& work) {
-  parallel(work.lineage.hexes.size(), [&](std::size_t i) {
+  parallel_each(work.lineage.hexes.size(), [&](std::size_t i) {
     const CutHex& hex = work.lineage.hexes[i];
     const auto& inside = work.table.hex(hex.code).inside;
     if (inside.empty()) return;
@@ -386,7 +380,7 @@ void place(const Mesh& old_mesh, const Association& old_association, const Split
   const RimParameters parameters_of(work);
   place_on_curves(work);
   place_edges_on_surfaces(work, parameters_of);
-  parallel(lineage.edges.size(), [&](std::size_t i) {
+  parallel_each(lineage.edges.size(), [&](std::size_t i) {
     const std::size_t n = work.table.edge[lineage.edges[i].code].at.size();
     for (std::size_t s = 0; s < n; ++s)
       work.edge_moved[i] |= !work.displacement(lineage.edges[i].first_node + static_cast<Index>(s)).isZero(0);

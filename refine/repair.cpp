@@ -1,10 +1,8 @@
 // Last resort of placing: what to do about children that came out inverted.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/quality.h"
 #include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/origin.h"
@@ -74,13 +72,9 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
 }  // namespace
 
 std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
-  std::vector<std::uint8_t> bad(mesh.hexes.size(), 0);
-  tbb::parallel_for(tbb::blocked_range<Index>(first, mesh.n_hexes(), 1024), [&](const auto& range) {
-    for (Index h = range.begin(); h != range.end(); ++h) bad[h] = !(min_corner_jacobian(mesh, h) > 0);
-  });
-  std::vector<Index> result;
-  for (Index h = first; h < mesh.n_hexes(); ++h)
-    if (bad[h]) result.push_back(h);
+  std::vector<Index> result =
+      where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
+  for (Index& h : result) h += first;
   return result;
 }
 
