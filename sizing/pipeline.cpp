@@ -1,0 +1,54 @@
+#include "hextwist/sizing/pipeline_internal.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "hextwist/mesh/smooth.h"
+#include "hextwist/refine/carry.h"
+#include "hextwist/refine/place.h"
+
+namespace hextwist {
+namespace {
+
+constexpr int smooth_layers = 2;  // around the new hexes
+
+}  // namespace
+
+void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes) {
+  ++n_passes_;
+  const MeshedModel& from = *current_;
+  stages_.begin("split", fraction());
+  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(table), codes);
+  stages_.begin("carry", fraction());
+  Carried carried = carry(from.mesh, from.association, parts);
+  MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
+  if (!request_.dry_run) {
+    stages_.begin("place", fraction());
+    if (next.model && !next.association.empty())
+      place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
+    stages_.begin("improve", fraction());
+    std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association),
+                      std::back_inserter(report_.off_nodes));
+  }
+  result_.lineage = std::move(parts.lineage);
+  result_.refined = std::move(next);
+  current_ = &result_.refined;
+}
+
+void Pipeline::smooth_band() {
+  stages_.begin("smooth", fraction());
+  Mesh& mesh = result_.refined.mesh;
+  // Hexes that were there before have their old ids and come first.
+  const std::int64_t last_old = hex_id(input_.mesh, input_.mesh.n_hexes() - 1);
+  std::vector<Index> fresh;
+  for (Index h = mesh.n_hexes() - 1; h >= 0 && hex_id(mesh, h) > last_old; --h) fresh.push_back(h);
+  SmoothOptions options;
+  options.nodes = nodes_inside(mesh, hex_band(mesh, fresh, smooth_layers));
+  const SmoothReport smoothed = smooth(mesh, result_.refined.association, input_.model.get(), options,
+                                       [&](const char* stage, double) { return stages_.report(stage, 0.9); });
+  if (smoothed.stopped) throw Cancelled();
+  report_.notices.push_back("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " +
+                            std::to_string(smoothed.sweeps) + " sweeps");
+}
+
+}  // namespace hextwist

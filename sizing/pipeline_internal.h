@@ -1,0 +1,51 @@
+// A mesh on its way through the passes of a request. The techniques are functions over this (refine.cpp chooses one).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hextwist/refine/split_table.h"
+#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/stages_internal.h"
+
+namespace hextwist {
+
+class Pipeline {
+ public:
+  Pipeline(const MeshedModel& input, const Request& request, Report& report, const Progress& progress)
+      : input_(input), current_(&input), request_(request), report_(report), stages_(report, progress) {}
+
+  const MeshedModel& input() const { return input_; }
+  /// The mesh after the passes so far.
+  const MeshedModel& current() const { return *current_; }
+  const Request& request() const { return request_; }
+  Report& report() { return report_; }
+  Stages& stages() { return stages_; }
+  /// Of the last pass.
+  const Lineage& lineage() const { return result_.lineage; }
+  /// How far the request has come, for the progress callback: nobody knows how many passes there will be.
+  double fraction() const { return 0.9 * n_passes_ / (n_passes_ + 1); }
+
+  /// Split, carry, place, repair: the result becomes the current mesh.
+  void pass(std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes);
+  /// Smooths the hexes that are new since the input and a few layers around them.
+  void smooth_band();
+  RefineResult take_result() { return std::move(result_); }
+
+ private:
+  const MeshedModel& input_;
+  const MeshedModel* current_;
+  const Request& request_;
+  Report& report_;
+  Stages stages_;
+  RefineResult result_;
+  int n_passes_ = 0;
+};
+
+/// Hexes and layers of hexes, every edge cut in three (section 4).
+void trisect_passes(Pipeline& run);
+/// Around nodes, edges and faces: parallel or combination (section 5).
+void sub_element_passes(Pipeline& run, Method method);
+
+}  // namespace hextwist

@@ -1,0 +1,41 @@
+// Single hex sheet operations: whole hexes and layers of them.
+#include <algorithm>
+
+#include "hextwist/refine/marks.h"
+#include "hextwist/refine/trisect.h"
+#include "hextwist/sizing/pipeline_internal.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+namespace {
+
+/// Children of the target hexes: the targets of the next pass.
+std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
+  std::vector<Index> result;
+  for (std::size_t h = 0; h < lineage.parent.size(); ++h)
+    if (std::ranges::binary_search(hexes, lineage.parent[h])) result.push_back(static_cast<Index>(h));
+  return result;
+}
+
+}  // namespace
+
+void trisect_passes(Pipeline& run) {
+  std::vector<Index> targets;
+  if (is_solid(run.request().kind)) {
+    targets = with_layers(run.input().mesh, solid_target(run.input(), run.request()), run.request().depth.value_or(0));
+  } else {
+    const CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
+    targets = layers_around(run.input().mesh, target.nodes, run.request().depth.value_or(1));
+  }
+  for (int i = 0; i < run.request().numsplit; ++i) {
+    run.stages().begin("close", run.fraction());
+    const Mesh& mesh = run.current().mesh;
+    std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+    mark_nodes(mesh.hexes, targets, marked);
+    if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
+    run.pass(trisect_table(), trisect_codes(mesh.hexes, marked));
+    targets = children_of(run.lineage(), targets);
+  }
+}
+
+}  // namespace hextwist
