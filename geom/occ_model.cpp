@@ -322,6 +322,38 @@ bool OccModel::contains(int volume, const Vec3& p) const {
   const Box& box = boxes(3)[index(volume)];
   const double slack = tolerance({3, volume});
   if (((p - box.min).array() < -slack).any() || ((box.max - p).array() < -slack).any()) return false;
+  const Side side = side_of_nearest(volume, p, slack);
+  return side == Side::unknown ? classify(volume, p, slack) : side == Side::inside;
+}
+
+/// On which side of the nearest surface of the volume a point lies; unknown where the nearest point is on an edge.
+OccModel::Side OccModel::side_of_nearest(int volume, const Vec3& p, double slack) const {
+  // OpenCASCADE's classifier shoots a line and now and then miscounts its crossings with spline faces; a foot point
+  // inside a face can't be misread.
+  int nearest = 0;
+  Projection foot;
+  double second = std::numeric_limits<double>::infinity();
+  for (const int s : adjacent({3, volume}, 2)) {
+    const Projection at = project({2, s}, p);
+    if (at.distance <= slack) return Side::inside;
+    if (nearest == 0 || at.distance < foot.distance) {
+      second = nearest == 0 ? second : foot.distance;
+      nearest = s;
+      foot = at;
+    } else {
+      second = std::min(second, at.distance);
+    }
+  }
+  if (nearest == 0 || second < foot.distance * (1 + 1e-6)) return Side::unknown;
+  const std::vector<int> volumes = adjacent({2, nearest}, 3);
+  const double out = volumes.front() == volume ? 1 : -1;
+  const double height = out * (p - foot.point).dot(normal(nearest, foot.parameters)) / foot.distance;
+  // A foot on an edge may be seen from anywhere.
+  if (std::abs(height) < 0.99) return Side::unknown;
+  return height < 0 ? Side::inside : Side::outside;
+}
+
+bool OccModel::classify(int volume, const Vec3& p, double slack) const {
   Classifiers& pool = classifiers_[index(volume)];
   std::unique_ptr<BRepClass3d_SolidClassifier> classifier;
   {

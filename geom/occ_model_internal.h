@@ -61,7 +61,11 @@ class OccModel final : public Model {
     std::vector<char> flipped;     // per surface: the normal of its parameters points into its (first) volume
   };
 
+  enum class Side { inside, outside, unknown };
+
   const TopoDS_Shape& entity(Owner owner) const;
+  Side side_of_nearest(int volume, const Vec3& p, double slack) const;
+  bool classify(int volume, const Vec3& p, double slack) const;
   void build_adjacency();
   void project_some(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
                     std::span<Projection> out) const;

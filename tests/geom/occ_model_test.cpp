@@ -8,6 +8,7 @@
 #include <random>
 
 #include "geom/occ_shapes.h"
+#include "hextwist/geom/occ_model.h"
 #include "support/grids.h"
 
 namespace hextwist {
@@ -354,6 +355,28 @@ TEST(occ_model, an_open_shell_and_an_unknown_entity_are_errors) {
   EXPECT_EQ(message([&] { model->range(0); }), "the model has no curve 0");
   EXPECT_EQ(message([&] { model->project({3, 1}, Vec3::Zero()); }), "cannot project onto volume 1");
   EXPECT_EQ(message([&] { model->point({3, 1}, {}); }), "a volume has no parameters");
+}
+
+TEST(occ_model, contains_every_point_of_a_thin_shell_between_its_spline_faces) {
+  // An extrusion along z by 2.5, so a point of the lower face moved up by less than that is inside.
+  const auto model = read_cad(std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models/curved_plate.brep", {}).model;
+  int lower = 0;
+  for (int s = 1; s <= model->count(2); ++s)
+    if (model->type({2, s}).starts_with("bspline") &&
+        (!lower || model->box({2, s}).min.z() < model->box({2, lower}).min.z()))
+      lower = s;
+  ASSERT_GT(lower, 0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> x(0.5, 59.5), y(0.5, 39.5), up(0.01, 2.49);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 somewhere(x(random), y(random), 5);
+    const Vec3 foot = model->project({2, lower}, somewhere).point;
+    if (foot.x() < 0.1 || foot.x() > 59.9 || foot.y() < 0.1 || foot.y() > 39.9) continue;
+    const double w = up(random);
+    EXPECT_TRUE(model->contains(1, foot + Vec3(0, 0, w))) << foot.transpose() << " up by " << w;
+    EXPECT_FALSE(model->contains(1, foot - Vec3(0, 0, w))) << foot.transpose() << " down by " << w;
+    EXPECT_FALSE(model->contains(1, foot + Vec3(0, 0, w + 2.5))) << foot.transpose() << " beyond, by " << w;
+  }
 }
 
 }  // namespace
