@@ -45,6 +45,8 @@ class Pipeline {
 
 /// Hexes and layers of hexes, every edge cut in three (section 4).
 void trisect_passes(Pipeline& run);
+/// Hexes and layers of hexes, every edge halved where the region allows it (sections 5.1 to 5.3, eight.h).
+void eight_passes(Pipeline& run);
 /// Around nodes, edges and faces: parallel or combination (section 5).
 void sub_element_passes(Pipeline& run, Method method);
 

@@ -32,8 +32,6 @@ Method technique(const Request& request) {
       if (request.depth && has_depth) throw Error("the combination technique has depth 0");
       return Method::combination;
     case Method::parallel:
-      if (solid) throw Error("one-into-eight refinement of hexes and volumes is not available yet");
-      if (request.depth && has_depth) throw Error("parallel refinement around a target has depth 0");
       return Method::parallel;
     case Method::automatic:
       break;
@@ -60,6 +58,8 @@ RefineResult run_passes(Pipeline& run) {
     run.pass(uniform_table(pieces), std::vector<std::uint16_t>(run.input().mesh.hexes.size(), 1));
   } else if (method == Method::single) {
     trisect_passes(run);
+  } else if (method == Method::parallel && (is_solid(request.kind) || request.depth.value_or(0) > 0)) {
+    eight_passes(run);
   } else {
     sub_element_passes(run, method);
   }

@@ -35,7 +35,7 @@ enum class Concave { templates, fill };
 enum class Method {
   automatic,    ///< single for hexes and volumes and for depth >= 1, else combination
   single,       ///< trisecting: section 4
-  parallel,     ///< enclosing at half: section 5.1 to 5.3
+  parallel,     ///< enclosing at half: section 5.1 to 5.3; hexes, volumes and depth >= 1 one into eight (eight.h)
   combination,  ///< enclosing at a third, then trisecting along the target: section 5.4
 };
 

@@ -92,6 +92,11 @@ std::vector<Index> solid_target(const MeshedModel& input, const Request& request
   return result;
 }
 
+std::vector<Index> region_target(const MeshedModel& input, const Request& request, std::vector<std::string>& notices) {
+  if (is_solid(request.kind)) return with_layers(input.mesh, solid_target(input, request), request.depth.value_or(0));
+  return layers_around(input.mesh, sub_element_target(input, request, notices).nodes, request.depth.value_or(1));
+}
+
 CombinationTarget sub_element_target(const MeshedModel& input, const Request& request,
                                      std::vector<std::string>& notices) {
   CombinationTarget target;

@@ -21,6 +21,10 @@ bool is_whole_model(const MeshedModel& input, const Request& request);
 /// Hexes of a solid target, ascending. Throws Error when there are none.
 std::vector<Index> solid_target(const MeshedModel& input, const Request& request);
 
+/// Hexes of any target together with its layers (Request::depth), ascending: a solid target's by itself when there is
+/// no depth, the first layer around anything else. Throws Error when there are none.
+std::vector<Index> region_target(const MeshedModel& input, const Request& request, std::vector<std::string>& notices);
+
 /// Nodes, edges and faces of any other target: of a curve its mesh edges, of a surface its mesh faces, each with all
 /// nodes on it. CAD entities that no node lies on are named in a notice. Throws Error when there is nothing at all.
 CombinationTarget sub_element_target(const MeshedModel& input, const Request& request,

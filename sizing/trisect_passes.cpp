@@ -20,13 +20,7 @@ std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> he
 }  // namespace
 
 void trisect_passes(Pipeline& run) {
-  std::vector<Index> targets;
-  if (is_solid(run.request().kind)) {
-    targets = with_layers(run.input().mesh, solid_target(run.input(), run.request()), run.request().depth.value_or(0));
-  } else {
-    const CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
-    targets = layers_around(run.input().mesh, target.nodes, run.request().depth.value_or(1));
-  }
+  std::vector<Index> targets = region_target(run.input(), run.request(), run.report().notices);
   for (int i = 0; i < run.request().numsplit; ++i) {
     run.stages().begin("close", run.fraction());
     const Mesh& mesh = run.current().mesh;

@@ -1,0 +1,114 @@
+// One into eight: parallel hex sheet operations on whole hexes and layers of them, and what is decided for each region.
+#include <algorithm>
+
+#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/refine/eight.h"
+#include "hextwist/refine/enclose.h"
+#include "hextwist/refine/marks.h"
+#include "hextwist/refine/trisect.h"
+#include "hextwist/refine/uniform.h"
+#include "hextwist/sizing/pipeline_internal.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+namespace {
+
+constexpr std::size_t max_told_regions = 10;
+
+std::string counted(Index n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : what.ends_with('x') ? "es" : "s");
+}
+
+std::string describe(const EightRegion& region, const Mesh& mesh) {
+  std::string line = counted(region.n_hexes, "hex") + " around hex " + std::to_string(hex_id(mesh, region.first_hex));
+  line += region.eight ? ": one into eight" : ": one into 27";
+  if (region.alone) return line + ", nothing is around it, so all edges are halved";
+  line += " (" + counted(region.n_irregular_edges, "irregular edge") + " inside, " +
+          std::to_string(region.n_self_crossing) + " of " + counted(region.n_sheets, "sheet") + " crossing itself)";
+  if (!region.eight) return line + ": " + region.reason;
+  line += ", in " + std::to_string(region.n_passes) + " passes";
+  if (region.n_in_three > 0)
+    line += ", " + counted(region.n_in_three, "sheet") + " cut in three: " + std::to_string(region.n_exact) +
+            " hexes get exactly eight";
+  if (region.n_added_nodes > 0)
+    line += ", " + counted(region.n_added_nodes, "node") + " outside enclosed too, for want of a template";
+  return line;
+}
+
+void tell(const EightPlan& plan, const Mesh& mesh, int round, std::vector<std::string>& notices) {
+  std::size_t n_told = 0;
+  Index n_eight = 0, n_trisected = 0;
+  for (const EightRegion& region : plan.regions) {
+    if (round > 0 && region.eight && region.n_in_three == 0) continue;  // as was to be expected
+    if (n_told++ < max_told_regions)
+      notices.push_back((round > 0 ? "round " + std::to_string(round + 1) + ": " : "") + describe(region, mesh));
+    else
+      ++(region.eight ? n_eight : n_trisected);
+  }
+  if (n_eight + n_trisected > 0)
+    notices.push_back("and " + counted(n_eight + n_trisected, "region") + " more: " + std::to_string(n_eight) +
+                      " one into eight, " + std::to_string(n_trisected) + " one into 27");
+}
+
+/// What is still to be done after a pass, in the numbers of the new mesh.
+struct Remaining {
+  EightPlan plan;
+  std::vector<Index> targets;  ///< ascending
+  std::size_t next_pass = 0;
+
+  void carry(const Pipeline& run, std::span<const Hex> old_hexes) {
+    targets = children(run.lineage(), targets);
+    plan.trisected = children(run.lineage(), plan.trisected);
+    for (std::size_t p = next_pass; p < plan.passes.size(); ++p)
+      carry_marks(run.lineage(), old_hexes, run.current().mesh.n_nodes(), plan.passes[p]);
+  }
+  static std::vector<Index> children(const Lineage& lineage, std::span<const Index> hexes) {
+    std::vector<std::uint8_t> wanted(lineage.n_old_hexes, 0);
+    for (const Index h : hexes) wanted[h] = 1;
+    return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
+  }
+};
+
+void pass(Pipeline& run, Remaining& rest, std::shared_ptr<const SplitTable> table,
+          std::span<const std::uint16_t> codes) {
+  if (std::ranges::all_of(codes, [](std::uint16_t code) { return code == 0; })) return;
+  const std::vector<Hex> old_hexes = run.current().mesh.hexes;  // the pass replaces the mesh
+  run.pass(std::move(table), codes);
+  rest.carry(run, old_hexes);
+}
+
+void one_round(Pipeline& run, Remaining& rest) {
+  if (!rest.plan.alone.empty()) {
+    std::vector<std::uint16_t> codes(run.current().mesh.hexes.size(), 0);
+    for (const Index h : rest.plan.alone) codes[h] = 1;
+    pass(run, rest, uniform_table(2), codes);
+  }
+  while (rest.next_pass < rest.plan.passes.size()) {
+    const std::vector<std::uint8_t> marked = std::move(rest.plan.passes[rest.next_pass++]);
+    pass(run, rest, enclose_table(EncloseAt::half), enclose_codes(run.current().mesh.hexes, marked));
+  }
+  if (rest.plan.trisected.empty() && rest.plan.thirds.empty()) return;
+  const Mesh& mesh = run.current().mesh;
+  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+  mark_nodes(mesh.hexes, rest.plan.trisected, marked);
+  if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
+  std::vector<Index> halved;
+  std::ranges::set_difference(rest.targets, rest.plan.trisected, std::back_inserter(halved));
+  pass(run, rest, trisect_table(), thirds_codes(mesh, halved, rest.plan.thirds, marked));
+}
+
+}  // namespace
+
+void eight_passes(Pipeline& run) {
+  Remaining rest;
+  rest.targets = region_target(run.input(), run.request(), run.report().notices);
+  for (int round = 0; round < run.request().numsplit; ++round) {
+    run.stages().begin("close", run.fraction());
+    rest.plan = plan_eight(run.current().mesh, rest.targets);
+    rest.next_pass = 0;
+    tell(rest.plan, run.current().mesh, round, run.report().notices);
+    one_round(run, rest);
+  }
+}
+
+}  // namespace hextwist

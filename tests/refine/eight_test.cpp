@@ -1,0 +1,173 @@
+// One into eight by itself: the markings it stands on, and what is decided about regions.
+#include "hextwist/refine/eight.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "hextwist/refine/eight_internal.h"
+#include "hextwist/refine/enclose.h"
+#include "hextwist/refine/split.h"
+#include "support/grids.h"
+
+namespace hextwist {
+namespace {
+
+TEST(eight, a_box_marking_stays_one_on_all_children_of_a_hex_split_by_another) {
+  std::vector<std::uint16_t> box;
+  for (int mask = 0; mask < 255; ++mask)
+    if (is_box_marking(mask)) box.push_back(static_cast<std::uint16_t>(mask));
+  ASSERT_EQ(box.size(), 1 + 8 + 12 + 6);
+  const auto table = enclose_table(EncloseAt::half);
+  const std::vector<Hex> cube = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  for (const std::uint16_t first : box) {
+    ASSERT_TRUE(has_enclosing_template(first));
+    const std::vector<std::uint16_t> codes = {first};
+    const Split parts = split(cube, 8, table, codes);
+    for (const std::uint16_t second : box) {
+      std::vector<std::uint8_t> marked(8);
+      for (int c = 0; c < 8; ++c) marked[c] = second >> c & 1;
+      carry_marks(parts.lineage, cube, parts.n_nodes, marked);
+      for (const Hex& hex : parts.hexes) {
+        int mask = 0;
+        for (int c = 0; c < 8; ++c) mask |= marked[hex[c]] << c;
+        EXPECT_TRUE(is_box_marking(mask)) << first << " then " << second << ": " << mask;
+      }
+    }
+  }
+}
+
+EightRegion only_region(const Mesh& mesh, const std::vector<Index>& targets) {
+  const EightPlan plan = plan_eight(mesh, targets);
+  EXPECT_EQ(plan.regions.size(), 1U);
+  return plan.regions.front();
+}
+
+std::vector<Index> all_hexes(const Mesh& mesh) {
+  std::vector<Index> result(mesh.hexes.size());
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
+TEST(eight, a_block_in_a_grid_is_structured_and_takes_three_passes) {
+  std::mt19937 random(1);
+  const Mesh mesh = test::grid(6, 6, 6);
+  std::vector<Index> targets;
+  for (int k = 2; k < 4; ++k)
+    for (int j = 1; j < 4; ++j)
+      for (int i = 1; i < 5; ++i) targets.push_back(i + 6 * (j + 6 * k));
+  const EightRegion region = only_region(mesh, targets);
+  EXPECT_TRUE(region.eight) << region.reason;
+  EXPECT_EQ(region.first_hex, targets.front());
+  EXPECT_EQ(region.n_hexes, 24);
+  EXPECT_EQ(region.n_exact, 24);
+  EXPECT_EQ(region.n_passes, 3);
+  EXPECT_EQ(region.n_sheets, 4 + 3 + 2);
+  EXPECT_EQ(region.n_irregular_edges, 0);
+  EXPECT_EQ(region.n_added_nodes, 0);
+}
+
+TEST(eight, sheets_that_diverge_need_more_passes_unless_their_number_is_even) {
+  // Around an irregular edge of valence v a sheet parts from its neighbour; with v even they can still take turns.
+  for (const int valence : {3, 4, 5, 6, 8}) {
+    SCOPED_TRACE(valence);
+    const Mesh mesh = test::pinwheel(valence, 3, 5);
+    std::vector<Index> targets;  // all hexes that touch the inner layers' irregular line
+    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+      double r = 0, low = 1e9, high = -1e9;
+      for (const Index n : mesh.hexes[h]) {
+        r = std::max(r, mesh.points[n].head<2>().norm());
+        low = std::min(low, mesh.points[n].z());
+        high = std::max(high, mesh.points[n].z());
+      }
+      if (r < 2.1 && low > 0.5 && high < 4.5) targets.push_back(h);
+    }
+    ASSERT_FALSE(targets.empty());
+    const EightRegion region = only_region(mesh, targets);
+    EXPECT_EQ(region.n_irregular_edges > 0, valence != 4);
+    EXPECT_EQ(region.n_self_crossing, 0);
+    if (valence % 2 == 0) {
+      EXPECT_TRUE(region.eight) << region.reason;
+      EXPECT_EQ(region.n_passes, 3);
+      EXPECT_EQ(region.n_exact, region.n_hexes);
+    }
+  }
+}
+
+TEST(eight, a_ring_with_nothing_around_it_is_halved_whatever_its_sheets_do) {
+  for (const int turns : {0, 1, 2, 3}) {
+    const Mesh mesh = test::ring(2, 7, turns);
+    const EightPlan plan = plan_eight(mesh, all_hexes(mesh));
+    ASSERT_EQ(plan.regions.size(), 1U);
+    EXPECT_TRUE(plan.regions[0].alone);
+    EXPECT_TRUE(plan.regions[0].eight);
+    EXPECT_EQ(plan.alone, all_hexes(mesh));
+    EXPECT_TRUE(plan.passes.empty() && plan.thirds.empty() && plan.trisected.empty());
+  }
+}
+
+TEST(eight, a_ring_within_a_ring_is_halved_around_when_its_number_of_layers_is_even) {
+  for (const int n : {6, 7}) {
+    SCOPED_TRACE(n);
+    const Mesh mesh = test::ring(4, n, 0);
+    std::vector<Index> targets;  // the lower inner quarter of each section
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) targets.push_back(i + 4 * (j + 4 * k));
+    const EightRegion region = only_region(mesh, targets);
+    EXPECT_TRUE(region.eight) << region.reason;
+    EXPECT_EQ(region.n_passes, 3);
+    EXPECT_EQ(region.n_in_three, n % 2);
+    EXPECT_EQ(region.n_exact, 4 * (n - n % 2));
+  }
+}
+
+TEST(eight, a_region_whose_sheets_cross_themselves_gets_27) {
+  // Turned by a quarter: the sheets of a section are joined with those across them, once around.
+  const Mesh mesh = test::ring(4, 8, 1);
+  std::vector<Index> targets;  // the inner 2 x 2 hexes of each section
+  for (int k = 0; k < 8; ++k)
+    for (int j = 1; j < 3; ++j)
+      for (int i = 1; i < 3; ++i) targets.push_back(i + 4 * (j + 4 * k));
+  const EightPlan plan = plan_eight(mesh, targets);
+  ASSERT_EQ(plan.regions.size(), 1U);
+  EXPECT_FALSE(plan.regions[0].eight);
+  EXPECT_GT(plan.regions[0].n_self_crossing, 0);
+  EXPECT_NE(plan.regions[0].reason.find("could be cut in eight"), std::string::npos) << plan.regions[0].reason;
+  EXPECT_EQ(plan.trisected, targets);
+  EXPECT_TRUE(plan.passes.empty());
+  // Cut open, it is structured.
+  const std::vector<Index> open(targets.begin(), targets.begin() + 4 * 6);
+  EXPECT_TRUE(only_region(mesh, open).eight);
+}
+
+TEST(eight, regions_that_share_no_node_are_decided_about_one_by_one) {
+  const Mesh mesh = test::ring(9, 8, 1);
+  std::vector<Index> targets;
+  for (int k = 0; k < 8; ++k) targets.push_back(4 + 9 * (4 + 9 * k));  // the middle: once around, crossing itself
+  targets.push_back(0);
+  targets.push_back(1);
+  std::ranges::sort(targets);
+  const EightPlan plan = plan_eight(mesh, targets);
+  ASSERT_EQ(plan.regions.size(), 2U);
+  EXPECT_TRUE(plan.regions[0].eight) << plan.regions[0].reason;
+  EXPECT_FALSE(plan.regions[1].eight);
+  EXPECT_EQ(plan.trisected.size(), 8U);
+}
+
+TEST(eight, a_thin_region_around_a_wide_notch_gets_27) {
+  // Planes of nodes along an L would have to be filled to rectangles.
+  const Mesh mesh = test::grid(12, 12, 4);
+  std::vector<Index> targets;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    const int i = h % 12, j = h / 12 % 12, k = h / 144;
+    if ((k == 1 || k == 2) && (i == 0 || j == 0)) targets.push_back(h);
+  }
+  const EightRegion region = only_region(mesh, targets);
+  EXPECT_FALSE(region.eight);
+  EXPECT_EQ(region.reason, "hexes beside it would have no template");
+}
+
+}  // namespace
+}  // namespace hextwist
