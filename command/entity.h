@@ -1,30 +1,31 @@
-// What a command can be about: mesh entities, CAD entities, and groups of mesh entities.
+// What a command can be about: mesh entities, CAD entities, sets of mesh entities, and groups of any of them.
 #pragma once
 
 #include <string_view>
 
 namespace hextwist {
 
-enum class EntityKind { node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset, sheet };
-inline constexpr int n_entity_kinds = 12;
+enum class EntityKind { node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset, sheet, group };
+inline constexpr int n_entity_kinds = 13;
 
 /// "node", "edge", ...: the word of the language.
 constexpr std::string_view name(EntityKind kind) {
-  constexpr std::string_view names[n_entity_kinds] = {"node",    "edge",   "face",  "hex",     "vertex",  "curve",
-                                                      "surface", "volume", "block", "nodeset", "sideset", "sheet"};
+  constexpr std::string_view names[n_entity_kinds] = {"node",    "edge",    "face",   "hex",   "vertex",
+                                                      "curve",   "surface", "volume", "block", "nodeset",
+                                                      "sideset", "sheet",   "group"};
   return names[static_cast<int>(kind)];
 }
 /// "nodes", "edges", ..., "vertices", "hexes".
 constexpr std::string_view plural(EntityKind kind) {
-  constexpr std::string_view names[n_entity_kinds] = {"nodes",    "edges",    "faces",    "hexes",
-                                                      "vertices", "curves",   "surfaces", "volumes",
-                                                      "blocks",   "nodesets", "sidesets", "sheets"};
+  constexpr std::string_view names[n_entity_kinds] = {"nodes",    "edges",    "faces",   "hexes",  "vertices",
+                                                      "curves",   "surfaces", "volumes", "blocks", "nodesets",
+                                                      "sidesets", "sheets",   "groups"};
   return names[static_cast<int>(kind)];
 }
 
 /// May its entities have names?
 constexpr bool has_names(EntityKind kind) {
-  return kind >= EntityKind::vertex && kind <= EntityKind::sideset;
+  return (kind >= EntityKind::vertex && kind <= EntityKind::sideset) || kind == EntityKind::group;
 }
 constexpr bool is_mesh(EntityKind kind) {
   return kind <= EntityKind::hex;
@@ -34,9 +35,9 @@ constexpr bool is_cad(EntityKind kind) {
 }
 
 /// Dimension of the mesh entities that an entity of this kind stands for: a block for hexes, a side set for faces, a
-/// sheet for the edges that it cuts.
+/// sheet for the edges that it cuts. A group stands for entities of several kinds: -1.
 constexpr int dimension(EntityKind kind) {
-  constexpr int dimensions[n_entity_kinds] = {0, 1, 2, 3, 0, 1, 2, 3, 3, 0, 2, 1};
+  constexpr int dimensions[n_entity_kinds] = {0, 1, 2, 3, 0, 1, 2, 3, 3, 0, 2, 1, -1};
   return dimensions[static_cast<int>(kind)];
 }
 

@@ -46,12 +46,23 @@ constexpr std::string_view range_text = R"(range: which entities a command is ab
   3 to 17            all existing ids from 3 to 17; the ends must not lie beyond the ids in use
   3 to 17 by 2       every second one ('step' is the same)
   all                every entity of the kind
-  "name"             all entities of that name (volumes, surfaces, ..., blocks, node sets, side sets)
-  ... except 5 7     without these
+  "name"             all entities of that name (CAD, blocks, sets, groups); "in*" with wildcards
+  (at 0 1 2)         the nearest to that point; (at 0 1 2 ordinal 2) the second nearest
+  ... except 5 7     without these; 'except hex in block 1' without any range of the same kind
   ... in volume 2    those that lie in, or touch, the others: up and down, across mesh, CAD, blocks and sets
                      (hex in volume 2, node in face in surface 7, curve in surface 3, block in hex 10);
-                     several kinds may follow: face in surface 3 curve 1 2
-  'except' and 'in' belong to the list before them: in 'hex in volume all except 5' that is volume 5.
+                     several kinds may follow: face in surface 3 curve 1 2; or a name: curve in fillets
+  ... common_to ...  those that lie in each of the others: curve common_to surface 1 2
+  ... with ...       those that meet a condition:
+                     hex all with quality shape < 0.3
+                     curve with length < 2 and (x_coord > 1 or not z_max = 5)
+                     about: id, x_coord y_coord z_coord, x_min .. z_max, length, area, volume, radius, quality <metric>,
+                     is_planar, is_spline, is_meshed, element_count, num_parents, block_assigned, name "in*"
+                     'and' and 'or' go from left to right; 'length of curve 5'; '= 5 tolerance 1e-3'
+
+  'except' belongs to the list of ids before it: in 'hex in volume all except 5' that is volume 5. 'in' belongs to the
+  kind before it. 'with' is about the kind that the range began with, or about a kind without ids right before it.
+  Parentheses end a range: curve in (surface 1 to 9 with area > 3).
 )";
 
 }  // namespace

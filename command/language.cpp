@@ -7,7 +7,7 @@ namespace {
 
 using Kind = ArgumentSpec::Kind;
 
-constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ..., in <kind> <range>; see 'help range'";
+constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ..., in ..., with ...; see 'help range'";
 
 // clang-format off
 const std::vector<CommandSpec> table = {
@@ -47,7 +47,7 @@ const std::vector<CommandSpec> table = {
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
      {"import step \"part.step\"", "import mesh \"part.msh\""}},
     {"list",
-     "list [{model|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range>}]",
+     "list [{model|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]",
      "show entities and their properties", "Without arguments: the model and mesh as a whole.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"list", "list curve all", "list hex in sheet 3", "list sheet in hex 17"}},

@@ -1,19 +1,22 @@
 #include "hextwist/command/range.h"
 
-#include <array>
 #include <cmath>
 
+#include "hextwist/command/number_text_internal.h"
 #include "hextwist/command/reader.h"
 
 namespace hextwist {
 namespace {
 
-// Words that may follow the ids of a range in a later version of the language; today they get an error of their own.
-constexpr std::array<std::string_view, 5> planned = {"common_to", "with", "expand", "include", "at"};
 constexpr int max_nesting = 32;
 
-bool is_symbol(const Token& token, std::string_view symbol) {
-  return token.kind == Token::Kind::symbol && token.text == symbol;
+bool is_word(const Token& token, std::string_view word) {
+  return token.kind == Token::Kind::word && same_word(token.text, word);
+}
+
+/// Accepts a word that changes nothing.
+void skip_word(Reader& reader, std::string_view word) {
+  if (is_word(reader.peek(), word)) reader.take();
 }
 
 std::int64_t read_whole_number(Reader& reader, const char* what, const char* whose) {
@@ -45,32 +48,73 @@ RangeItem read_ids(Reader& reader) {
   return item;
 }
 
-bool starts_item(const Token& token, bool names, bool first) {
-  if (token.kind == Token::Kind::number) return true;
-  if (token.kind == Token::Kind::word && first && same_word(token.text, "all")) return true;
+void close_parenthesis(Reader& reader) {
+  if (!reader.at_symbol(")")) {
+    reader.expect(")");
+    reader.fail();
+  }
+  reader.take();
+}
+
+bool starts_point(const Reader& reader) {
+  return reader.at_symbol("(") && is_word(reader.ahead(), "at");
+}
+
+/// ( at x y z [ordinal n] [ordered] )
+RangeItem read_point(Reader& reader) {
+  RangeItem item;
+  item.kind = RangeItem::Kind::at;
+  item.first = 1;
+  item.token = item.last_token = reader.take();
+  reader.take();
+  for (double& x : item.point) {
+    if (reader.peek().kind != Token::Kind::number) {
+      reader.expect("a number");
+      reader.fail();
+    }
+    x = reader.take().value;
+    if (reader.at_symbol(",")) reader.take();
+  }
+  if (reader.accept("ordinal")) item.first = read_whole_number(reader, "a whole number", "ordinals");
+  skip_word(reader, "ordered");  // says nothing that the ordinal doesn't
+  close_parenthesis(reader);
+  return item;
+}
+
+/// Words that go on with a range rather than being a name.
+bool belongs_to_range(const Token& token) {
+  for (const auto word : {"except", "in", "common_to", "with", "all", "to", "by", "step", "expand"})
+    if (is_word(token, word)) return true;
+  return false;
+}
+
+bool starts_item(const Reader& reader, bool names, bool first) {
+  const Token& token = reader.peek();
+  if (token.kind == Token::Kind::number || starts_point(reader)) return true;
+  if (first && is_word(token, "all")) return true;
   if (!names) return false;
   // A name without quotes may stand first only: later it could be meant for an option.
-  return token.kind == Token::Kind::string ||
-         (token.kind == Token::Kind::word && first && !same_word(token.text, "except") && !same_word(token.text, "in"));
+  return token.kind == Token::Kind::string || (token.kind == Token::Kind::word && first && !belongs_to_range(token));
 }
 
 std::vector<RangeItem> read_items(Reader& reader, bool names) {
   std::vector<RangeItem> items;
-  while (starts_item(reader.peek(), names, items.empty())) {
+  while (starts_item(reader, names, items.empty())) {
     const Token& token = reader.peek();
     if (token.kind == Token::Kind::number) {
       items.push_back(read_ids(reader));
+    } else if (starts_point(reader)) {
+      items.push_back(read_point(reader));
     } else {
       RangeItem item;
-      item.kind = token.kind == Token::Kind::word && same_word(token.text, "all") ? RangeItem::Kind::all
-                                                                                  : RangeItem::Kind::name;
+      item.kind = is_word(token, "all") ? RangeItem::Kind::all : RangeItem::Kind::name;
       item.token = item.last_token = reader.take();
       if (item.kind == RangeItem::Kind::name) item.name = item.token.text;
       items.push_back(std::move(item));
     }
-    while (is_symbol(reader.peek(), ",")) {
+    while (reader.at_symbol(",")) {
       reader.take();
-      if (!starts_item(reader.peek(), names, false)) {
+      if (!starts_item(reader, names, false)) {
         reader.expect("an id");
         reader.fail();
       }
@@ -79,50 +123,151 @@ std::vector<RangeItem> read_items(Reader& reader, bool names) {
   return items;
 }
 
-void refuse_planned(const Reader& reader) {
-  Token token = reader.peek();
-  if (is_symbol(token, "{")) reader.fail(token, "expressions in braces are not supported yet");
-  if (is_symbol(token, "(")) reader.fail(token, "'(at x y z)' is not supported yet");
-  if (token.kind == Token::Kind::word)
-    for (const auto word : planned)
-      if (same_word(token.text, word)) reader.fail(token, "'" + std::string(word) + "' is not supported yet");
-}
-
 void expect_items(Reader& reader, bool names, bool first) {
   reader.expect(first ? "an id" : "another id");
   if (first && names) reader.expect("a name");
   if (first) reader.expect("all");
 }
 
-Range read_range(Reader& reader, EntityKind kind, int nesting) {
-  const bool names = has_names(kind);
-  Range range;
-  range.token = reader.peek();
-  if (nesting > max_nesting) reader.fail(range.token, "this range is nested too deeply");
-  refuse_planned(reader);
-  range.items = read_items(reader, names);
-  expect_items(reader, names, range.items.empty());
-  refuse_planned(reader);
-  if (reader.accept("except", 3)) {
-    range.except = read_items(reader, names);
-    if (range.except.empty()) {
-      reader.expect("an id");
-      reader.fail();
+/// Where a range stands: that decides what may follow it.
+enum class Place { whole, term };
+
+class RangeReader {
+ public:
+  explicit RangeReader(Reader& reader) : reader_(reader) {}
+
+  Range range(EntityKind kind, Place place, int nesting) {
+    const bool names = has_names(kind);
+    Range range;
+    range.token = reader_.peek();
+    if (nesting > max_nesting) reader_.fail(range.token, "this range is nested too deeply");
+    range.items = read_items(reader_, names);
+    skip_word(reader_, "expand");
+    expect_items(reader_, names, range.items.empty());
+    const bool bare = range.items.empty();
+    while (const auto filter = accept_filter(kind, place, bare, range.filters.empty())) {
+      RangeFilter read;
+      read.kind = *filter;
+      if (*filter == RangeFilter::Kind::with)
+        read.criterion = read_criterion(reader_, kind);
+      else if (*filter == RangeFilter::Kind::except)
+        read.terms.push_back(exception(kind, nesting));
+      else
+        read.terms = terms(nesting + 1);
+      range.filters.push_back(std::move(read));
     }
-    expect_items(reader, names, false);
+    if (bare && range.filters.empty()) reader_.fail();
+    if (bare && range.filters.front().kind == RangeFilter::Kind::except)
+      reader_.fail(range.token, "'except' needs something to take away from, such as 'all'");
+    return range;
   }
-  refuse_planned(reader);
-  if (reader.accept("in")) {
+
+ private:
+  Reader& reader_;
+
+  /// A term leaves to the range around it what is not about itself.
+  std::optional<RangeFilter::Kind> accept_filter(EntityKind kind, Place place, bool bare, bool first) {
+    const bool whole = place == Place::whole;
+    if ((whole || first) && (whole || !other_kind_follows(kind)) && reader_.accept("except", 3))
+      return RangeFilter::Kind::except;
+    if (reader_.accept("in")) return RangeFilter::Kind::in;
+    if (reader_.accept("common_to", 6)) return RangeFilter::Kind::common_to;
+    if ((whole || (bare && first)) && reader_.accept("with")) return RangeFilter::Kind::with;
+    return std::nullopt;
+  }
+
+  bool other_kind_follows(EntityKind kind) const {
+    const std::size_t at = reader_.ahead(1).text == "(" ? 2 : 1;
+    for (int k = 0; k < n_entity_kinds; ++k)
+      if (is_word(reader_.ahead(at), name(static_cast<EntityKind>(k)))) return static_cast<EntityKind>(k) != kind;
+    return false;
+  }
+
+  /// What stands behind `except`: ids and names, or the kind again and any range of it.
+  RangeTerm exception(EntityKind kind, int nesting) {
+    const bool names = has_names(kind);
+    const bool parenthesis = reader_.at_symbol("(") && !starts_point(reader_);
+    const Token word = parenthesis ? reader_.ahead() : reader_.peek();
+    RangeTerm term{kind, false, {}};
+    if (is_word(word, name(kind))) {
+      if (parenthesis) reader_.take();
+      reader_.take();
+      term.range = range(kind, Place::whole, nesting + 1);
+      if (parenthesis) close_parenthesis(reader_);
+      return term;
+    }
+    for (int k = 0; k < n_entity_kinds; ++k)
+      if (is_word(word, name(static_cast<EntityKind>(k))))
+        reader_.fail(word, "only " + std::string(plural(kind)) + " can be taken from a list of " +
+                               std::string(plural(kind)) + "; '" + std::string(name(kind)) + " in " + word.text +
+                               " ...' names those that lie there");
+    term.range.token = reader_.peek();
+    term.range.items = read_items(reader_, names);
+    skip_word(reader_, "expand");
+    if (term.range.items.empty()) {
+      reader_.expect("an id");
+      if (names) reader_.expect("a name");
+      reader_.fail();
+    }
+    expect_items(reader_, names, false);
+    return term;
+  }
+
+  /// Something of any kind by its name. A word before an id is no name but a kind that was mistyped.
+  bool accept_name(std::vector<RangeTerm>& terms) {
+    const Token& token = reader_.peek();
+    const bool word = token.kind == Token::Kind::word && !belongs_to_range(token) &&
+                      reader_.ahead().kind != Token::Kind::number && !is_word(reader_.ahead(), "all");
+    if (!word && token.kind != Token::Kind::string) {
+      reader_.expect("a name");
+      return false;
+    }
+    RangeTerm term;
+    term.any_kind = true;
+    term.range.token = reader_.take();
+    RangeItem item;
+    item.kind = RangeItem::Kind::name;
+    item.name = term.range.token.text;
+    item.token = item.last_token = term.range.token;
+    term.range.items.push_back(std::move(item));
+    terms.push_back(std::move(term));
+    skip_word(reader_, "expand");
+    return true;
+  }
+
+  bool accept_parenthesis(std::vector<RangeTerm>& terms, int nesting) {
+    if (!reader_.at_symbol("(")) return false;
+    reader_.take();
+    do {
+      if (const auto kind = accept_kind(reader_))
+        terms.push_back({*kind, false, range(*kind, Place::whole, nesting + 1)});
+      else if (!accept_name(terms))
+        reader_.fail();
+    } while (!reader_.at_symbol(")"));
+    reader_.take();
+    skip_word(reader_, "expand");
+    return true;
+  }
+
+  std::vector<RangeTerm> terms(int nesting) {
+    std::vector<RangeTerm> result;
     // Further kinds must be written out, so that they can't be mistaken for shortened options.
-    while (const auto inner = accept_kind(reader, range.in.empty()))
-      range.in.push_back({*inner, read_range(reader, *inner, nesting + 1)});
-    if (range.in.empty()) reader.fail();
+    while (true) {
+      if (accept_parenthesis(result, nesting)) continue;
+      const auto kind = accept_kind(reader_, result.empty());
+      if (kind)
+        result.push_back({*kind, false, range(*kind, Place::term, nesting)});
+      else if (!result.empty() || !accept_name(result))
+        break;
+    }
+    if (result.empty()) reader_.fail();
+    return result;
   }
-  if (range.items.empty() && range.in.empty()) {
-    if (range.except.empty()) reader.fail();
-    reader.fail(range.token, "'except' needs something to take away from, such as 'all'");
-  }
-  return range;
+};
+
+std::string quoted(const std::string& text) {
+  const char quote = text.find('"') == std::string::npos ? '"' : '\'';
+  return quote + text + quote;
 }
 
 std::string to_string(const std::vector<RangeItem>& items) {
@@ -133,13 +278,16 @@ std::string to_string(const std::vector<RangeItem>& items) {
       case RangeItem::Kind::all:
         result += "all";
         break;
-      case RangeItem::Kind::name: {
-        const char quote = item.name.find('"') == std::string::npos ? '"' : '\'';
-        result += quote + item.name + quote;
+      case RangeItem::Kind::name:
+        result += quoted(item.name);
         break;
-      }
       case RangeItem::Kind::id:
         result += std::to_string(item.first);
+        break;
+      case RangeItem::Kind::at:
+        result += "(at";
+        for (const double x : item.point) result += " " + number_text(x);
+        result += (item.first > 1 ? " ordinal " + std::to_string(item.first) : "") + ")";
         break;
       case RangeItem::Kind::span:
         result += std::to_string(item.first) + " to " + std::to_string(item.last);
@@ -149,12 +297,24 @@ std::string to_string(const std::vector<RangeItem>& items) {
   return result;
 }
 
+/// Whether a term must stand in parentheses, so that it neither loses its end nor takes what follows. `last`: nothing
+/// follows that it could take.
+bool needs_parentheses(const RangeTerm& term, bool last) {
+  const auto& filters = term.range.filters;
+  for (std::size_t i = 0; i < filters.size(); ++i) {
+    if (filters[i].kind == RangeFilter::Kind::with && (i > 0 || !term.range.items.empty())) return true;
+    if (filters[i].kind == RangeFilter::Kind::except && (i > 0 || !filters[i].terms[0].range.filters.empty()))
+      return true;
+  }
+  return !last && (!filters.empty() || term.any_kind);
+}
+
 }  // namespace
 
 std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short) {
   if (!may_be_short) {
     for (int k = 0; k < n_entity_kinds; ++k)
-      if (reader.peek().kind == Token::Kind::word && same_word(reader.peek().text, name(static_cast<EntityKind>(k)))) {
+      if (is_word(reader.peek(), name(static_cast<EntityKind>(k)))) {
         reader.take();
         return static_cast<EntityKind>(k);
       }
@@ -169,15 +329,54 @@ std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short) {
 }
 
 Range read_range(Reader& reader, EntityKind kind) {
-  return read_range(reader, kind, 0);
+  return RangeReader(reader).range(kind, Place::whole, 0);
+}
+
+RangeTerm read_single(Reader& reader) {
+  const auto kind = accept_kind(reader);
+  if (!kind) reader.fail();
+  RangeTerm term{*kind, false, {}};
+  term.range.token = reader.peek();
+  if (reader.peek().kind == Token::Kind::number)
+    term.range.items.push_back(read_ids(reader));
+  else if (starts_item(reader, has_names(*kind), true) && !is_word(reader.peek(), "all"))
+    term.range.items = read_items(reader, has_names(*kind));
+  if (term.range.items.size() != 1) {
+    reader.expect("an id");
+    if (has_names(*kind)) reader.expect("a name");
+    term.range.items.empty() ? reader.fail() : reader.fail(term.range.token, "'of' takes a single entity");
+  }
+  return term;
+}
+
+std::string to_string(const RangeTerm& term) {
+  if (term.any_kind) return to_string(term.range.items);
+  return std::string(name(term.kind)) + " " + to_string(term.range);
 }
 
 std::string to_string(const Range& range) {
   std::string result = to_string(range.items);
-  if (!range.except.empty()) result += " except " + to_string(range.except);
-  if (!range.in.empty()) {
-    result += result.empty() ? "in" : " in";
-    for (const RangeTerm& term : range.in) result += " " + std::string(name(term.kind)) + " " + to_string(term.range);
+  for (std::size_t i = 0; i < range.filters.size(); ++i) {
+    const RangeFilter& filter = range.filters[i];
+    if (!result.empty()) result += ' ';
+    if (filter.kind == RangeFilter::Kind::with) {
+      result += "with " + to_string(filter.criterion);
+    } else if (filter.kind == RangeFilter::Kind::except) {
+      const Range& list = filter.terms[0].range;
+      result += "except " + (list.filters.empty() ? to_string(list.items) : "(" + to_string(filter.terms[0]) + ")");
+    } else {
+      result += filter.kind == RangeFilter::Kind::in ? "in" : "common_to";
+      bool followed = false;
+      for (std::size_t j = i + 1; j < range.filters.size(); ++j)
+        followed |= range.filters[j].kind != RangeFilter::Kind::with;
+      for (std::size_t t = 0; t < filter.terms.size(); ++t) {
+        const RangeTerm& term = filter.terms[t];
+        const bool last = t + 1 == filter.terms.size();
+        const bool parentheses =
+            (t > 0 && term.any_kind) || needs_parentheses(term, last && !followed) || (last && followed);
+        result += parentheses ? " (" + to_string(term) + ")" : " " + to_string(term);
+      }
+    }
   }
   return result;
 }

@@ -33,14 +33,20 @@ std::string found(const Token& token) {
   return "'" + printable(token.text) + "'";
 }
 
-std::string joined(std::span<const std::string> words) {
+}  // namespace
+
+std::string alternatives(std::span<const std::string> words) {
   std::string result;
   for (std::size_t i = 0; i < words.size(); ++i)
     result += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
   return result;
 }
 
-}  // namespace
+std::string nearest_word(std::string_view word, std::span<const std::string> words) {
+  if (word.size() < 3 || word.size() > 30 || words.empty()) return "";
+  const auto best = std::ranges::min_element(words, {}, [&](const std::string& each) { return distance(word, each); });
+  return distance(word, *best) <= (word.size() > 5 ? 2 : 1) ? *best : "";
+}
 
 bool same_word(std::string_view a, std::string_view b) {
   return a.size() == b.size() && begins_word(a, b);
@@ -52,7 +58,7 @@ bool begins_word(std::string_view beginning, std::string_view word) {
 }
 
 const Token& Reader::peek() const {
-  const Token& token = statement_.tokens[at_];
+  const Token& token = tokens_[at_];
   if (token.kind == Token::Kind::bad) throw error_at(statement_, token, token.text);
   return token;
 }
@@ -62,6 +68,22 @@ Token Reader::take() {
   if (token.kind != Token::Kind::end) ++at_;
   expected_.clear();
   return token;
+}
+
+void Reader::split(std::size_t length) {
+  const Token token = peek();
+  const bool verbatim = token.length == token.text.size();
+  std::vector<Token> pieces;
+  for (const std::size_t begin : {std::size_t{0}, length})
+    for (const Statement& alone : split_statements(token.text.substr(begin, begin ? std::string::npos : length)))
+      for (Token piece : alone.tokens) {
+        if (piece.kind == Token::Kind::end) continue;
+        piece.offset = token.offset + (verbatim ? begin + piece.offset : 0);
+        if (!verbatim) piece.length = token.length;
+        pieces.push_back(std::move(piece));
+      }
+  const auto at = tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(at_));
+  tokens_.insert(at, pieces.begin(), pieces.end());
 }
 
 std::optional<std::size_t> Reader::match(std::span<const Keyword> words) {
@@ -77,7 +99,7 @@ std::optional<std::size_t> Reader::match(std::span<const Keyword> words) {
     if (candidates.size() > 1) {
       std::vector<std::string> names;
       for (const std::size_t c : candidates) names.emplace_back(words[c].word);
-      fail(token, "'" + token.text + "' is short for " + joined(names) + ": please write more of it");
+      fail(token, "'" + token.text + "' is short for " + alternatives(names) + ": please write more of it");
     }
   }
   for (const Keyword& keyword : words)
@@ -102,16 +124,16 @@ void Reader::expect(std::string what) {
 }
 
 void Reader::fail() const {
-  const Token& token = peek();
+  fail(peek());
+}
+
+void Reader::fail(const Token& token) const {
   if (token.kind == Token::Kind::symbol && token.text == "{")
     fail(token, "expressions in braces are not supported yet");
-  std::string message = "expected " + joined(expected_) + ", found " + found(token);
-  if (token.kind == Token::Kind::word && token.text.size() >= 3 && token.text.size() <= 30) {
-    const auto best =
-        std::ranges::min_element(expected_, {}, [&](const std::string& word) { return distance(token.text, word); });
-    if (best != expected_.end() && distance(token.text, *best) <= (token.text.size() > 5 ? 2 : 1))
-      message += " (did you mean '" + *best + "'?)";
-  }
+  std::string message = "expected " + alternatives(expected_) + ", found " + found(token);
+  if (token.kind == Token::Kind::word)
+    if (const std::string near = nearest_word(token.text, expected_); !near.empty())
+      message += " (did you mean '" + near + "'?)";
   fail(token, message);
 }
 

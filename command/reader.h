@@ -2,6 +2,7 @@
 // an error can say so. Words are compared without case and may be cut short while they are unambiguous.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,16 +23,22 @@ struct Keyword {
 
 class Reader {
  public:
-  explicit Reader(const Statement& statement) : statement_(statement) {}
+  explicit Reader(const Statement& statement) : statement_(statement), tokens_(statement.tokens) {}
 
   const Statement& statement() const { return statement_; }
   /// The current token; a bad one throws the CommandError that it stands for.
   const Token& peek() const;
   bool at_end() const { return peek().kind == Token::Kind::end; }
   /// The same, without throwing for bad tokens.
-  bool stopped_at_end() const { return statement_.tokens[at_].kind == Token::Kind::end; }
+  bool stopped_at_end() const { return tokens_[at_].kind == Token::Kind::end; }
+  /// The token so many behind the current one (the end, where there are not so many), good or bad.
+  const Token& ahead(std::size_t n = 1) const { return tokens_[std::min(at_ + n, tokens_.size() - 1)]; }
   /// Takes the current token; forgets what could have stood there.
   Token take();
+
+  /// Cuts the current token in two behind so many bytes, as if there were a blank: `x_coord-3` in arithmetic.
+  void split(std::size_t length);
+  bool at_symbol(std::string_view symbol) const { return peek().kind == Token::Kind::symbol && peek().text == symbol; }
 
   /// Which of the words the current token is: the exact one, else the only one that it is the beginning of.
   /// nullopt when none (they are remembered as expected). Throws where several begin like it. Does not take it.
@@ -42,20 +49,30 @@ class Reader {
   /// Remembers that this could stand here.
   void expect(std::string what);
   const std::vector<std::string>& expected() const { return expected_; }
-  /// Throws: the current token is none of what was expected.
+  /// Throws: the current token (or the one given) is none of what was expected.
   [[noreturn]] void fail() const;
+  [[noreturn]] void fail(const Token& token) const;
   [[noreturn]] void fail(const Token& token, const std::string& message) const;
 
  private:
   const Statement& statement_;
+  std::vector<Token> tokens_;
   std::size_t at_ = 0;
   std::vector<std::string> expected_;
 };
+
+/// What is closest to a mistyped word, within one or two letters; "" if nothing is.
+std::string nearest_word(std::string_view word, std::span<const std::string> words);
+/// "a, b or c".
+std::string alternatives(std::span<const std::string> words);
 
 /// Reads a range of ids of a kind. Throws CommandError at the first token that fits neither it nor what may follow.
 Range read_range(Reader& reader, EntityKind kind);
 /// Reads a kind of entity, nullopt if the current token is none.
 std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short = true);
+
+/// Reads a kind and one id or name, as behind `of`.
+RangeTerm read_single(Reader& reader);
 
 /// Without case.
 bool same_word(std::string_view a, std::string_view b);

@@ -100,18 +100,61 @@ void for_each_member(const Selector& selector, EntityKind kind, Index group, F f
   }
 }
 
+std::vector<Index> flagged(const Flags& flags) {
+  std::vector<Index> result;
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i]) result.push_back(static_cast<Index>(i));
+  return result;
+}
+
+/// Calls f(kind, positions) for each kind of which a group has members.
+template <class F>
+void for_each_kind_in(const Selector& selector, Index group, F f) {
+  for (int k = 0; k < n_entity_kinds; ++k) {
+    const auto kind = static_cast<EntityKind>(k);
+    if (kind == EntityKind::group) continue;
+    const std::vector<Index> inside = members(selector, selector.groups[group], kind);
+    if (!inside.empty()) f(kind, inside);
+  }
+}
+
+void flag_in_group(const Selector& selector, Index group, EntityKind to, Flags& result) {
+  const std::vector<Index> own = members(selector, selector.groups[group], to);
+  for (const Index i : own) result[i] = 1;
+  if (!own.empty()) return;
+  for_each_kind_in(selector, group, [&](EntityKind kind, const std::vector<Index>& inside) {
+    for (const Index i : related(selector, kind, inside, to)) result[i] = 1;
+  });
+}
+
+/// Does the group have one of the entities, or, having none of their kind, anything that lies in them?
+bool group_touches(const Selector& selector, Index group, EntityKind from, const std::vector<Index>& positions) {
+  Flags inside(count(selector, from), 0);
+  flag_in_group(selector, group, from, inside);
+  return std::ranges::any_of(positions, [&](Index i) { return inside[i]; });
+}
+
 }  // namespace
 
 std::vector<Index> related(const Selector& selector, EntityKind from, const std::vector<Index>& positions,
                            EntityKind to) {
   Flags result(count(selector, to), 0);
+  if (from == to) {
+    for (const Index i : positions) result[i] = 1;
+    return flagged(result);
+  }
+  if (from == EntityKind::group) {
+    for (const Index group : positions) flag_in_group(selector, group, to, result);
+    return flagged(result);
+  }
+  if (to == EntityKind::group) {
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = group_touches(selector, static_cast<Index>(i), from, positions);
+    return flagged(result);
+  }
   if (is_cad(from) && is_cad(to)) {
     for (const Index i : positions) {
-      if (from == to)
-        result[i] = 1;
-      else
-        for (const int id : selector.meshed.model->adjacent({dimension(from), i + 1}, dimension(to)))
-          result[id - 1] = 1;
+      for (const int id : selector.meshed.model->adjacent({dimension(from), i + 1}, dimension(to))) result[id - 1] = 1;
     }
   } else if (selector.meshed.mesh.n_hexes() > 0) {
     Flags flags(n_entities(selector, dimension(from)), 0);
@@ -129,10 +172,7 @@ std::vector<Index> related(const Selector& selector, EntityKind from, const std:
       for (std::size_t i = 0; i < result.size(); ++i)
         for_each_member(selector, to, static_cast<Index>(i), [&](Index entity) { result[i] |= flags[entity]; });
   }
-  std::vector<Index> chosen;
-  for (std::size_t i = 0; i < result.size(); ++i)
-    if (result[i]) chosen.push_back(static_cast<Index>(i));
-  return chosen;
+  return flagged(result);
 }
 
 }  // namespace hextwist

@@ -1,6 +1,7 @@
 #include "hextwist/command/selection.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -10,6 +11,8 @@
 namespace hextwist {
 namespace {
 
+using Flags = std::vector<char>;
+
 /// The existing ids of a kind in ascending order: rank -> id, position.
 class IdTable {
  public:
@@ -17,7 +20,8 @@ class IdTable {
     const Mesh& mesh = selector.meshed.mesh;
     if (kind == EntityKind::node) ids_ = mesh.node_ids;
     if (kind == EntityKind::hex) ids_ = mesh.hex_ids;
-    if (kind == EntityKind::block || kind == EntityKind::nodeset || kind == EntityKind::sideset) {
+    if (kind == EntityKind::block || kind == EntityKind::nodeset || kind == EntityKind::sideset ||
+        kind == EntityKind::group) {
       positions_.resize(n_);
       std::iota(positions_.begin(), positions_.end(), Index{0});
       std::ranges::sort(positions_, {}, [&](Index i) { return id_of(selector, kind, i); });
@@ -54,30 +58,24 @@ class Evaluation {
 
   std::vector<Index> range(EntityKind kind, const Range& range) {
     if (count(selector_, kind) == 0) refuse_nothing(kind, range.token);
-    std::vector<char> chosen(count(selector_, kind), range.items.empty());
+    Flags chosen(count(selector_, kind), range.items.empty());
     items(kind, range.items, chosen);
-    if (!range.except.empty()) {
-      std::vector<char> dropped(chosen.size(), 0);
-      items(kind, range.except, dropped);
-      bool any = false;
-      for (std::size_t i = 0; i < chosen.size(); ++i) {
-        any |= chosen[i] && dropped[i];
-        chosen[i] = chosen[i] && !dropped[i];
+    for (const RangeFilter& filter : range.filters) {
+      switch (filter.kind) {
+        case RangeFilter::Kind::in:
+          in(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::common_to:
+          common_to(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::with:
+          with(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::except:
+          except(kind, filter, chosen);
       }
-      if (!any)
-        notices_.push_back("'except' took nothing away: none of those " + std::string(plural(kind)) +
-                           " was in the list before it");
     }
-    if (!range.in.empty()) {
-      std::vector<char> inside(chosen.size(), 0);
-      for (const RangeTerm& term : range.in)
-        for (const Index i : related(selector_, term.kind, this->range(term.kind, term.range), kind)) inside[i] = 1;
-      for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] && inside[i];
-    }
-    std::vector<Index> result;
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      if (chosen[i]) result.push_back(static_cast<Index>(i));
-    return result;
+    return positions(chosen);
   }
 
  private:
@@ -85,7 +83,83 @@ class Evaluation {
   const Statement& statement_;
   std::vector<std::string>& notices_;
 
+  static std::vector<Index> positions(const Flags& flags) {
+    std::vector<Index> result;
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      if (flags[i]) result.push_back(static_cast<Index>(i));
+    return result;
+  }
+
+  void except(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    Flags dropped(chosen.size(), 0);
+    for (const Index i : range(kind, filter.terms[0].range)) dropped[i] = 1;
+    bool any = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      any |= chosen[i] && dropped[i];
+      chosen[i] = chosen[i] && !dropped[i];
+    }
+    if (!any)
+      notices_.push_back("'except' took nothing away: none of those " + std::string(plural(kind)) +
+                         " was in the list before it");
+  }
+
+  /// Calls f(kind, positions) for what a term means; a bare name may mean entities of several kinds.
+  template <class F>
+  void for_each_kind(const RangeTerm& term, F f) {
+    if (!term.any_kind) return f(term.kind, range(term.kind, term.range));
+    const RangeItem& item = term.range.items.front();
+    bool found = false;
+    for (int k = 0; k < n_entity_kinds; ++k) {
+      const auto kind = static_cast<EntityKind>(k);
+      Flags chosen(has_names(kind) ? count(selector_, kind) : 0, 0);
+      if (!find_named(kind, item.name, chosen)) continue;
+      found = true;
+      f(kind, positions(chosen));
+    }
+    if (found) return;
+    std::vector<std::string> known;
+    for (int k = 0; k < n_entity_kinds; ++k) append_names(static_cast<EntityKind>(k), known);
+    throw error_at(statement_, item.token, "nothing is named '" + printable(item.name) + "'" + hint(item.name, known));
+  }
+
+  void in(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    Flags inside(chosen.size(), 0);
+    for (const RangeTerm& term : filter.terms)
+      for_each_kind(term, [&](EntityKind from, const std::vector<Index>& of) {
+        for (const Index i : related(selector_, from, of, kind)) inside[i] = 1;
+      });
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] && inside[i];
+  }
+
+  /// Being related is mutual, so either side can be asked; the shorter list is.
+  void common_to(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    for (const RangeTerm& term : filter.terms)
+      for_each_kind(term, [&](EntityKind from, const std::vector<Index>& of) {
+        std::vector<Index> candidates = positions(chosen);
+        if (of.size() <= candidates.size()) {
+          for (std::size_t i = 0; i < of.size() && !candidates.empty(); ++i) {
+            std::vector<Index> both;
+            std::ranges::set_intersection(candidates, related(selector_, from, {of[i]}, kind),
+                                          std::back_inserter(both));
+            candidates = std::move(both);
+          }
+        } else {
+          std::erase_if(candidates,
+                        [&](Index i) { return !std::ranges::includes(related(selector_, kind, {i}, from), of); });
+        }
+        std::ranges::fill(chosen, 0);
+        for (const Index i : candidates) chosen[i] = 1;
+      });
+  }
+
+  void with(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    const std::vector<Index> candidates = positions(chosen);
+    const std::vector<char> good = meets(selector_, statement_, kind, filter.criterion, candidates);
+    for (std::size_t i = 0; i < candidates.size(); ++i) chosen[candidates[i]] = good[i];
+  }
+
   [[noreturn]] void refuse_nothing(EntityKind kind, const Token& token) const {
+    if (kind == EntityKind::group) throw error_at(statement_, token, "there are no groups");
     if (is_cad(kind) && !selector_.meshed.model)
       throw error_at(statement_, token, "there are no " + std::string(plural(kind)) + ": no CAD and no mesh was read");
     if (!is_cad(kind) && selector_.meshed.mesh.n_hexes() == 0)
@@ -93,7 +167,7 @@ class Evaluation {
     throw error_at(statement_, token, "there are no " + std::string(plural(kind)));
   }
 
-  void items(EntityKind kind, const std::vector<RangeItem>& items, std::vector<char>& chosen) {
+  void items(EntityKind kind, const std::vector<RangeItem>& items, Flags& chosen) {
     if (items.empty()) return;
     const IdTable table(selector_, kind);
     for (const RangeItem& item : items) {
@@ -103,6 +177,9 @@ class Evaluation {
           break;
         case RangeItem::Kind::name:
           named(kind, item, chosen);
+          break;
+        case RangeItem::Kind::at:
+          nearest(kind, item, chosen);
           break;
         case RangeItem::Kind::id: {
           const Index rank = table.lower(item.first);
@@ -125,7 +202,7 @@ class Evaluation {
                          : std::string(plural(kind)) + " are " + std::to_string(low) + " to " + std::to_string(high)));
   }
 
-  void span(EntityKind kind, const IdTable& table, const RangeItem& item, std::vector<char>& chosen) {
+  void span(EntityKind kind, const IdTable& table, const RangeItem& item, Flags& chosen) {
     const std::int64_t high = table.id(table.size() - 1);
     if (item.first < table.id(0)) missing(kind, table, item.token, item.first);
     if (item.first > high) missing(kind, table, item.token, item.first);
@@ -148,17 +225,61 @@ class Evaluation {
                          std::to_string(item.last) + " do not exist, the first is " + std::to_string(first_gap));
   }
 
-  void named(EntityKind kind, const RangeItem& item, std::vector<char>& chosen) const {
-    for (const bool exact : {true, false}) {
+  void nearest(EntityKind kind, const RangeItem& item, Flags& chosen) const {
+    const std::vector<Index> order = by_distance(selector_, kind, Vec3(item.point.data()));
+    if (item.first > static_cast<std::int64_t>(order.size()))
+      throw error_at(statement_, item.token,
+                     "there is no " + std::string(name(kind)) + " of ordinal " + std::to_string(item.first) +
+                         ": there are " + std::to_string(order.size()));
+    chosen[order[static_cast<std::size_t>(item.first - 1)]] = 1;
+  }
+
+  /// An exact name before one in other letters before a pattern.
+  bool find_named(EntityKind kind, const std::string& wanted, Flags& chosen) const {
+    if (wanted.empty()) return false;
+    const bool pattern = wanted.find_first_of("*?") != std::string::npos;
+    for (int looseness = 0; looseness < (pattern ? 3 : 2); ++looseness) {
       bool any = false;
-      for (std::size_t i = 0; i < chosen.size() && !item.name.empty(); ++i) {
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
         const std::string is = name_of(selector_, kind, static_cast<Index>(i));
-        if (exact ? is == item.name : same_word(is, item.name)) chosen[i] = any = true;
+        if (is.empty()) continue;
+        if (looseness == 0 ? is == wanted : looseness == 1 ? same_word(is, wanted) : matches(is, wanted))
+          chosen[i] = any = true;
       }
-      if (any) return;
+      if (any) return true;
     }
-    throw error_at(statement_, item.token,
-                   "no " + std::string(name(kind)) + " is named '" + printable(item.name) + "'");
+    return false;
+  }
+
+  void append_names(EntityKind kind, std::vector<std::string>& names) const {
+    const Index n = has_names(kind) ? count(selector_, kind) : 0;
+    for (Index i = 0; i < n; ++i)
+      if (std::string is = name_of(selector_, kind, i); !is.empty()) names.push_back(std::move(is));
+  }
+
+  /// What may have been meant: the nearest name, or the names that there are.
+  static std::string hint(const std::string& wanted, std::vector<std::string> known) {
+    std::ranges::sort(known);
+    known.erase(std::ranges::unique(known).begin(), known.end());
+    if (const std::string near = nearest_word(wanted, known); !near.empty())
+      return " (did you mean '" + printable(near) + "'?)";
+    constexpr std::size_t most = 8;
+    if (known.empty()) return "";
+    const bool cut = known.size() > most;
+    if (cut) known.resize(most);
+    std::string result = "; there are ";
+    for (std::size_t i = 0; i < known.size(); ++i)
+      result += std::string(i == 0 ? "'" : ", '") + printable(known[i]) + "'";
+    return result + (cut ? ", ..." : "");
+  }
+
+  void named(EntityKind kind, const RangeItem& item, Flags& chosen) const {
+    if (find_named(kind, item.name, chosen)) return;
+    std::vector<std::string> known;
+    append_names(kind, known);
+    throw error_at(
+        statement_, item.token,
+        "no " + std::string(name(kind)) + " is named '" + printable(item.name) + "'" + hint(item.name, known));
   }
 };
 
@@ -178,7 +299,8 @@ const Sheets& DerivedTopology::sheets() {
 }
 
 Index count(const Selector& selector, EntityKind kind) {
-  const auto& [meshed, topology] = selector;
+  const auto& [meshed, topology, groups] = selector;
+  if (kind == EntityKind::group) return static_cast<Index>(groups.size());
   if (is_cad(kind)) return meshed.model ? meshed.model->count(dimension(kind)) : 0;
   if (meshed.mesh.n_hexes() == 0) return 0;
   switch (kind) {
@@ -214,6 +336,8 @@ std::int64_t id_of(const Selector& selector, EntityKind kind, Index position) {
       return mesh.node_sets[position].id;
     case EntityKind::sideset:
       return mesh.side_sets[position].id;
+    case EntityKind::group:
+      return selector.groups[position].id;
     default:
       return std::int64_t{position} + 1;
   }
@@ -229,9 +353,31 @@ std::string name_of(const Selector& selector, EntityKind kind, Index position) {
       return mesh.node_sets[position].name;
     case EntityKind::sideset:
       return mesh.side_sets[position].name;
+    case EntityKind::group:
+      return selector.groups[position].name;
     default:
       return "";
   }
+}
+
+bool matches(std::string_view name, std::string_view pattern) {
+  // The last * is tried against longer and longer text; earlier ones need not be tried again.
+  std::size_t n = 0, p = 0, star = std::string_view::npos, resume = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || same_word(name.substr(n, 1), pattern.substr(p, 1)))) {
+      ++n;
+      ++p;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 std::vector<Index> select(const Selector& selector, const Statement& statement, EntityKind kind, const Range& range,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <map>
 
+#include "hextwist/command/number_text_internal.h"
 #include "hextwist/command/pattern_internal.h"
 #include "hextwist/command/reader.h"
 
@@ -20,12 +20,6 @@ const Pattern& pattern_of(const CommandSpec& spec) {
     return result;
   }();
   return patterns.at(spec.name);
-}
-
-std::string number_text(double value) {
-  std::array<char, 32> buffer;
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end};
 }
 
 std::string bounds_text(const ArgumentSpec& argument) {
@@ -87,7 +81,7 @@ class Matcher {
     using Kind = ArgumentSpec::Kind;
     switch (spec.kind) {
       case Kind::range:
-        return token.kind == Token::Kind::number || token.kind == Token::Kind::string;
+        return token.kind == Token::Kind::number || token.kind == Token::Kind::string || reader_.at_symbol("(");
       case Kind::integer:
       case Kind::number:
         if (token.kind == Token::Kind::number) return true;

@@ -77,9 +77,11 @@ TEST(Grammar, ValuesArriveWithTheirNames) {
   EXPECT_EQ(item.kind, EntityKind::curve);
   ASSERT_EQ(item.range.items.size(), 1u);
   EXPECT_EQ(item.range.items[0].step, 2);
-  ASSERT_EQ(item.range.except.size(), 1u);
-  ASSERT_EQ(item.range.in.size(), 1u);
-  EXPECT_EQ(item.range.in[0].kind, EntityKind::surface);
+  ASSERT_EQ(item.range.filters.size(), 2u);
+  EXPECT_EQ(item.range.filters[0].kind, RangeFilter::Kind::except);
+  EXPECT_EQ(item.range.filters[0].terms.at(0).range.items.at(0).first, 5);
+  EXPECT_EQ(item.range.filters[1].kind, RangeFilter::Kind::in);
+  EXPECT_EQ(item.range.filters[1].terms.at(0).kind, EntityKind::surface);
 }
 
 struct Wrong {
@@ -94,9 +96,10 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"refine crve 3", 8,
             "expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you mean 'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
-           {"refine curve", 13, "expected an id, a name, all, except or in, found the end of the command"},
+           {"refine curve", 13,
+            "expected an id, a name, all, except, in, common_to or with, found the end of the command"},
            {"refine curve ; reset", 13, "expected an id"},
-           {"refine hex bogus", 12, "expected an id, all, except or in, found 'bogus'"},
+           {"refine hex bogus", 12, "expected an id, all, except, in, common_to or with, found 'bogus'"},
            {"refine hex \"a\"", 12, "found \"a\""},
            {"refine hex 0", 12, "ids start at 1"},
            {"refine hex -3", 12, "ids start at 1"},
@@ -111,11 +114,35 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"refine hex except 3", 12, "'except' needs something to take away from"},
            {"refine hex all except", 22, "expected an id"},
            {"refine hex in", 14,
-            "expected node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset or sheet"},
+            "expected node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset, sheet, group or "
+            "a name"},
            {"refine hex in volume", 21, "expected an id"},
-           {"refine hex with x_coord > 3", 12, "'with' is not supported yet"},
-           {"refine hex 3 common_to volume 1 2", 14, "'common_to' is not supported yet"},
-           {"refine vertex (at 1 2 3)", 15, "is not supported yet"},
+           {"refine hex with", 16, "expected not, id, x_coord, y_coord, z_coord"},
+           {"refine hex with bogus > 3", 17, "volume, quality, element_count or block_assigned, found 'bogus'"},
+           {"refine hex with x_cord > 3", 17, "(did you mean 'x_coord'?)"},
+           {"refine hex with length > 3", 17, "hexes have no length; they have id, x_coord"},
+           {"refine hex with volume > length of surface 3", 26, "surfaces have no length"},
+           {"refine hex with x_coord", 17, "'x_coord' is a number: compare it with something (x_coord > ...)"},
+           {"refine hex with x_coord + 1", 25, "this is a number; a condition was expected, such as x_coord > 1"},
+           {"refine hex with x_coord > block_assigned", 27, "this is true or false; a number was expected"},
+           {"refine hex with (x_coord > 1) + 1 > 2", 26, "this is true or false; a number was expected"},
+           {"refine hex with x_coord >", 26, "expected id, x_coord"},
+           {"refine hex with (x_coord > 3", 29, "expected"},
+           {"refine hex with x_coord = 3 tolerance x", 39, "expected a number"},
+           {"refine hex with x_coord = 3 tolerance -1", 39, "a tolerance can't be negative"},
+           {"refine hex with quality shap2 > 3", 25, "expected shape, scaled_jacobian, mean_ratio"},
+           {"refine hex with x", 17, "'x' is short for x_coord, x_min or x_max"},
+           {"refine hex with name 'a'", 17, "hexes have no name"},
+           {"refine curve with name 3", 24, "expected a name in quotes"},
+           {"refine curve with length > length of curve all", 44, "expected an id or a name"},
+           {"refine hex 3 common_to", 23, "expected node, edge"},
+           {"refine hex in surfce 3", 15, "(did you mean 'surface'?)"},
+           {"refine hex in (surface 3", 25, "expected"},
+           {"refine hex in ()", 16, "expected node, edge"},
+           {"refine vertex (at 1 2)", 22, "expected a number"},
+           {"refine vertex (at 1 2 3", 24, "expected ordinal or )"},
+           {"refine vertex (at 1 2 3 ordinal 0)", 33, "ordinals start at 1"},
+           {"refine hex all except surface 2", 23, "only hexes can be taken from a list of hexes"},
            {"refine hex {n}", 12, "expressions in braces are not supported yet"},
            {"{n = 3}", 1, "expressions in braces are not supported yet"},
            {"refine curve 3 nunsplit 2", 16, "(did you mean 'numsplit'?)"},
@@ -169,7 +196,7 @@ TEST(Grammar, TheCaretStandsUnderTheWord) {
                "\n  import mésh 3\n         ^~~~");
   // The line of a joined command on which the word stands, not the first.
   EXPECT_STREQ(error_of("refine \\\n  hex x").what(),
-               "expected an id, all, except or in, found 'x'\n    hex x\n        ^");
+               "expected an id, all, except, in, common_to or with, found 'x'\n    hex x\n        ^");
 }
 
 TEST(Grammar, AVeryLongLineShowsTheEnvironsOfTheWord) {

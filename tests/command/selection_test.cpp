@@ -3,49 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "hextwist/command/command_error.h"
-#include "hextwist/command/syntax.h"
-#include "meshed_brick.h"
+#include "range_fixture.h"
 
 namespace hextwist {
 namespace {
 
-using Ids = std::vector<std::int64_t>;
-
-struct Fixture {
-  MeshedModel meshed = test::meshed_brick(4, 3, 2);
-  std::vector<std::string> notices;
-
-  Fixture() {
-    meshed.mesh.blocks = {{20, "right", {2, 3}}, {10, "left", {0, 1}}};
-    meshed.mesh.node_sets = {{5, "corner", {0}}};
-    meshed.mesh.side_sets = {{7, "low x", {{0, 0}, {4, 0}}}};
-  }
-
-  /// Ids of "hex in volume 1" and the like.
-  Ids ids(const std::string& text) {
-    DerivedTopology topology(meshed.mesh);
-    const Selector selector{meshed, topology};
-    const auto statements = split_statements("list " + text);
-    const Command command = parse(statements.at(0));
-    const Item& item = *command.find("range");
-    Ids result;
-    for (const Index i : select(selector, command.statement, item.kind, item.range, notices))
-      result.push_back(id_of(selector, item.kind, i));
-    return result;
-  }
-  std::size_t n(const std::string& text) { return ids(text).size(); }
-
-  std::string error(const std::string& text) {
-    try {
-      ids(text);
-    } catch (const CommandError& error) {
-      EXPECT_GE(error.column(), 6);
-      return std::to_string(error.column() - 5) + ": " + error.message();  // column in `text`
-    }
-    return "no error";
-  }
-};
+using test::Ids;
+using Fixture = test::RangeFixture;
 
 TEST(Ranges, ListsSpansStepsAndExceptions) {
   Fixture f;
@@ -73,7 +37,7 @@ TEST(Ranges, IdsThatDoNotExistAreNamed) {
   EXPECT_EQ(f.error("curve 13"), "7: curve 13 does not exist; curves are 1 to 12");
   EXPECT_EQ(f.error("hex in volume 2"), "15: volume 2 does not exist; the only one is 1");
   EXPECT_EQ(f.error("block 1"), "7: block 1 does not exist; blocks are 10 to 20");
-  EXPECT_EQ(f.error("block \"up\""), "7: no block is named 'up'");
+  EXPECT_EQ(f.error("block \"up\""), "7: no block is named 'up'; there are 'left', 'right'");
   EXPECT_EQ(f.error("surface inlet"), "9: no surface is named 'inlet'");
   f.meshed.mesh.side_sets.clear();
   EXPECT_EQ(f.error("sideset all"), "9: there are no sidesets");
