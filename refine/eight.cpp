@@ -27,13 +27,15 @@ struct Surroundings {
   std::vector<std::uint8_t> target;  ///< per hex
   std::vector<std::uint8_t> fixed;   ///< per node: in some region
   std::vector<std::uint32_t> marks;  ///< per node: bit p, pass p; all 0 between regions
+  std::vector<Index> local;          ///< per node: its number in the region at hand, -1
 
   Surroundings(const Mesh& all, std::span<const Index> targets)
       : mesh(all),
         around(node_hexes(all)),
         target(all.hexes.size(), 0),
         fixed(all.points.size(), 0),
-        marks(all.points.size(), 0) {
+        marks(all.points.size(), 0),
+        local(all.points.size(), -1) {
     for (const Index h : targets) target[h] = 1;
     mark_nodes(all.hexes, targets, fixed);
   }
@@ -73,19 +75,19 @@ std::vector<std::vector<Index>> connected(const Mesh& mesh, std::span<const Inde
   return result;
 }
 
-/// scratch: per node of the whole mesh, any content.
-RegionMesh region_mesh(const Mesh& whole, std::vector<Index> hexes, std::vector<Index>& scratch) {
+/// Sets Surroundings::local.
+RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
   RegionMesh region;
   region.hexes = std::move(hexes);
   for (const Index h : region.hexes)
-    region.nodes.insert(region.nodes.end(), whole.hexes[h].begin(), whole.hexes[h].end());
+    region.nodes.insert(region.nodes.end(), all.mesh.hexes[h].begin(), all.mesh.hexes[h].end());
   std::ranges::sort(region.nodes);
   region.nodes.erase(std::ranges::unique(region.nodes).begin(), region.nodes.end());
-  for (std::size_t i = 0; i < region.nodes.size(); ++i) scratch[region.nodes[i]] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < region.nodes.size(); ++i) all.local[region.nodes[i]] = static_cast<Index>(i);
   region.mesh.points.resize(region.nodes.size(), Vec3::Zero());
   for (const Index h : region.hexes) {
     Hex& hex = region.mesh.hexes.emplace_back();
-    for (int c = 0; c < n_hex_corners; ++c) hex[c] = scratch[whole.hexes[h][c]];
+    for (int c = 0; c < n_hex_corners; ++c) hex[c] = all.local[all.mesh.hexes[h][c]];
   }
   region.edges = edges(region.mesh);
   region.faces = faces(region.mesh);
@@ -95,12 +97,10 @@ RegionMesh region_mesh(const Mesh& whole, std::vector<Index> hexes, std::vector<
 
 /// Of a marking of a pass and its opposite, true when the opposite touches fewer hexes outside, then fewer nodes of
 /// such hexes, then leaves the lowest node alone.
-bool wants_opposite(const Surroundings& all, const RegionMesh& region, const SheetPasses& passes, int pass,
-                    std::span<const Index> outside) {
+bool wants_opposite(const Surroundings& all, const SheetPasses& passes, int pass, std::span<const Index> outside) {
   const auto side = [&](Index node) -> int {  // 0 or 1 in the region, else -1
-    const auto found = std::ranges::lower_bound(region.nodes, node);
-    if (found == region.nodes.end() || *found != node) return -1;
-    return static_cast<int>(passes.marks[found - region.nodes.begin()] >> pass & 1);
+    const Index i = all.local[node];
+    return i < 0 ? -1 : static_cast<int>(passes.marks[i] >> pass & 1);
   };
   std::array<Index, 2> n_hexes = {0, 0}, n_nodes = {0, 0};
   for (const Index h : outside) {
@@ -190,64 +190,111 @@ struct Group {
   }
 };
 
+/// Sheets that would cross each other in hexes outside if these were in the region. Where sheets in one pass do that,
+/// such a hex may have no template, at an irregular edge on the region's side for one.
+std::vector<std::pair<Index, Index>> crossing_outside(const Surroundings& all, const RegionMesh& region,
+                                                      std::span<const Index> outside) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const Index h : outside) {
+    std::array<std::vector<Index>, 3> of_axis;
+    for (int e = 0; e < n_hex_edges; ++e) {
+      const Index a = all.local[all.mesh.hexes[h][edge_corner(e, 0)]];
+      const Index b = all.local[all.mesh.hexes[h][edge_corner(e, 1)]];
+      const Index edge = a < 0 || b < 0 ? -1 : find_edge(region.edges, a, b);
+      if (edge >= 0) of_axis[e >> 2].push_back(region.sheets.of_edge[edge]);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const Index a : of_axis[axis])
+        for (const Index b : of_axis[(axis + 1) % 3])
+          if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::ranges::sort(pairs);
+  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  return pairs;
+}
+
+/// Marks a region: those of its nodes, and outside where that needs closing. Returns all marked or fixed nodes,
+/// ascending; nothing, and no marks, with the reason where it can't be.
+std::optional<std::vector<Index>> mark_region(Surroundings& all, const RegionMesh& region, const SheetPasses& passes,
+                                              std::span<const Index> outside, EightRegion& found) {
+  std::vector<Index> touched = region.nodes;
+  const auto fail = [&](const char* reason) {
+    for (const Index n : touched) all.marks[n] = 0;
+    found.reason = reason;
+    return std::nullopt;
+  };
+  found.n_added_nodes = 0;
+  for (int p = 0; p < passes.n_passes; ++p) {
+    const auto mark = [&](bool opposite) {
+      for (std::size_t i = 0; i < region.nodes.size(); ++i) {
+        std::uint32_t& marks = all.marks[region.nodes[i]];
+        marks = (marks & ~(1U << p)) | ((passes.marks[i] >> p & 1) ^ std::uint32_t{opposite}) << p;
+      }
+    };
+    const std::size_t limit = region.nodes.size() / 2 - static_cast<std::size_t>(found.n_added_nodes);
+    const bool preferred = wants_opposite(all, passes, p, outside);
+    std::vector<Index> added;
+    const auto close = [&](bool opposite) {
+      for (const Index n : added) all.marks[n] &= ~(1U << p);
+      added.clear();
+      mark(opposite);
+      return close_outside(all, p, {outside.begin(), outside.end()}, limit, added);
+    };
+    bool closed = close(preferred);
+    const bool too_many = added.size() > limit;
+    if (!closed) closed = close(!preferred);
+    touched.insert(touched.end(), added.begin(), added.end());
+    if (!closed)
+      return fail(too_many ? "concave sides would need more than half as many nodes again to be filled"
+                           : "a hex between its sides would have no template");
+    found.n_added_nodes += static_cast<Index>(added.size());
+  }
+  std::ranges::sort(touched);
+  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+  if (!Group{}.takes(all, all.outside(touched))) return fail("edges beside it would be cut more than three times");
+  return touched;
+}
+
 /// Decides about one region and adds its marks to a group. Returns the sheets that are cut in three, or nothing when
 /// the region is trisected, with the reason.
 std::optional<std::vector<Index>> halve(Surroundings& all, const RegionMesh& region, std::vector<Group>& groups,
                                         EightRegion& found) {
-  const SheetPasses passes = sheet_passes(region);
-  found.n_passes = passes.n_passes;
+  const std::vector<Index> outside = all.outside(region.nodes);
   std::vector<Index> in_three;
-  for (Index s = 0; s < region.sheets.size(); ++s)
-    if (passes.of_sheet[s] < 0) in_three.push_back(s);
-  found.n_in_three = static_cast<Index>(in_three.size());
-  std::vector<char> exact(region.hexes.size(), 1);
-  for (const Index s : in_three)
-    for (const Index h : region.sheets.hexes[s]) exact[h] = 0;
-  found.n_exact = static_cast<Index>(std::ranges::count(exact, 1));
-  if (2 * found.n_exact < found.n_hexes) {
+  const auto attempt = [&](const std::vector<std::pair<Index, Index>>& apart) -> std::optional<std::vector<Index>> {
+    const SheetPasses passes = sheet_passes(region, apart);
+    found.n_passes = passes.n_passes;
+    in_three.clear();
+    for (Index s = 0; s < region.sheets.size(); ++s)
+      if (passes.of_sheet[s] < 0) in_three.push_back(s);
+    found.n_in_three = static_cast<Index>(in_three.size());
+    std::vector<char> exact(region.hexes.size(), 1);
+    for (const Index s : in_three)
+      for (const Index h : region.sheets.hexes[s]) exact[h] = 0;
+    found.n_exact = static_cast<Index>(std::ranges::count(exact, 1));
+    if (2 * found.n_exact >= found.n_hexes) return mark_region(all, region, passes, outside, found);
     found.reason = "only " + std::to_string(found.n_exact) + " of its hexes could be cut in eight exactly";
     return std::nullopt;
-  }
-
-  const std::vector<Index> outside = all.outside(region.nodes);
-  for (std::size_t i = 0; i < region.nodes.size(); ++i) all.marks[region.nodes[i]] = passes.marks[i];
-  for (int p = 0; p < passes.n_passes; ++p)
-    if (wants_opposite(all, region, passes, p, outside))
-      for (const Index n : region.nodes) all.marks[n] ^= 1U << p;
-  std::vector<Index> touched_nodes = region.nodes, added;
-  const auto forget = [&] {
-    for (const Index n : region.nodes) all.marks[n] = 0;
-    for (const Index n : touched_nodes) all.marks[n] = 0;
-    for (const Index n : added) all.marks[n] = 0;
   };
-  for (int p = 0; p < passes.n_passes; ++p) {
-    added.clear();
-    const std::size_t limit = region.nodes.size() / 2 - static_cast<std::size_t>(found.n_added_nodes);
-    if (!close_outside(all, p, outside, limit, added)) {
-      found.reason = "hexes beside it would have no template";
-      forget();
-      return std::nullopt;
-    }
-    found.n_added_nodes += static_cast<Index>(added.size());
-    touched_nodes.insert(touched_nodes.end(), added.begin(), added.end());
+  auto nodes = attempt({});
+  if (!nodes) {
+    const EightRegion first = found;
+    if (const auto apart = crossing_outside(all, region, outside); !apart.empty()) nodes = attempt(apart);
+    if (!nodes) found = first;
   }
-  std::ranges::sort(touched_nodes);
-  touched_nodes.erase(std::ranges::unique(touched_nodes).begin(), touched_nodes.end());
-  const std::vector<Index> touched = all.outside(touched_nodes);
-  if (!Group{}.takes(all, touched)) {
-    found.reason = "edges beside it would be cut more than three times";
-    forget();
-    return std::nullopt;
-  }
+  if (!nodes) return std::nullopt;
+
+  const std::vector<Index> touched = all.outside(*nodes);
   auto group = std::ranges::find_if(groups, [&](const Group& g) { return g.takes(all, touched); });
   if (group == groups.end() && groups.size() < max_groups) group = groups.insert(groups.end(), Group{});
-  if (group == groups.end()) {
+  const bool takes = group != groups.end();
+  if (takes)
+    group->add(all, *nodes, found.n_passes);
+  else
     found.reason = "it lies too near to other regions";
-    forget();
-    return std::nullopt;
-  }
-  group->add(all, touched_nodes, passes.n_passes);
-  forget();
+  for (const Index n : *nodes) all.marks[n] = 0;
+  if (!takes) return std::nullopt;
+  found.reason.clear();
   return in_three;
 }
 
@@ -268,10 +315,9 @@ EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets) {
   EightPlan plan;
   Surroundings all(mesh, targets);
   std::vector<Group> groups;
-  std::vector<Index> scratch(mesh.points.size());
   for (std::vector<Index>& hexes : connected(mesh, targets)) {
     EightRegion& found = plan.regions.emplace_back();
-    const RegionMesh region = region_mesh(mesh, std::move(hexes), scratch);
+    const RegionMesh region = region_mesh(all, std::move(hexes));
     found.first_hex = region.hexes.front();
     found.n_hexes = static_cast<Index>(region.hexes.size());
     found.n_irregular_edges = count_irregular_edges(region);
@@ -293,6 +339,7 @@ EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets) {
     } else {
       plan.trisected.insert(plan.trisected.end(), region.hexes.begin(), region.hexes.end());
     }
+    for (const Index n : region.nodes) all.local[n] = -1;
   }
   for (Group& group : groups)
     for (auto& pass : group.passes) plan.passes.push_back(std::move(pass));

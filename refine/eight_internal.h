@@ -1,6 +1,8 @@
 // The pieces of plan_eight(): one region by itself.
 #pragma once
 
+#include <utility>
+
 #include "hextwist/mesh/sheets.h"
 #include "hextwist/refine/eight.h"
 
@@ -25,7 +27,8 @@ struct SheetPasses {
   int n_passes = 0;
   std::vector<std::uint32_t> marks;  ///< per local node: bit p set when marked in pass p (or unmarked, all together)
 };
-SheetPasses sheet_passes(const RegionMesh& region);
+/// apart: pairs of sheets that have to be in different passes though they don't cross in the region.
+SheetPasses sheet_passes(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart);
 
 /// Edges inside the region with another number of hexes around than four.
 Index count_irregular_edges(const RegionMesh& region);

@@ -10,10 +10,14 @@ namespace {
 
 constexpr int undecided = -2, in_three = -1;
 
-/// Sheets that cross each sheet, each once.
-Lists crossings(const RegionMesh& region) {
+/// Sheets that cross each sheet or have to be kept apart from it, each once.
+Lists crossings(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart) {
   std::vector<std::pair<Index, Index>> pairs;
-  pairs.reserve(6 * region.hexes.size());
+  pairs.reserve(6 * region.hexes.size() + 2 * apart.size());
+  for (const auto& [a, b] : apart) {
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
+  }
   for (Index h = 0; h < region.mesh.n_hexes(); ++h)
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
@@ -35,8 +39,8 @@ Lists crossings(const RegionMesh& region) {
 /// behind a face gets the pass of the one before it wherever that is free.
 class Coloring {
  public:
-  explicit Coloring(const RegionMesh& region)
-      : region_(region), crossings_(crossings(region)), pass_(region.sheets.size(), undecided) {}
+  Coloring(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart)
+      : region_(region), crossings_(crossings(region, apart)), pass_(region.sheets.size(), undecided) {}
 
   std::vector<int> run() && {
     const Index n = region_.mesh.n_hexes();
@@ -206,8 +210,8 @@ bool is_consistent(const RegionMesh& region, const SheetPasses& passes) {
 
 }  // namespace
 
-SheetPasses sheet_passes(const RegionMesh& region) {
-  SheetPasses result{Coloring(region).run(), 0, {}};
+SheetPasses sheet_passes(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart) {
+  SheetPasses result{Coloring(region, apart).run(), 0, {}};
   const NodeTree tree = node_tree(region);
   if (const auto loops = odd_loops(region, tree); !loops.empty())
     for (int pass = 0; pass < max_region_passes; ++pass) even_out(region, loops, pass, result.of_sheet);

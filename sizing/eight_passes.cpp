@@ -24,7 +24,8 @@ std::string describe(const EightRegion& region, const Mesh& mesh) {
   line += region.eight ? ": one into eight" : ": one into 27";
   if (region.alone) return line + ", nothing is around it, so all edges are halved";
   line += " (" + counted(region.n_irregular_edges, "irregular edge") + " inside, " +
-          std::to_string(region.n_self_crossing) + " of " + counted(region.n_sheets, "sheet") + " crossing itself)";
+          std::to_string(region.n_self_crossing) + " of " + counted(region.n_sheets, "sheet") +
+          (region.n_self_crossing == 1 ? " crosses itself)" : " cross themselves)");
   if (!region.eight) return line + ": " + region.reason;
   line += ", in " + std::to_string(region.n_passes) + " passes";
   if (region.n_in_three > 0)

@@ -166,7 +166,7 @@ TEST(eight, a_thin_region_around_a_wide_notch_gets_27) {
   }
   const EightRegion region = only_region(mesh, targets);
   EXPECT_FALSE(region.eight);
-  EXPECT_EQ(region.reason, "hexes beside it would have no template");
+  EXPECT_EQ(region.reason, "concave sides would need more than half as many nodes again to be filled");
 }
 
 }  // namespace
