@@ -7,11 +7,23 @@ namespace {
 
 using Kind = ArgumentSpec::Kind;
 
+constexpr double max_group_id = 2147483647;
 constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ..., in ..., with ...; see 'help range'";
 
 // clang-format off
 const std::vector<CommandSpec> table = {
-    {"block", "", "define a block of hexes", "", {}, {}},
+    {"block",
+     "block {<id>|all} {{hex|volume|group} <range> [name <text>]|add {hex|volume|group} <range> [name <text>]"
+     "|remove {hex|volume|group} <range>|name <text>|element type <type>}",
+     "define a block of hexes",
+     "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block that "
+     "nothing is left of goes. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
+     "a hex belong to its blocks.",
+     {{"id", Kind::integer, 1, max_group_id, false, "number of the block"},
+      {"range", Kind::range, 0, 0, false, range_help},
+      {"text", Kind::string, 0, 0, false, "name, in quotes"},
+      {"type", Kind::word, 0, 0, false, "hex8, which every element is"}},
+     {"block 1 volume 2 name \"steel\"", "block 1 add hex 1 to 10", "block 1 remove hex 3", "block 1 name \"iron\""}},
     {"check", "check", "verify the mesh: conformity, orientation, ownership, distance from the CAD, volume",
      "Prints what was checked and fails when the mesh breaks a promise, naming ids.", {},
      {"check"}},
@@ -32,6 +44,13 @@ const std::vector<CommandSpec> table = {
       {"n_y", Kind::integer, 1, 1000, false, ""},
       {"n_z", Kind::integer, 1, 1000, false, ""}},
      {"create brick x 10 y 5 z 2 interval 10 5 2", "create cylinder radius 2 height 10", "create sphere radius 1 interval 3"}},
+    {"curve", "curve <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}", "choose how 'smooth' treats curves",
+     "Nothing moves before 'smooth curve' is said, whose own 'scheme' goes before this.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"curve all smooth scheme laplacian"}},
+    {"delete", "delete {block|nodeset|sideset} <range>", "delete blocks or sets", "Their hexes and nodes stay.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"delete block 2", "delete nodeset all"}},
     {"draw", "", "draw the mesh into a file", "", {}, {}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
     {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit} <file> [overwrite]", "write the mesh to a file",
@@ -47,12 +66,25 @@ const std::vector<CommandSpec> table = {
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
      {"import step \"part.step\"", "import mesh \"part.msh\""}},
     {"list",
-     "list [{model|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]",
-     "show entities and their properties", "Without arguments: the model and mesh as a whole.",
+     "list [{model|undo|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]",
+     "show entities and their properties", "Without arguments: the model and mesh as a whole. 'undo': what can be undone, and the memory that it takes.",
      {{"range", Kind::range, 0, 0, false, range_help}},
-     {"list", "list curve all", "list hex in sheet 3", "list sheet in hex 17"}},
-    {"node", "", "fix or free nodes", "", {}, {}},
-    {"nodeset", "", "define a node set", "", {}, {}},
+     {"list", "list undo", "list curve all", "list hex in sheet 3", "list sheet in hex 17"}},
+    {"node", "node <range> position {fixed|free}", "fix nodes where they are, or free them",
+     "Smoothing leaves fixed nodes alone, that of 'refine ... smooth' too, and the repair of inverted children. "
+     "'list node' says which are fixed.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"node in surface 3 position fixed", "node all position free"}},
+    {"nodeset",
+     "nodeset <id> {{node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> [name <text>]|add {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> [name <text>]"
+     "|remove {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range>|name <text>}",
+     "define a node set",
+     "Adds the nodes of the entities to the set, those on their rim too, or takes them out of it. A new node belongs to "
+     "a set when all nodes of the edge, face or hex that it splits do.",
+     {{"id", Kind::integer, 1, max_group_id, false, "number of the set"},
+      {"range", Kind::range, 0, 0, false, range_help},
+      {"text", Kind::string, 0, 0, false, "name, in quotes"}},
+     {"nodeset 3 curve 4", "nodeset 3 add node 7 9 name \"rim\"", "nodeset 3 remove node in vertex all", "nodeset 3 name \"edge\""}},
     {"playback", "playback <file>", "run the commands in a journal file",
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
@@ -72,8 +104,14 @@ const std::vector<CommandSpec> table = {
      {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all",
       "quality volume all condition number histogram", "quality volume 1 skew low 0.5"}},
     {"quit", "quit", "end the session", "", {}, {"quit"}},
-    {"record", "", "write commands to a journal", "", {}, {}},
-    {"redo", "", "do again what was undone", "", {}, {}},
+    {"record", "record {stop|<file> [{overwrite|append}]}", "write the commands that succeed to a journal",
+     "One line for each, as it was typed; of a journal that is played back, its commands. An existing file is kept unless "
+     "'overwrite' or 'append' is said.",
+     {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
+     {"record \"part.jou\"", "record stop"}},
+    {"redo", "redo [<steps>]", "do again what was undone", "Possible until another command changes the mesh or the CAD.",
+     {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
+     {"redo", "redo 2"}},
     {"refine",
      "refine {node|edge|face|hex|vertex|curve|surface|volume|~sheet} <range> "
      "[numsplit <splits>] [depth <layers>] [bias <growth>] [concave {template|fill}] [method {auto|single|parallel|combination}] "
@@ -94,18 +132,58 @@ const std::vector<CommandSpec> table = {
       {"growth", Kind::number, 1, 1e100, false, "accepted when 1"}},
      {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 depth 0 smooth",
       "refine volume all numsplit 1"}},
-    {"reset", "reset", "forget the mesh and the CAD", "", {}, {"reset"}},
-    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>}", "change a setting",
+    {"reset", "reset [{block|nodeset|sideset}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
+     {"reset", "reset nodeset"}},
+    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
+     "|untangle {on|off}}",
+     "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
-     "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores.",
+     "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores. "
+     "undo: whether commands can be undone, and the memory for that (default 1000 MB; the oldest go first). untangle: "
+     "whether a mesh that is read with inverted hexes is untangled (default) or refused.",
      {{"degrees", Kind::number, 0, 180, false, "angle in degrees"},
       {"limit", Kind::number, 0, 1, true, "relative to the model size"},
-      {"count", Kind::integer, 0, 1024, false, "number of threads"}},
-     {"set glue on", "set feature_angle 20"}},
-    {"sideset", "", "define a side set", "", {}, {}},
-    {"smooth", "", "improve the shape of hexes", "", {}, {}},
-    {"undo", "", "take back a command", "", {}, {}},
+      {"count", Kind::integer, 0, 1024, false, "number of threads"},
+      {"megabytes", Kind::number, 0, 1e9, false, "memory for undo, in MB"}},
+     {"set glue on", "set undo limit 200", "set feature_angle 20"}},
+    {"sideset",
+     "sideset <id> {{face|surface|group} <range> [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
+     "|add {face|surface|group} <range> [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
+     "|remove {face|surface|group} <range>|name <text>}",
+     "define a side set",
+     "Adds the sides of hexes at the faces, or takes them out of the set. A face between two hexes has two sides: "
+     "'forward' (the default) is that of the volume with the lower id (within a volume, of the hex with the lower id), "
+     "'reverse' the other; 'wrt' takes those of the hexes named.",
+     {{"id", Kind::integer, 1, max_group_id, false, "number of the set"},
+      {"range", Kind::range, 0, 0, false, range_help},
+      {"which", Kind::range, 0, 0, false, "whose side of the faces"},
+      {"text", Kind::string, 0, 0, false, "name, in quotes"}},
+     {"sideset 5 surface 6", "sideset 5 face in surface 6 name \"wall\"", "sideset 7 surface 4 wrt volume 2", "sideset 5 remove face 3"}},
+    {"smooth",
+     "smooth {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
+     "[scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}] [iterations <sweeps>] [boundary {slide|fixed}]",
+     "move nodes to better shapes of the hexes around them",
+     "The nodes of the entities move, those on curves and surfaces along these, those on vertices and fixed ones (see "
+     "'node') not at all. The smallest shape around them never falls. 'mean ratio', the default, is about shape: the "
+     "worst hexes first, then the average; 'condition number' likewise in its own measure; 'laplacian' is quick; "
+     "'untangle' only turns inverted hexes right. 'boundary fixed' moves nodes inside volumes only.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"sweeps", Kind::integer, 0, 1e6, false, "how often each node is visited at most; default 100"}},
+     {"smooth volume all", "smooth hex in surface 3 scheme condition number", "smooth volume 1 iterations 5 boundary fixed"}},
+    {"surface", "surface <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}", "choose how 'smooth' treats surfaces",
+     "Nothing moves before 'smooth surface' is said, whose own 'scheme' goes before this.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"surface 3 smooth scheme condition number"}},
+    {"undo", "undo [<steps>]", "take back what commands changed",
+     "Mesh, CAD, blocks and sets, fixed nodes; settings stay. 'list undo' shows what can be undone and the memory that "
+     "takes; 'set undo' limits it or switches it off.",
+     {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
+     {"undo", "undo 3"}},
+    {"volume", "volume <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}", "choose how 'smooth' treats volumes",
+     "Nothing moves before 'smooth volume' is said, whose own 'scheme' goes before this.",
+     {{"range", Kind::range, 0, 0, false, range_help}},
+     {"volume 1 2 smooth scheme mean ratio"}},
 };
 // clang-format on
 

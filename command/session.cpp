@@ -18,10 +18,13 @@ using Function = void (*)(Execution&);
 
 Function function_of(std::string_view command) {
   static const std::map<std::string_view, Function> functions = {
-      {"check", do_check},     {"create", do_create}, {"exit", do_quit},     {"export", do_export},
-      {"help", do_help},       {"import", do_import}, {"list", do_list},     {"playback", do_playback},
-      {"quality", do_quality}, {"quit", do_quit},     {"refine", do_refine}, {"reset", do_reset},
-      {"set", do_set},
+      {"block", do_group},     {"check", do_check},   {"create", do_create},     {"curve", do_scheme},
+      {"delete", do_delete},   {"exit", do_quit},     {"export", do_export},     {"help", do_help},
+      {"import", do_import},   {"list", do_list},     {"node", do_node},         {"nodeset", do_group},
+      {"quality", do_quality}, {"quit", do_quit},     {"playback", do_playback}, {"record", do_record},
+      {"redo", do_redo},       {"refine", do_refine}, {"reset", do_reset},       {"set", do_set},
+      {"sideset", do_group},   {"smooth", do_smooth}, {"surface", do_scheme},    {"undo", do_undo},
+      {"volume", do_scheme},
   };
   return functions.at(command);
 }
@@ -112,9 +115,10 @@ void Session::take(Mesh mesh, std::shared_ptr<const Model> model, const Associat
   try {
     core_->state.has_cad = model != nullptr;
     core_->state.cad_file.clear();
-    core_->state.meshed = std::make_shared<const MeshedModel>(MeshedModel{{}, std::move(model), {}});
+    core_->state.meshed = std::make_shared<MeshedModel>(MeshedModel{{}, std::move(model), {}});
     load_mesh(run, std::move(mesh), tags, "mesh");
     core_->state.tags = tags ? std::make_shared<const Association>(*tags) : nullptr;
+    remember(*core_, "taking a mesh", before);
   } catch (...) {
     core_->state = before;
     throw;
@@ -177,11 +181,17 @@ void run_command(Session::Core& core, const Command& command) {
   try {
     with_place(command.statement, [&] {
       Execution run(core, command, record);
+      core.history.undo.reserve(core.history.undo.size() + 1);
       function_of(command.spec->name)(run);
       run.close_stage();
+      if (run.step)
+        add_step(core, std::move(*run.step));
+      else if (!run.is_history && !is_playback)  // whose commands left steps of their own
+        remember(core, record.command, before);
     });
     record.ok = true;
     finish();
+    keep_on_record(core, command);
   } catch (const CommandError& error) {
     // What the commands of a journal did before the one that failed stays done.
     if (!is_playback) core.state = before;
@@ -275,17 +285,6 @@ void do_playback(Execution& run) {
 
 void do_quit(Execution& run) {
   run.state.finished = true;
-}
-
-void do_reset(Execution& run) {
-  const SessionState fresh;
-  run.state.meshed = fresh.meshed;
-  run.state.tags = nullptr;
-  run.state.cad_file.clear();
-  run.state.has_cad = run.state.glued = false;
-  run.state.mesh_state = {};
-  run.state.off_cad = {};
-  run.state.cad_volume = 0;
 }
 
 void do_help(Execution& run) {

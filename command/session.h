@@ -7,7 +7,9 @@
 //
 // Guarantees:
 //  1. a command that fails leaves the session as it was, and says why;
-//  2. the mesh in a session is conformal and uninverted, and every boundary node has an owner.
+//  2. the mesh in a session is conformal and uninverted, and every boundary node has an owner; one that comes in with
+//     inverted hexes is untangled (with a notice) or refused;
+//  3. `undo` brings back mesh, model and association bit by bit.
 #pragma once
 
 #include <cstdint>

@@ -110,6 +110,18 @@ void import_cad(Execution& run, const std::filesystem::path& file) {
   say_mesh(run, "the mesh on it");
 }
 
+/// On the model, or on its own skin where that is null.
+MeshedModel associated(const Execution& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
+  if (!model) {
+    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
+    return {std::move(mesh), std::move(result.model), std::move(result.association)};
+  }
+  const Association* usable = tags && !tags->empty() ? tags : nullptr;
+  AssociateResult result = associate(mesh, *model, usable, {.relative_tolerance = run.state.tolerance});
+  for (const std::string& line : result.notices) run.note(line);
+  return {std::move(mesh), std::move(model), std::move(result.association)};
+}
+
 }  // namespace
 
 void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::string& what) {
@@ -127,8 +139,17 @@ void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::st
     }
     return validate(mesh);
   }();
-  const std::string wrong = record_violations(run.record, mesh, violations);
-  if (!wrong.empty()) throw Error(what + ": " + wrong);
+  const std::vector<Index> inverted = inverted_among(violations);
+  const std::vector<Vec3> points_before = inverted.empty() ? std::vector<Vec3>() : mesh.points;
+  bool tangled = !inverted.empty();
+  if (tangled && state.untangle) {
+    run.stage("untangle");
+    Association nobody;
+    tangled = !untangle_mesh(run, mesh, nobody, nullptr, inverted, false);
+  }
+  const std::string wrong =
+      record_violations(run.record, mesh, inverted.empty() || tangled ? violations : validate(mesh));
+  if (!wrong.empty() && !(tangled && state.untangle)) throw Error(what + ": " + wrong);
   if (!run.record.warnings.empty())
     run.note(what + ": " + counted(static_cast<std::int64_t>(run.record.warnings.size()), "warning", "warnings") +
              ", the first: " + run.record.warnings.front().text);
@@ -145,15 +166,26 @@ void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::st
     }
   }
   run.stage("associate");
-  if (model) {
-    const Association* usable = tags && !tags->empty() ? tags : nullptr;
-    AssociateResult result = associate(mesh, *model, usable, {.relative_tolerance = state.tolerance});
-    for (const std::string& line : result.notices) run.note(line);
-    take_meshed(state, {std::move(mesh), std::move(model), std::move(result.association)});
-  } else {
-    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = state.feature_angle});
-    take_meshed(state, {std::move(mesh), std::move(result.model), std::move(result.association)});
+  MeshedModel result;
+  try {
+    result = associated(run, std::move(mesh), std::move(model), tags);
+  } catch (const Error& error) {
+    if (!tangled) throw;
+    throw Error(what + ": " + wrong + "; untangling did not help (" + error.what() + ")");
   }
+  if (tangled) {
+    // Nodes inside volumes were not enough: those on curves and surfaces slide too, now that these are known.
+    run.stage("untangle");
+    if (!untangle_mesh(run, result.mesh, result.association, result.model.get(), inverted, true))
+      throw Error(what + ": " + wrong + "; untangling did not help");
+    run.record.violations.clear();
+    run.record.warnings.clear();
+    run.record.n_violations = 0;
+    const std::string left = record_violations(run.record, result.mesh, validate(result.mesh));
+    if (!left.empty()) throw Error(what + ": " + left + " (after untangling)");
+  }
+  if (!inverted.empty()) run.note(what + ": " + untangled_text(result.mesh, points_before, inverted));
+  take_meshed(state, std::move(result));
 }
 
 void do_import(Execution& run) {

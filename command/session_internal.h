@@ -2,34 +2,24 @@
 #pragma once
 
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hextwist/command/selection.h"
 #include "hextwist/command/session.h"
+#include "hextwist/command/session_state_internal.h"
 #include "hextwist/command/syntax.h"
+#include "hextwist/command/undo_internal.h"
 
 namespace hextwist {
 
-enum class Glue { automatic, on, off };
-
-/// Everything that a command may change; copied before each, so that a failure can put it back. The heavy parts are
-/// shared and never changed in place.
-struct SessionState {
-  std::shared_ptr<const MeshedModel> meshed = std::make_shared<const MeshedModel>();
-  std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
-  std::filesystem::path cad_file;           ///< empty: the model did not come from a file
-  bool has_cad = false;                     ///< false: no model, or the skin of the mesh
-  bool glued = false;
-  MeshState mesh_state;
-  OffModel off_cad;
-  double cad_volume = 0;
-
-  Glue glue = Glue::automatic;
-  double feature_angle = 35;  ///< degrees
-  double tolerance = 1e-5;    ///< of a mesh on its CAD, relative to the model size
-  bool finished = false;
+/// The journal that commands are written to.
+struct Recording {
+  std::filesystem::path file;
+  std::ofstream stream;
+  std::int64_t n_commands = 0;
 };
 
 struct Session::Core {
@@ -41,6 +31,8 @@ struct Session::Core {
   std::shared_ptr<const MeshedModel> topology_of;
   std::shared_ptr<DerivedTopology> topology;
   std::shared_ptr<void> thread_limit;
+  History history;
+  std::shared_ptr<Recording> recording;  ///< null: none
 
   /// Ranges are evaluated against this; the topology is kept while the mesh stays the same.
   Selector selector();
@@ -67,6 +59,11 @@ struct Execution {
   void close_stage();
   /// Positions chosen by the command's range. Throws when there are none.
   std::vector<Index> chosen(const Item& range) const;
+  /// Gives the mesh these blocks and sets, in place: no other array is copied. The last thing that a command does.
+  void change_sets(Mesh lists);
+  /// What change_sets() left to be undone.
+  std::optional<Step> step;
+  bool is_history = false;  ///< undo and redo, which leave no step of their own
 
  private:
   const char* stage_ = nullptr;
@@ -77,6 +74,14 @@ struct Execution {
 void take_meshed(SessionState& state, MeshedModel meshed);
 /// Repairs, checks and associates a mesh with the CAD of the state or its own skin.
 void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::string& what);
+/// The inverted hexes of these violations if untangling them could make the mesh right; else nothing.
+std::vector<Index> inverted_among(const std::vector<Violation>& violations);
+/// Untangles around these hexes, then everywhere; boundary: nodes on curves and surfaces slide. False: some are
+/// inverted still.
+bool untangle_mesh(const Execution& run, Mesh& mesh, Association& association, const Model* model,
+                   const std::vector<Index>& inverted, bool boundary);
+/// The notice of a mesh that was untangled.
+std::string untangled_text(const Mesh& mesh, const std::vector<Vec3>& before, const std::vector<Index>& inverted);
 /// The line that tells of a mesh that came in.
 void say_mesh(const Execution& run, const std::string& what);
 QualityRow quality_row(const Mesh& mesh, const Summary& summary);
@@ -87,16 +92,32 @@ std::string record_violations(CommandRecord& record, const Mesh& mesh, const std
 // The functions behind the commands. Each throws Error when it can't do what was asked.
 void do_check(Execution& run);
 void do_create(Execution& run);
+void do_delete(Execution& run);
 void do_export(Execution& run);
+void do_group(Execution& run);
 void do_help(Execution& run);
 void do_import(Execution& run);
 void do_list(Execution& run);
+void do_node(Execution& run);
 void do_playback(Execution& run);
 void do_quality(Execution& run);
 void do_quit(Execution& run);
+void do_record(Execution& run);
+void do_redo(Execution& run);
 void do_refine(Execution& run);
 void do_reset(Execution& run);
+void do_scheme(Execution& run);
 void do_set(Execution& run);
+void do_smooth(Execution& run);
+void do_undo(Execution& run);
+/// `list undo`.
+void list_undo(Execution& run);
+
+/// What a command changed since `before` can be undone from now on. Nothing if that is nothing.
+void remember(Session::Core& core, const std::string& command, const ModelState& before);
+void add_step(Session::Core& core, Step step) noexcept;
+/// Writes a command that went well to the journal, if there is one.
+void keep_on_record(Session::Core& core, const Command& command);
 
 /// Runs the commands of a text; see Session::run().
 int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line = 1);
@@ -105,6 +126,8 @@ void run_command(Session::Core& core, const Command& command);
 Command made_command(std::string_view name, std::string_view word, const std::filesystem::path& file,
                      std::string_view last_word = "");
 
+/// "312 bytes", "4.1 kB", "2.3 MB".
+std::string bytes_text(std::size_t bytes);
 /// 0.4913, 1.2e-15: four significant digits.
 std::string short_number(double value);
 /// "1 hex", "3 hexes".

@@ -1,5 +1,6 @@
 // `list`: one line per entity.
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -38,6 +39,11 @@ class Lister {
   const Mesh& mesh() const { return selector_.meshed.mesh; }
   const Model& model() const { return *selector_.meshed.model; }
   const Association& association() const { return selector_.meshed.association; }
+
+  bool fixed(Index node) const {
+    const auto& nodes = run_.state.fixed_nodes;
+    return nodes && std::ranges::binary_search(*nodes, node);
+  }
 
   std::string node_ids_text(std::span<const Index> nodes) const {
     std::vector<std::int64_t> ids;
@@ -83,7 +89,8 @@ class Lister {
     DerivedTopology& topology = selector_.topology;
     switch (kind) {
       case EntityKind::node:
-        return point_text(mesh().points[i]) + ", on " + to_string(owner_of_node(association(), i));
+        return point_text(mesh().points[i]) + ", on " + to_string(owner_of_node(association(), i)) +
+               (fixed(i) ? ", fixed" : "");
       case EntityKind::edge: {
         const Edge nodes = topology.edges().nodes[i];
         return "nodes " + node_ids_text(nodes) + ", length " +
@@ -159,6 +166,7 @@ void list_model(Execution& run) {
 
 void do_list(Execution& run) {
   const Item* range = run.command.find("range");
+  if (run.command.has("undo")) return list_undo(run);
   if (!range) return list_model(run);
   const std::vector<Index> positions = run.chosen(*range);
   Lister lister(run);

@@ -72,7 +72,7 @@ void take_meshed(SessionState& state, MeshedModel meshed) {
     for (int id = 1; id <= meshed.model->count(3); ++id) state.cad_volume += meshed.model->measure({3, id});
     if (!meshed.association.empty()) state.off_cad = off_model(mesh, meshed.association, *meshed.model);
   }
-  state.meshed = std::make_shared<const MeshedModel>(std::move(meshed));
+  state.meshed = std::make_shared<MeshedModel>(std::move(meshed));
 }
 
 void say_mesh(const Execution& run, const std::string& what) {

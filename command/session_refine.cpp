@@ -32,6 +32,7 @@ Request request_of(const Execution& run) {
   request.smooth = command.has("smooth");
   for (const Method method : {Method::automatic, Method::single, Method::parallel, Method::combination})
     if (command.has(name(method))) request.method = method;
+  if (run.state.fixed_nodes) request.fixed = *run.state.fixed_nodes;
   request.dry_run = command.has("dry_run");
   return request;
 }
@@ -86,7 +87,7 @@ void do_refine(Execution& run) {
   state.mesh_state.volume = report.volume_after;
   state.off_cad = report.off_cad;
   state.tags = nullptr;
-  state.meshed = std::make_shared<const MeshedModel>(std::move(result.refined));
+  state.meshed = std::make_shared<MeshedModel>(std::move(result.refined));
   run.say(line);
 }
 

@@ -10,6 +10,18 @@ void do_set(Execution& run) {
     run.state.glue = command.has("on") ? Glue::on : command.has("off") ? Glue::off : Glue::automatic;
   if (const Item* degrees = command.find("degrees")) run.state.feature_angle = degrees->number;
   if (const Item* limit = command.find("limit")) run.state.tolerance = limit->number;
+  if (command.has("untangle")) run.state.untangle = command.has("on");
+  if (command.has("undo")) {
+    History& history = run.core.history;
+    if (const Item* size = command.find("megabytes")) {
+      history.limit = static_cast<std::size_t>(size->number * 1e6);
+      history.drop_oldest();
+    } else {
+      history.on = command.has("on");
+      // Steps can be taken only from the state that they were kept beside.
+      if (!history.on) history.undo.clear(), history.redo.clear();
+    }
+  }
   if (const Item* count = command.find("count")) {
     // Held for the whole process while the session lives: TBB knows no narrower place.
     run.core.thread_limit.reset();

@@ -1,6 +1,7 @@
 // Puts the new nodes of a refinement where they belong: on their curves and surfaces, and between them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hextwist/geom/model.h"
@@ -31,10 +32,11 @@ struct Disappointment {
 std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
 
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
-/// surfaces; where need be, old nodes inside volumes give way), and where that does not help by moving new nodes back
-/// towards their place in the straight-sided parent, off their curve or surface. Nodes that end up off their owner come
-/// back as rows; hexes that are still inverted are left for the caller to find (inverted_hexes).
+/// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
+/// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end
+/// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
+/// (inverted_hexes).
 std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association);
+                                            Association& association, std::span<const Index> fixed = {});
 
 }  // namespace hextwist

@@ -36,13 +36,14 @@ constexpr Reach backed_off_reach = {1, false, false};  // sliding would put node
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
 /// stay. Returns the hexes that are inverted still.
 std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, Association& association,
-                            const std::vector<Index>& bad, Reach reach) {
+                            const std::vector<Index>& bad, Reach reach, std::span<const Index> fixed) {
   const auto may_move = [&](Index n) {
     const bool inside = association.empty() || association.node_owner[n].dim == 3;
     return n < split.lineage.n_old_nodes ? reach.old_nodes && inside : reach.slide || inside;
   };
   SmoothOptions options;
   options.scheme = SmoothScheme::untangle;
+  options.fixed.assign(fixed.begin(), fixed.end());
   options.nodes = nodes_of(mesh, hex_band(mesh, bad, reach.layers), 0);
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
   if (smooth(mesh, association, model, options).not_repaired.empty()) {
@@ -79,7 +80,7 @@ std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
 }
 
 std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association) {
+                                            Association& association, std::span<const Index> fixed) {
   std::vector<Disappointment> rows;
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
   const Index first_new = split.lineage.n_old_nodes;
@@ -88,7 +89,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
   // 1. Move nodes in space and along their curves and surfaces.
   for (const Reach reach : reaches) {
     if (bad.empty()) return rows;
-    bad = untangle(split, model, mesh, association, bad, reach);
+    bad = untangle(split, model, mesh, association, bad, reach, fixed);
   }
   if (bad.empty()) return rows;
 
@@ -101,7 +102,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
       mesh.points[nodes[i]] = halving == max_halvings ? straight[i] : Vec3((mesh.points[nodes[i]] + straight[i]) / 2);
     backed_off.insert(backed_off.end(), nodes.begin(), nodes.end());
     bad = inverted_hexes(mesh, split.n_kept());
-    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach);
+    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed);
   }
   std::ranges::sort(backed_off);
   backed_off.erase(std::ranges::unique(backed_off).begin(), backed_off.end());

@@ -27,7 +27,7 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
     if (next.model && !next.association.empty())
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     stages_.begin("improve", fraction());
-    std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association),
+    std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association, request_.fixed),
                       std::back_inserter(report_.off_nodes));
   }
   result_.lineage = std::move(parts.lineage);
@@ -44,6 +44,7 @@ void Pipeline::smooth_band() {
   for (Index h = mesh.n_hexes() - 1; h >= 0 && hex_id(mesh, h) > last_old; --h) fresh.push_back(h);
   SmoothOptions options;
   options.nodes = nodes_inside(mesh, hex_band(mesh, fresh, smooth_layers));
+  options.fixed = request_.fixed;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input_.model.get(), options,
                                        [&](const char* stage, double) { return stages_.report(stage, 0.9); });
   if (smoothed.stopped) throw Cancelled();

@@ -61,6 +61,12 @@ TEST(Grammar, WordsMayBeShortAndInAnyCase) {
            {"create cyl height 2 radius 1 int 3", "create cylinder height 2 radius 1 interval 3"},
            {"set gl on", "set glue on"},
            {"h", "help"},
+           {"nodes 3 cur 4", "nodeset 3 curve 4"},
+           {"block 1 vol 2 name 'a'", "block 1 volume 2 name \"a\""},
+           {"sideset 5 face in surface 6 wrt volume 1", "sideset 5 face in surface 6 wrt volume 1"},
+           {"vol 1 smooth scheme mean", "volume 1 smooth scheme mean"},
+           {"smo vol 1 sch cond num", "smooth volume 1 scheme condition number"},
+           {"block all element type HEX8", "block all element type HEX8"},
            {"exit", "exit"},
        }) {
     EXPECT_EQ(to_string(parsed(said)), means) << said;
@@ -92,7 +98,7 @@ struct Wrong {
 
 TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
-           {"foo", 1, "expected check, create, exit, export, help, import, list"},
+           {"foo", 1, "expected block, check, create, curve, delete"},
            {"refine crve 3", 8,
             "expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you mean 'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
@@ -161,8 +167,22 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"refine curve 3 sizing_function f", 16, "'sizing_function' is not supported yet"},
            {"refine curve 3 method fast", 23, "expected auto, single, parallel or combination"},
            {"refine sheet edge 3", 8, "'sheet' is not supported yet"},
-           {"smooth volume all", 1, "'smooth' is not supported yet"},
-           {"undo", 1, "'undo' is not supported yet"},
+           {"smooth volume", 14, "expected an id"},
+           {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
+           {"smooth volume all iterations -1", 30, "iterations must be a whole number"},
+           {"volume 1 smooth", 16, "expected scheme"},
+           {"volume 1 mesh", 10, "another id, except, in or smooth, found 'mesh'"},
+           {"node 1 position", 16, "expected fixed or free"},
+           {"undo 0", 6, "undo must be a whole number"},
+           {"redo all", 6, "expected a whole number or the end of the command"},
+           {"block volume 1", 7, "expected all or a whole number, found 'volume'"},
+           {"block 1 surface 2", 9, "expected hex, volume, group, add, remove, name or element, found 'surface'"},
+           {"block 0 hex 1", 7, "block must be a whole number"},
+           {"nodeset 1 node", 15, "expected an id"},
+           {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
+           {"delete mesh", 8, "expected block, nodeset or sideset"},
+           {"record", 7, "expected stop or a file name in quotes"},
+           {"set undo maybe", 10, "expected on, off or limit"},
            {"q volume 1", 1, "'q' is short for quality or quit"},
            {"quality volume 1 shap all", 23, "this option was given already"},
            {"quality volume 1 surface", 18, "expected"},
@@ -173,7 +193,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"import step \"foo", 13, "this quote is not closed"},
            {"import \"foo.step\"", 8, "expected mesh, exodus"},
            {"import mesh \"a.msh\" \"b\"", 21, "expected the end of the command, found \"b\""},
-           {"reset all", 7, "expected the end of the command, found 'all'"},
+           {"reset all", 7, "expected block, nodeset, sideset or the end of the command, found 'all'"},
            {"create sphere radius 0", 22, "radius must be a number above 0"},
            {"create cylinder radius 1", 25, "expected height"},
            {"set glue maybe", 10, "expected auto, on or off"},
@@ -215,7 +235,7 @@ TEST(Grammar, RangesCannotBeNestedWithoutEnd) {
 
 TEST(Grammar, CompletionOffersWhatCouldStandThere) {
   using List = std::vector<std::string>;
-  EXPECT_EQ(completions("re"), (List{"refine", "reset"}));
+  EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reset"}));
   EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
   EXPECT_EQ(completions("refine cu"), (List{"curve"}));
   EXPECT_EQ(completions("refine curve 3 nu"), (List{"numsplit"}));

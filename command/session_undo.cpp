@@ -1,0 +1,124 @@
+// undo, redo, and what they stand on. What a step holds is decided in undo.cpp.
+
+#include <algorithm>
+#include <iterator>
+
+#include "hextwist/command/session_internal.h"
+
+namespace hextwist {
+namespace {
+
+/// n as said, 1 by default.
+std::size_t n_steps(const Execution& run, const std::vector<Step>& steps, const char* verb) {
+  if (!run.core.history.on && steps.empty())
+    throw error_in(run.command.statement, "undo is switched off: 'set undo on' keeps what later commands change");
+  if (steps.empty()) throw error_in(run.command.statement, std::string("there is nothing to ") + verb);
+  const Item* said = run.command.find("steps");
+  if (!said) return 1;
+  if (said->number > static_cast<double>(steps.size()))
+    throw error_at(
+        run.command.statement, said->token,
+        "only " + counted(static_cast<std::int64_t>(steps.size()), "command", "commands") + " can be " + verb + "ne");
+  return static_cast<std::size_t>(said->number);
+}
+
+std::string mesh_text(const ModelState& state) {
+  const Mesh& mesh = state.meshed->mesh;
+  if (mesh.n_hexes() == 0) return "no mesh";
+  return counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
+         ", smallest shape " + short_number(state.mesh_state.shape.min);
+}
+
+/// Takes steps from the end of one list and puts those that lead back onto the other.
+void travel(Execution& run, std::vector<Step>& from, std::vector<Step>& to, const char* verb, const char* done) {
+  run.is_history = true;
+  const std::size_t n = n_steps(run, from, verb);
+  if (n == 1 && from.back().only_sets()) {
+    // Blocks and sets alone are exchanged in place, as they were changed.
+    to.reserve(to.size() + 1);
+    const std::string line = std::string(done) + " '" + from.back().command() + "'";
+    run.change_sets(sets_after(from.back().sets(), run.state.meshed->mesh));
+    run.step->swap_command(from.back());
+    to.push_back(std::move(*run.step));
+    run.step.reset();
+    from.pop_back();
+    return run.say(line);
+  }
+  ModelState state = run.state;
+  std::vector<Step> back;
+  for (std::size_t i = 0; i < n; ++i) {
+    run.stage(verb);
+    const Step& step = from[from.size() - 1 - i];
+    ModelState next = step.apply(state);
+    back.emplace_back(step.command(), next, state);
+    state = std::move(next);
+  }
+  to.reserve(to.size() + n);
+  std::vector<std::string> lines;
+  for (const Step& step : back) lines.push_back(std::string(done) + " '" + step.command() + "'");
+  // Nothing below throws.
+  std::ranges::move(back, std::back_inserter(to));
+  from.resize(from.size() - n);
+  static_cast<ModelState&>(run.state) = std::move(state);
+  lines.back() += ": " + mesh_text(run.state);
+  for (const std::string& line : lines) run.say(line);
+}
+
+}  // namespace
+
+std::string bytes_text(std::size_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + " bytes";
+  const double value = static_cast<double>(bytes);
+  return value < 1e6   ? short_number(value / 1e3) + " kB"
+         : value < 1e9 ? short_number(value / 1e6) + " MB"
+                       : short_number(value / 1e9) + " GB";
+}
+
+void add_step(Session::Core& core, Step step) noexcept {
+  if (core.history.on) core.history.add(std::move(step));
+}
+
+void remember(Session::Core& core, const std::string& command, const ModelState& before) {
+  const ModelState& now = core.state;
+  if (!core.history.on) return;
+  if (now.meshed == before.meshed && now.fixed_nodes == before.fixed_nodes && now.schemes == before.schemes) return;
+  core.history.undo.reserve(core.history.undo.size() + 1);
+  add_step(core, Step(command, now, before));
+}
+
+void Execution::change_sets(Mesh lists) {
+  // Built as const by nobody: see take_meshed() and do_refine().
+  Mesh& mesh = const_cast<Mesh&>(state.meshed->mesh);
+  step.emplace(text_of(command.statement), state, sets_delta(lists, mesh));
+  mesh.blocks.swap(lists.blocks);
+  mesh.node_sets.swap(lists.node_sets);
+  mesh.side_sets.swap(lists.side_sets);
+}
+
+void do_undo(Execution& run) {
+  History& history = run.core.history;
+  travel(run, history.undo, history.redo, "undo", "undone:");
+}
+
+void do_redo(Execution& run) {
+  History& history = run.core.history;
+  travel(run, history.redo, history.undo, "redo", "done again:");
+}
+
+void list_undo(Execution& run) {
+  const History& history = run.core.history;
+  if (!history.on) run.say("undo is switched off");
+  for (const auto* steps : {&history.undo, &history.redo}) {
+    const char* verb = steps == &history.undo ? "undo" : "redo";
+    if (steps->empty()) run.say(std::string("nothing to ") + verb);
+    // The one that comes next first.
+    for (std::size_t i = 0; i < steps->size(); ++i) {
+      const Step& step = (*steps)[steps->size() - 1 - i];
+      run.say(std::string(verb) + " " + std::to_string(i + 1) + ": " + step.command() + " (" +
+              bytes_text(step.bytes()) + ")");
+    }
+  }
+  run.say("together " + bytes_text(history.bytes()) + ", at most " + bytes_text(history.limit) + " are kept");
+}
+
+}  // namespace hextwist

@@ -1,0 +1,210 @@
+// smooth, node ... position, schemes, and meshes that come in tangled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "command/session_fixture.h"
+#include "hextwist/mesh/io.h"
+#include "support/checkers.h"
+
+namespace hextwist {
+
+using test::Fixture, test::folder;
+
+namespace {
+
+/// Moves nodes inside by up to `amount` of their unit cells.
+Mesh shaken_grid(int n, double amount, unsigned seed) {
+  Mesh mesh = test::grid(n, n, n);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> by(-amount, amount);
+  for (Vec3& p : mesh.points) {
+    const bool inside = (p.array() > 0).all() && (p.array() < n).all();
+    if (inside) p += Vec3(by(random), by(random), by(random));
+  }
+  return mesh;
+}
+
+TEST(SmoothCommand, ImprovesShapesAndStaysOnTheModel) {
+  for (const char* scheme :
+       {"", " scheme mean ratio", " scheme condition number", " scheme laplacian", " scheme mean_ratio"}) {
+    Fixture f;
+    f.session.take(shaken_grid(5, 0.3, 1), nullptr);
+    f.session.run(std::string("smooth volume all") + scheme + "; check");
+    const CommandRecord& record = f.session.records().at(0);
+    EXPECT_GE(record.after.shape.min, record.before.shape.min) << scheme;
+    EXPECT_GT(record.after.shape.average, record.before.shape.average + 0.05) << scheme;
+    EXPECT_LT(record.off_cad.max_relative, 1e-9);
+    EXPECT_NE(f.output.at(0).find("smallest shape"), std::string::npos);
+  }
+}
+
+TEST(SmoothCommand, MovesTheNodesOfTheEntitiesOnly) {
+  for (const char* target : {"hex 1 to 20", "surface 1", "curve 1", "node 40 to 60", "block 1", "nodeset 2",
+                             "sideset 3", "volume 1", "edge 1 to 30", "face 1 to 30", "sheet 1", "vertex 1"}) {
+    Mesh mesh = shaken_grid(4, 0.3, 2);
+    mesh.blocks.push_back({1, "", {0, 1, 2, 3}});
+    mesh.node_sets.push_back({2, "", {30, 31, 32, 37}});
+    mesh.side_sets.push_back({3, "", {{0, 1}, {7, 5}}});
+    Fixture f;
+    f.session.take(mesh, nullptr);
+    f.session.run(std::string("nodeset 9 ") + (std::string(target).starts_with("sheet") ? "node in " : "") + target);
+    const std::vector<Index> allowed = f.session.meshed().mesh.node_sets.back().nodes;
+    const std::vector<Vec3> before = f.session.meshed().mesh.points;
+    f.session.run(std::string("smooth ") + target);
+    const std::vector<Vec3>& after = f.session.meshed().mesh.points;
+    for (Index i = 0; i < static_cast<Index>(after.size()); ++i)
+      EXPECT_TRUE(after[i] == before[i] || std::ranges::binary_search(allowed, i)) << target << " node " << i;
+  }
+}
+
+TEST(SmoothCommand, FixedNodesStayInSmoothingAndRefining) {
+  Fixture f;
+  f.session.take(shaken_grid(5, 0.35, 3), nullptr);
+  f.session.run("node 80 to 120 position fixed; node 90 position free; list node 80; list node 90");
+  EXPECT_TRUE(f.output.at(2).ends_with(", fixed")) << f.output.at(2);
+  EXPECT_FALSE(f.output.at(3).ends_with(", fixed"));
+  const std::vector<Vec3> before = f.session.meshed().mesh.points;
+  const auto expect_fixed = [&](const char* when) {
+    const std::vector<Vec3>& after = f.session.meshed().mesh.points;
+    for (Index i = 79; i < 120; ++i) EXPECT_TRUE(i == 89 || after[i] == before[i]) << when << " node " << i + 1;
+  };
+  f.session.run("smooth volume all");
+  expect_fixed("smooth");
+  EXPECT_NE(f.session.meshed().mesh.points[89], before[89]);
+  f.session.run("refine hex in node 100 smooth");
+  expect_fixed("refine smooth");
+  f.session.run("smooth volume all; list node 80");
+  expect_fixed("smooth after refining");
+  EXPECT_TRUE(f.output.back().ends_with(", fixed"));
+  f.session.run("node all position free; smooth volume all; list node 80");
+  EXPECT_FALSE(f.output.back().ends_with(", fixed"));
+  EXPECT_NE(f.session.meshed().mesh.points[80], before[80]);
+  f.session.run("undo 2; list node 80");
+  EXPECT_TRUE(f.output.back().ends_with(", fixed"));
+  f.session.run("node all position fixed; smooth volume all");
+  EXPECT_EQ(f.notices.back(), "no node can move there: all are fixed or on vertices");
+}
+
+TEST(SmoothCommand, BoundaryFixedMovesNodesInsideOnly) {
+  Mesh mesh = shaken_grid(4, 0.3, 4);
+  for (Vec3& p : mesh.points)
+    if (p.z() == 0 && p.x() > 0 && p.x() < 4 && p.y() > 0 && p.y() < 4) p.x() += 0.4;
+  Fixture f;
+  f.session.take(mesh, nullptr);
+  f.session.run("smooth volume all boundary fixed");
+  for (Index i = 0; i < mesh.n_nodes(); ++i)
+    EXPECT_TRUE(mesh.points[i].z() != 0 || f.session.meshed().mesh.points[i] == mesh.points[i]) << i;
+  const double fixed = f.last().after.shape.average;
+  f.session.run("undo; smooth volume all boundary slide");
+  EXPECT_GT(f.last().after.shape.average, fixed);
+  EXPECT_LT(f.last().off_cad.max_relative, 1e-9);
+}
+
+TEST(SmoothCommand, EntitiesRememberTheirSchemes) {
+  Fixture f, g;
+  for (Fixture* each : {&f, &g}) each->session.take(shaken_grid(4, 0.3, 5), nullptr);
+  f.session.run("volume 1 smooth scheme laplacian; smooth volume 1");
+  g.session.run("smooth volume 1 scheme laplacian");
+  EXPECT_EQ(f.session.meshed().mesh.points, g.session.meshed().mesh.points);
+  EXPECT_NE(f.output.at(0).find("1 volume: 'smooth' uses laplacian"), std::string::npos);
+  f.session.run("undo 2; smooth volume 1");
+  g.session.run("undo; smooth volume 1 scheme mean ratio");
+  EXPECT_EQ(f.session.meshed().mesh.points, g.session.meshed().mesh.points);
+  f.session.run("surface all smooth scheme equipotential; curve 1 smooth scheme untangle; smooth surface 1");
+  EXPECT_NE(f.notices.at(0).find("there is no scheme 'equipotential' here"), std::string::npos);
+}
+
+TEST(SmoothCommand, IterationsEndItEarlyAndItSaysSo) {
+  Fixture f;
+  f.session.take(shaken_grid(6, 0.35, 6), nullptr);
+  f.session.run("smooth volume all iterations 2");
+  EXPECT_NE(f.output.back().find(" 2 sweeps"), std::string::npos);
+  EXPECT_NE(f.output.back().find("more sweeps could still improve it"), std::string::npos);
+  f.session.run("smooth volume all scheme untangle");
+  EXPECT_EQ(f.notices.back(), "no hex is inverted: there is nothing to untangle");
+}
+
+TEST(SmoothCommand, CanBeCancelledAtAnySweep) {
+  for (int calls = 1;; ++calls) {
+    Session session;
+    session.take(shaken_grid(5, 0.35, 7), nullptr);
+    int left = calls;
+    SessionCallbacks callbacks;
+    callbacks.progress = [&](const char*, double) { return --left > 0; };
+    session.set_callbacks(callbacks);
+    const MeshedModel* before = &session.meshed();
+    const Mesh copy = session.meshed().mesh;
+    bool cancelled = false;
+    try {
+      session.run("smooth volume all");
+    } catch (const CommandError& error) {
+      EXPECT_EQ(error.message(), "cancelled");
+      cancelled = true;
+    }
+    if (!cancelled) {
+      EXPECT_GT(calls, 5);
+      break;
+    }
+    EXPECT_EQ(&session.meshed(), before);
+    EXPECT_EQ(session.meshed().mesh, copy);
+    EXPECT_THROW(session.run("undo"), CommandError);
+  }
+}
+
+TEST(SmoothCommand, NeedsAMesh) {
+  Fixture f;
+  EXPECT_EQ(f.error("smooth volume all"), "there is no mesh to smooth");
+  EXPECT_NE(f.error("node 1 position fixed"), "no error");
+}
+
+TEST(Tangled, AMeshWithInvertedHexesIsUntangledWithANotice) {
+  Fixture f;
+  f.session.take(shaken_grid(6, 1.2, 8), nullptr);
+  EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
+  ASSERT_EQ(f.notices.size(), 1u);
+  EXPECT_NE(f.notices[0].find(" were inverted (hex "), std::string::npos) << f.notices[0];
+  EXPECT_NE(f.notices[0].find("): untangled, "), std::string::npos) << f.notices[0];
+  // The same through a file, and refused when that is asked for.
+  const auto file = folder() / "a.msh";
+  write_mesh(file, shaken_grid(6, 1.2, 8), nullptr);
+  f.session.run("import mesh '" + file.string() + "'; check");
+  EXPECT_EQ(f.last().n_violations, 0);
+  EXPECT_NE(f.error("set untangle off; import mesh '" + file.string() + "'").find("violations, the first: "),
+            std::string::npos);
+  EXPECT_GT(f.last().n_violations, 1);
+}
+
+TEST(Tangled, NodesOnSurfacesSlideWhereNodesInsideAreNotEnough) {
+  // A node of the skin goes over its neighbour.
+  Mesh mesh = test::grid(4, 4, 4);
+  const auto node = std::ranges::find_if(mesh.points, [](const Vec3& p) { return p == Vec3(2, 2, 0); });
+  *node = Vec3(3.3, 2.2, 0);
+  const Index i = static_cast<Index>(node - mesh.points.begin());
+  Fixture f;
+  f.session.take(mesh, nullptr);
+  EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
+  EXPECT_LT(std::abs(f.session.meshed().mesh.points[i].z()), 1e-12);
+  EXPECT_NE(f.session.meshed().mesh.points[i], mesh.points[i]);
+  f.session.run("check");
+}
+
+TEST(Tangled, WhatCannotBeRepairedIsRefusedWithIds) {
+  // The boundary itself is turned: a corner of the box goes through it.
+  Mesh mesh = test::grid(2, 2, 2);
+  mesh.points[0] = Vec3(5, 5, 5);
+  Fixture f;
+  f.session.run("create brick x 1 interval 1");
+  try {
+    f.session.take(mesh, nullptr);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("hex 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("untangling did not help"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 1);
+}
+
+}  // namespace
+}  // namespace hextwist
