@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
-#include "hextwist/command/number_text_internal.h"
 #include "hextwist/command/range.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/command/written_internal.h"
 #include "hextwist/mesh/quality.h"
 
 namespace hextwist {
@@ -442,10 +442,8 @@ std::string to_string(const Criterion& c) {
       if (!c.of.empty()) result += " of " + to_string(c.of[0]);
       return result;
     }
-    case Op::named: {
-      const char quote = c.text.find('"') == std::string::npos ? '"' : '\'';
-      return "name " + (quote + c.text + quote);
-    }
+    case Op::named:
+      return "name " + quoted_text(c.text);
     case Op::negate:
       return "-" + inner(c.operands[0], false);
     case Op::not_:

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "hextwist/command/number_text_internal.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/command/written_internal.h"
 
 namespace hextwist {
 namespace {
@@ -265,11 +265,6 @@ class RangeReader {
   }
 };
 
-std::string quoted(const std::string& text) {
-  const char quote = text.find('"') == std::string::npos ? '"' : '\'';
-  return quote + text + quote;
-}
-
 std::string to_string(const std::vector<RangeItem>& items) {
   std::string result;
   for (const RangeItem& item : items) {
@@ -279,7 +274,7 @@ std::string to_string(const std::vector<RangeItem>& items) {
         result += "all";
         break;
       case RangeItem::Kind::name:
-        result += quoted(item.name);
+        result += quoted_text(item.name);
         break;
       case RangeItem::Kind::id:
         result += std::to_string(item.first);

@@ -128,8 +128,7 @@ void Reader::fail() const {
 }
 
 void Reader::fail(const Token& token) const {
-  if (token.kind == Token::Kind::symbol && token.text == "{")
-    fail(token, "expressions in braces are not supported yet");
+  if (token.kind == Token::Kind::braces) fail(token, "expressions in braces need a session that knows their values");
   std::string message = "expected " + alternatives(expected_) + ", found " + found(token);
   if (token.kind == Token::Kind::word)
     if (const std::string near = nearest_word(token.text, expected_); !near.empty())

@@ -8,6 +8,7 @@
 #include <map>
 #include <new>
 
+#include "hextwist/command/braces.h"
 #include "hextwist/command/session_internal.h"
 
 namespace hextwist {
@@ -130,7 +131,7 @@ Selector Session::Core::selector() {
     topology_of = state.meshed;
     topology = std::make_shared<DerivedTopology>(topology_of->mesh);
   }
-  return {*topology_of, *topology};
+  return {*topology_of, *topology, state.groups ? std::span<const Group>(*state.groups) : std::span<const Group>()};
 }
 
 void Session::Core::say(const std::string& line) const {
@@ -203,26 +204,67 @@ void run_command(Session::Core& core, const Command& command) {
   }
 }
 
+namespace {
+
+/// A command that never came to be: its words are wrong.
+CommandRecord unread_record(const Session::Core& core, const Statement& statement, const CommandError& error) {
+  CommandRecord record;
+  record.command = text_of(statement);
+  record.error = error.message();
+  record.line = error.line();
+  record.column = error.column();
+  record.before = core.state.mesh_state;
+  close_record(record, core.state, Clock::now());
+  return record;
+}
+
+/// Expressions alone.
+void run_expressions(Session::Core& core, const Statement& statement, const std::vector<std::string>& lines) {
+  CommandRecord record;
+  record.command = text_of(statement);
+  record.ok = true;
+  record.before = core.state.mesh_state;
+  close_record(record, core.state, Clock::now());
+  core.records.push_back(std::move(record));
+  for (const std::string& line : lines) core.say(line);
+  keep_on_record(core, statement);
+}
+
+void run_statement(Session::Core& core, const Statement& statement) {
+  const Variables before = core.variables;
+  bool is_playback = false;
+  try {
+    Command command;
+    try {
+      if (has_braces(statement)) {
+        const Expanded expanded = expand(statement, core.variables);
+        if (!expanded.statement) return run_expressions(core, statement, expanded.lines);
+        for (const std::string& line : expanded.lines) core.say(line);
+        command = parse(*expanded.statement);
+      } else {
+        command = parse(statement);
+      }
+    } catch (const CommandError& error) {
+      core.records.push_back(unread_record(core, statement, error));
+      throw;
+    }
+    is_playback = command.spec->name == "playback";
+    run_command(core, command);
+  } catch (...) {
+    // What the commands of a journal did before the one that failed stays done.
+    if (!is_playback) core.variables = before;
+    throw;
+  }
+}
+
+}  // namespace
+
 int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line) {
   int n_failed = 0;
   for (const Statement& statement : split_statements(text, source_name, first_line)) {
     if (core.state.finished) break;
     try {
-      Command command;
-      try {
-        command = parse(statement);
-      } catch (const CommandError& error) {
-        CommandRecord record;
-        record.command = text_of(statement);
-        record.error = error.message();
-        record.line = error.line();
-        record.column = error.column();
-        record.before = core.state.mesh_state;
-        close_record(record, core.state, Clock::now());
-        core.records.push_back(std::move(record));
-        throw;
-      }
-      run_command(core, command);
+      run_statement(core, statement);
     } catch (const CommandError& error) {
       if (!core.keep_going || error.message() == Cancelled().what()) throw;
       ++n_failed;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/command/expression.h"
 #include "hextwist/command/selection.h"
 #include "hextwist/command/session.h"
 #include "hextwist/command/session_state_internal.h"
@@ -27,7 +28,8 @@ struct Session::Core {
   SessionCallbacks callbacks;
   bool keep_going = false;
   std::vector<CommandRecord> records;
-  int nesting = 0;  ///< of playback
+  Variables variables;  ///< of expressions in braces
+  int nesting = 0;      ///< of playback
   std::shared_ptr<const MeshedModel> topology_of;
   std::shared_ptr<DerivedTopology> topology;
   std::shared_ptr<void> thread_limit;
@@ -116,8 +118,9 @@ void list_undo(Execution& run);
 /// What a command changed since `before` can be undone from now on. Nothing if that is nothing.
 void remember(Session::Core& core, const std::string& command, const ModelState& before);
 void add_step(Session::Core& core, Step step) noexcept;
-/// Writes a command that went well to the journal, if there is one.
+/// Writes a command that went well to the journal, if there is one; expressions alone likewise.
 void keep_on_record(Session::Core& core, const Command& command);
+void keep_on_record(Session::Core& core, const Statement& statement);
 
 /// Runs the commands of a text; see Session::run().
 int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line = 1);

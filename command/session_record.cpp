@@ -37,8 +37,13 @@ void keep_on_record(Session::Core& core, const Command& command) {
   // Of a journal played back its commands are recorded, each as it succeeds. 'quit' would end whoever plays this back.
   for (const char* word : {"record", "playback", "quit", "exit"})
     if (command.spec->name == word) return;
+  keep_on_record(core, command.statement);
+}
+
+void keep_on_record(Session::Core& core, const Statement& statement) {
+  if (!core.recording) return;
   Recording& recording = *core.recording;
-  recording.stream << text_of(command.statement) << std::endl;
+  recording.stream << text_of(statement) << std::endl;
   ++recording.n_commands;
   if (recording.stream) return;
   if (core.callbacks.notice) core.callbacks.notice(recording.file.string() + ": can't be written, recording has ended");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hextwist/command/group.h"
 #include "hextwist/command/session.h"
 #include "hextwist/mesh/smooth.h"
 
@@ -28,6 +29,7 @@ struct ModelState {
   std::shared_ptr<const std::vector<Index>> fixed_nodes;
   /// Smoothing schemes of CAD entities that were given one; null: none.
   std::shared_ptr<const std::vector<std::pair<Owner, SmoothScheme>>> schemes;
+  std::shared_ptr<const std::vector<Group>> groups;  ///< by ascending id; null: none
 };
 
 /// Everything that a command may change; copied before each, so that a failure can put it back.

@@ -81,7 +81,9 @@ void add_step(Session::Core& core, Step step) noexcept {
 void remember(Session::Core& core, const std::string& command, const ModelState& before) {
   const ModelState& now = core.state;
   if (!core.history.on) return;
-  if (now.meshed == before.meshed && now.fixed_nodes == before.fixed_nodes && now.schemes == before.schemes) return;
+  if (now.meshed == before.meshed && now.fixed_nodes == before.fixed_nodes && now.schemes == before.schemes &&
+      now.groups == before.groups)
+    return;
   core.history.undo.reserve(core.history.undo.size() + 1);
   add_step(core, Step(command, now, before));
 }

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "hextwist/command/number_text_internal.h"
 #include "hextwist/command/pattern_internal.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/command/written_internal.h"
 
 namespace hextwist {
 namespace {
@@ -239,10 +239,8 @@ std::string to_string(const Command& command) {
         result += item.text;
         break;
       case ArgumentSpec::Kind::string:
-      case ArgumentSpec::Kind::file: {
-        const char quote = item.text.find('"') == std::string::npos ? '"' : '\'';
-        result += quote + item.text + quote;
-      }
+      case ArgumentSpec::Kind::file:
+        result += quoted_text(item.text);
     }
   }
   return result;
@@ -262,6 +260,8 @@ std::vector<std::string> completions(std::string_view line) {
       statement.tokens.erase(statement.tokens.end() - 2);
     }
   }
+  for (Token& token : statement.tokens)  // its value is not known yet; most are numbers
+    if (token.kind == Token::Kind::braces) token = {Token::Kind::number, "1", 1, token.offset, token.length};
   Reader reader(statement);
   std::vector<std::string> result;
   try {

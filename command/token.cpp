@@ -29,12 +29,22 @@ std::size_t continuation(std::string_view text, std::size_t at) {
 }
 
 Token quoted(std::string_view text, std::size_t at) {
-  const std::size_t close = text.find_first_of(std::string(1, text[at]) + '\n', at + 1);
-  if (close == std::string_view::npos || text[close] == '\n') {
-    const std::size_t end = close == std::string_view::npos ? text.size() : close;
-    return {Token::Kind::bad, "this quote is not closed on its line", 0, at, end - at};
+  std::string inside;
+  std::size_t end = at + 1;
+  while (end < text.size() && text[end] != '\n' && text[end] != text[at]) {
+    std::size_t next = end + 1;
+    if (text[end] == '\\' && next < text.size() && text[next] == '{') {
+      ++end;
+      ++next;
+    } else if (text[end] == '{') {
+      if (const std::size_t close = closing_brace(text, end); close != std::string_view::npos) next = close + 1;
+    }
+    inside += text.substr(end, next - end);
+    end = next;
   }
-  return {Token::Kind::string, std::string(text.substr(at + 1, close - at - 1)), 0, at, close + 1 - at};
+  if (end >= text.size() || text[end] == '\n')
+    return {Token::Kind::bad, "this quote is not closed on its line", 0, at, end - at};
+  return {Token::Kind::string, inside, 0, at, end + 1 - at};
 }
 
 /// A number when everything up to the next blank or symbol reads as one, else a word ("3rd_part.msh", "1to3").
@@ -64,6 +74,14 @@ Token next_token(std::string_view text, std::size_t at) {
   const char c = text[at];
   const char after = at + 1 < text.size() ? text[at + 1] : ' ';
   if (c == '"' || c == '\'') return quoted(text, at);
+  if (c == '{') {
+    const std::size_t close = closing_brace(text, at);
+    if (close == std::string_view::npos) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      return {Token::Kind::bad, "this brace is not closed on its line", 0, at, end - at};
+    }
+    return {Token::Kind::braces, std::string(text.substr(at + 1, close - at - 1)), 0, at, close + 1 - at};
+  }
   const bool sign_or_dot = c == '+' || c == '-' || c == '.';
   const char second_after = at + 2 < text.size() ? text[at + 2] : ' ';
   if (is_digit(c) || (sign_or_dot && (is_digit(after) || (c != '.' && after == '.' && is_digit(second_after)))))
@@ -76,13 +94,53 @@ Token next_token(std::string_view text, std::size_t at) {
   const std::string_view two = text.substr(at, 2);
   if (two == "<=" || two == ">=" || two == "<>" || two == "==")
     return {Token::Kind::symbol, std::string(two), 0, at, 2};
-  if (std::string_view("(){}[],<>=+-*^!&|$?").find(c) != std::string_view::npos)
+  if (std::string_view("()}[],<>=+-*^!&|$?").find(c) != std::string_view::npos)
     return {Token::Kind::symbol, std::string(1, c), 0, at, 1};
   return {Token::Kind::bad,
           c == '\\' ? "a backslash must be the last of its line" : "this character has no meaning here", 0, at, 1};
 }
 
+/// The expressions that follow a # without anything in between but blanks and more #.
+void comment(std::string_view text, std::size_t at, std::vector<Token>& tokens) {
+  while (at < text.size() && (text[at] == '#' || text[at] == '{' || is_blank(text[at]))) {
+    if (text[at] == '{') tokens.push_back(next_token(text, at));
+    at = text[at] == '{' ? at + tokens.back().length : at + 1;
+  }
+}
+
 }  // namespace
+
+std::size_t closing_brace(std::string_view text, std::size_t open) {
+  constexpr std::size_t longest = 10000;  // so that a line of open braces is not searched over and over
+  int depth = 0;
+  char quote = '\0';
+  for (std::size_t at = open; at < std::min(text.size(), open + longest) && text[at] != '\n'; ++at) {
+    const char c = text[at];
+    if (quote) {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '{') {
+      ++depth;
+    } else if (c == '}' && --depth == 0) {
+      return at;
+    }
+  }
+  return std::string_view::npos;
+}
+
+std::vector<Token> tokens_of(std::string_view text) {
+  std::vector<Token> result;
+  for (std::size_t at = 0; at < text.size();) {
+    if (is_blank(text[at]) || text[at] == '\n') {
+      ++at;
+    } else {
+      result.push_back(next_token(text, at));
+      at += result.back().length;
+    }
+  }
+  return result;
+}
 
 std::vector<Statement> split_statements(std::string_view input, std::string_view source_name, int first_line) {
   const auto source = std::make_shared<const Source>(Source{std::string(source_name), std::string(input), first_line});
@@ -104,7 +162,13 @@ std::vector<Statement> split_statements(std::string_view input, std::string_view
     } else if (c == '\n' || c == ';') {
       finish(at++);
     } else if (c == '#') {
-      at = std::min(text.find('\n', at), text.size());
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      if (at + 1 < end && text[at + 1] == '{') {
+        finish(at);
+        comment(text.substr(0, end), at, statement.tokens);
+        finish(end);
+      }
+      at = end;
     } else if (const std::size_t joined = continuation(text, at)) {
       at += joined;
     } else {

@@ -1,7 +1,8 @@
 // From text to commands: statements of tokens that remember where they stood.
 //
 // `;` and line ends separate statements, `#` starts a comment, a backslash at the end of a line joins the next one.
-// Strings stand between single or double quotes and may hold anything but a line end.
+// Strings stand between single or double quotes and may hold anything but a line end; \{ in them is a brace.
+// An expression in braces is one token, within a string a part of it; right behind `#` it is a statement of its own.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,8 @@ struct Token {
     word,    ///< starts with a letter or so: refine, x_coord, part.step
     number,  ///< 3, -2.5, 1e-3
     string,  ///< text holds what is between the quotes
-    symbol,  ///< one of ( ) { } , < > = + * ...
+    symbol,  ///< one of ( ) , < > = + * ...
+    braces,  ///< { expression }; text holds what is between (see braces.h)
     bad,     ///< could not be read; text says why
     end,     ///< behind the last token of a statement
   };
@@ -43,6 +45,13 @@ struct Statement {
 /// Splits text into statements. Never throws on any input: what can't be read becomes a bad token, so that the
 /// commands before it can run first.
 std::vector<Statement> split_statements(std::string_view text, std::string_view source_name = "", int first_line = 1);
+
+/// The tokens of one command, without an end; line ends count as blanks.
+std::vector<Token> tokens_of(std::string_view text);
+
+/// Where the brace at `open` is closed on its line, quotes and inner braces skipped; npos if it is not,
+/// or not within 10,000 bytes.
+std::size_t closing_brace(std::string_view text, std::size_t open);
 
 /// Does the text end in a backslash that asks for another line?
 bool wants_more(std::string_view text);
