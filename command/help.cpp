@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "hextwist/command/expression.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/command/syntax.h"
 
@@ -65,18 +66,38 @@ constexpr std::string_view range_text = R"(range: which entities a command is ab
   Parentheses end a range: curve in (surface 1 to 9 with area > 3).
 )";
 
+constexpr std::string_view expression_text =
+    R"(expressions: what stands between braces is replaced by its value, in file names too
+
+  {n = 4}                          a line of its own; #{n = 4} is the same
+  refine curve {n + 1} size {h/2}  variables keep their value until the session ends
+  export vtk "part_{n}.vtu"        \{ is a plain brace
+  {n > 3 ? 2 : 1}  {n++}  {"part_" // n}  {format(h, "%.2f")}
+
+  operators  + - * / % ^ ( )  == != < <= > >=  && || !  ? :  = += -= *= /= ^= ++ --  // (joins texts)
+)";
+
+/// Words that the help on expressions ends with, so that they are never behind.
+std::string functions_text() {
+  std::string words = "functions and values:";
+  for (const std::string& word : expression_words()) words += " " + word;
+  return wrapped(words, 2, 13);
+}
+
 }  // namespace
 
 std::string help() {
   std::string result = "Commands (words may be cut short; # starts a comment; ; separates commands):\n\n";
   for (const CommandSpec& spec : language())
     if (!spec.syntax.empty()) result += "  " + padded(spec.name, 12) + std::string(spec.summary) + "\n";
-  return result + "  " + padded("help range", 12) + "how to say which entities\n" +
+  return result + "  " + padded("help range", 12) + "how to say which entities\n" + "  " +
+         padded("help expr", 12) + "{...}: variables and arithmetic\n" +
          "\n'help <command>' shows syntax, options and examples.\n";
 }
 
 std::string help(std::string_view word) {
   if (same_word(word, "range")) return std::string(range_text);
+  if (word.size() >= 4 && begins_word(word, "expressions")) return std::string(expression_text) + functions_text();
   std::vector<const CommandSpec*> found;
   for (const CommandSpec& spec : language()) {
     if (spec.syntax.empty()) continue;

@@ -59,7 +59,7 @@ const std::vector<CommandSpec> table = {
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}},
      {"export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
     {"help", "help [<command>]", "list the commands, or show one",
-     "", {{"command", Kind::word, 0, 0, false, "a command, or 'range'"}}, {"help", "help refine"}},
+     "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
     {"import", "import {mesh|exodus|gmsh|abaqus|vtk|medit|geometry|step|brep|iges} <file>", "read a mesh or CAD",
      "'mesh' and 'geometry' choose the format by the file's extension; the other words insist on one. CAD comes first, "
      "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one.",

@@ -250,7 +250,7 @@ TEST(Braces, ErrorsPointIntoThem) {
   EXPECT_EQ(error("refine curve {n}"), "15: 'n' has no value yet");
   EXPECT_EQ(error("refine curve {1 + }"), "19: the expression ends too early");
   EXPECT_EQ(error("refine curve 3 numsplit {2.5}"), "25: numsplit must be a whole number from 1 to 29");
-  EXPECT_EQ(error("refine {\"crve\"} 3").substr(0, 26), "8: expected node, edge, fac");
+  EXPECT_EQ(error("refine {\"crve\"} 3").substr(0, 26), "8: expected node, edge, fa");
   EXPECT_EQ(error("refine curve {n"), "14: this brace is not closed on its line");
   EXPECT_EQ(error("import mesh \"a{n.msh\""), "15: this brace is not closed (\\{ is a plain brace)");
   EXPECT_EQ(error("import mesh ${HOME}/a.msh"), "13: '${...}' is not supported, only '{...}'");

@@ -258,6 +258,7 @@ TEST(Grammar, EveryCommandHasHelpAndItsExamplesParse) {
     EXPECT_EQ(help(spec.name).find('~'), std::string::npos) << "shows what is not supported yet";
   }
   EXPECT_NE(help("range").find("except"), std::string::npos);
+  EXPECT_NE(help("expressions").find("atan2d"), std::string::npos);
   EXPECT_THROW(help("bogus"), Error);
 }
 
