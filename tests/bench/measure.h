@@ -1,0 +1,62 @@
+// How the benchmarks measure: process CPU time (other programs may run), results freed outside of it.
+#pragma once
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <string>
+
+namespace hextwist::bench {
+
+/// Limits oneTBB while it lives.
+class Threads {
+ public:
+  explicit Threads(int n) : control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)) {}
+
+ private:
+  tbb::global_control control_;
+};
+
+/// Registers `name`: make() is run five times on one thread; items(result) is what it made, for the rate. make() is
+/// first run once so that its own inputs (static locals) exist.
+template <class Make, class Items>
+void add_rate(const std::string& name, Make make, Items items, int threads = 1) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State& state) {
+                                 const Threads limit(threads);
+                                 make();
+                                 double n = 0;
+                                 for ([[maybe_unused]] auto _ : state) {
+                                   auto result = make();
+                                   benchmark::DoNotOptimize(result);
+                                   state.PauseTiming();
+                                   n += static_cast<double>(items(result));
+                                   result = {};
+                                   state.ResumeTiming();
+                                 }
+                                 state.SetItemsProcessed(static_cast<std::int64_t>(n));
+                               })
+      ->Iterations(1)
+      ->Repetitions(5)
+      ->MeasureProcessCPUTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+/// The same where only the time counts.
+template <class Make>
+void add_time(const std::string& name, Make make, int threads = 1) {
+  add_rate(
+      name, make, [](const auto&) { return 1; }, threads);
+}
+
+/// Registers a number that is no time: value() is called once; NaN: could not be had.
+void add_value(const std::string& name, double (*value)());
+
+/// Bytes that `task` (main.cpp) takes at its peak beyond what the program had before, in a process of its own, divided
+/// by the bytes of its input and output arrays.
+double peak_ratio(const std::string& task);
+/// Resident bytes of this process at its peak so far, and now.
+std::size_t peak_memory();
+std::size_t memory();
+
+}  // namespace hextwist::bench
