@@ -17,9 +17,14 @@ struct CombinationTarget {
   std::vector<Quad> faces;   ///< corners in bit-frame order (0-1 and 0-2 are edges)
 };
 
-/// Trisecting codes for a mesh in which the target's nodes have been enclosed: all nodes of the hexes that have a
-/// target edge or a target face are marked; an edge is cut when both its ends are and its sheet is that of a target
-/// edge.
-std::vector<std::uint16_t> combination_codes(const Mesh& mesh, const CombinationTarget& target);
+/// Edges of the target, those of its faces included; ascending.
+std::vector<Edge> target_edges(const CombinationTarget& target);
+
+/// Trisecting codes for a mesh in which the target's nodes have been enclosed. uncut: the target_edges() that no
+/// enclosing has cut, ascending. All nodes are marked of the hexes that have a target edge among these, or a target
+/// face with one of these; an edge is cut when both its ends are and, within those hexes, it is opposite in a quad (of
+/// one that is opposite, ...) to one of these.
+std::vector<std::uint16_t> combination_codes(const Mesh& mesh, const CombinationTarget& target,
+                                             std::span<const Edge> uncut);
 
 }  // namespace hextwist

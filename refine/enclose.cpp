@@ -5,8 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 #include "hextwist/refine/cube_mesh.h"
 #include "hextwist/refine/marks.h"
@@ -134,24 +134,6 @@ std::shared_ptr<const SplitTable> make_enclose_table(EncloseAt at) {
   return table;
 }
 
-/// The smallest superset with a template. Among several the unmarked nodes (compared from the highest down) decide.
-int smallest_superset(const Hex& hex, int mask) {
-  int best = 255;
-  const auto unmarked_nodes = [&](int m) {
-    std::vector<Index> nodes;
-    for (int c = 0; c < 8; ++c)
-      if (!(m >> c & 1)) nodes.push_back(hex[c]);
-    std::ranges::sort(nodes, std::greater{});
-    return nodes;
-  };
-  for (int m = mask; m < 256; ++m) {
-    if ((m & mask) != mask || !has_enclosing_template(m)) continue;
-    const int size = std::popcount(static_cast<unsigned>(m)), best_size = std::popcount(static_cast<unsigned>(best));
-    if (size < best_size || (size == best_size && unmarked_nodes(m) > unmarked_nodes(best))) best = m;
-  }
-  return best;
-}
-
 }  // namespace
 
 bool has_enclosing_template(int mask) {
@@ -172,25 +154,6 @@ std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<c
     }
   });
   return codes;
-}
-
-Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked) {
-  Index n_added = 0;
-  while (true) {
-    std::vector<Index> added;
-    for (const Hex& hex : hexes) {
-      const int mask = corner_mask(hex, marked);
-      if (has_enclosing_template(mask)) continue;
-      const int grown = smallest_superset(hex, mask);
-      for (int c = 0; c < 8; ++c)
-        if (grown >> c & 1 && !marked[hex[c]]) added.push_back(hex[c]);
-    }
-    if (added.empty()) return n_added;
-    for (const Index n : added) {
-      n_added += marked[n] == 0;
-      marked[n] = 1;
-    }
-  }
 }
 
 }  // namespace hextwist

@@ -7,7 +7,7 @@
 //   7 nodes, 6 nodes all but those of an edge: (c) and (b) seen from the unmarked side, so that concave places of a
 //   region need no filling
 //
-// All else has to grow first: close_enclosure().
+// All else has to grow first (close_enclosure()), or to be enclosed in parts, one after the other (enclosable_part()).
 #pragma once
 
 #include <memory>
@@ -32,7 +32,17 @@ std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<c
 
 /// Adds marks until every hex has a template: in each round every hex without one takes its smallest superset that
 /// has (of several the one whose unmarked nodes have the highest numbers), all hexes at once, so the result depends on
-/// the mesh alone. Returns the number of nodes added.
+/// the mesh alone. Returns the number of nodes added. Growth may run along whole faces of a part.
 Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked);
+
+/// The same hex by hex, but where that takes more than `limit` nodes the marks stay as they were.
+Index close_enclosure_nearby(const Mesh& mesh, std::span<std::uint8_t> marked, Index limit);
+
+/// The part of a marking to enclose first: all of it where every hex has a template. Elsewhere (where curves meet, say:
+/// three or four marked corners of a hex that are no face) the nodes in which most of its marked edges meet; of things
+/// that do not hang together the one with the lowest node. Once these are enclosed the rest is in different hexes, and
+/// can follow. Nothing marked is enclosed twice, nothing else is enclosed at all, and an edge between two parts gets a
+/// node from each side. Never empty unless `marked` is; the result depends on the mesh alone.
+std::vector<std::uint8_t> enclosable_part(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
 
 }  // namespace hextwist

@@ -41,8 +41,8 @@ struct Picker {
     EXPECT_EQ(close_enclosure(mesh.hexes, marked), 0);
     const Mesh enclosed = test::refined(
         mesh, split(mesh.hexes, mesh.n_nodes(), enclose_table(EncloseAt::third), enclose_codes(mesh.hexes, marked)));
-    const Mesh fine = test::refined(
-        enclosed, split(enclosed.hexes, enclosed.n_nodes(), trisect_table(), combination_codes(enclosed, target)));
+    const Mesh fine = test::refined(enclosed, split(enclosed.hexes, enclosed.n_nodes(), trisect_table(),
+                                                    combination_codes(enclosed, target, target_edges(target))));
     EXPECT_TRUE(test::conformal(fine));
     EXPECT_TRUE(test::uninverted(fine));
     EXPECT_NEAR(volume(fine), a * b * c, 1e-9);
