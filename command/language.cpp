@@ -118,9 +118,9 @@ const std::vector<CommandSpec> table = {
      "[{smooth|no_smooth}] [dry_run] [~size] [~radius] [~sizing_function] [~direction]",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
-     "every hex that touches it, with 2 one layer more; the default is 0 for hexes and volumes, 1 for everything else. "
-     "Depth 0 of a node, edge, face, vertex, curve or surface is 'method combination', which stays within the elements "
-     "that touch it; 'method parallel' halves the edges that leave it. Of hexes, volumes and with depth 1 or more, "
+     "every hex that touches it, with 2 one layer more. The default is 0, which for a node, edge, face, vertex, curve or "
+     "surface is 'method combination': it stays within the elements that touch the target. 'method single' is depth 1 "
+     "unless told otherwise; 'method parallel' halves the edges that leave the target. Of hexes, volumes and with depth 1 or more, "
      "'method parallel' makes one into eight instead of 27 wherever the sheets of a region allow it. 'smooth' moves the new nodes, and those of two "
      "layers around them, to better shapes. "
      "All volumes of the model together are refined uniformly instead: each edge in numsplit + 1 pieces.\n"
@@ -130,7 +130,7 @@ const std::vector<CommandSpec> table = {
       {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
       {"growth", Kind::number, 1, 1e100, false, "accepted when 1"}},
-     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 depth 0 smooth",
+     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
       "refine volume all numsplit 1"}},
     {"reset", "reset [{block|nodeset|sideset}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},

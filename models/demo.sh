@@ -7,9 +7,9 @@ cd "${2:-.}"
 
 commands='
   quality volume all shape
-  refine surface 6     # all hexes that touch the bore
-  refine curve 22      # the concave corner of the L
-  refine vertex 9      # a corner of the foot
+  refine surface 6 depth 1   # all hexes that touch the bore
+  refine curve 22            # the concave corner of the L
+  refine vertex 9 depth 1    # a corner of the foot
   quality volume all shape
   export vtk "hextwist-demo.vtu" overwrite
   export gmsh "hextwist-demo.msh" overwrite

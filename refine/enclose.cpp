@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "hextwist/refine/cube_mesh.h"
+#include "hextwist/refine/enclose_internal.h"
 #include "hextwist/refine/marks.h"
 
 namespace hextwist {
@@ -38,20 +39,13 @@ CornerBox corner_box(int mask) {
   return box;
 }
 
-/// How far from the box the new nodes lie: on edges, inside faces, inside the hex (along each of their directions).
-struct Reach {
-  double edge, face, inside;
-};
-
-/// Seen from the marked side, and from the unmarked side (six or seven marked corners).
-struct Reaches {
-  Reach marked, unmarked;
-};
-
-Reaches reaches(EncloseAt at) {
-  if (at == EncloseAt::half) return {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
-  return {{1.0 / 3, 0.4, 0.42}, {2.0 / 3, 0.6, 0.58}};
-}
+/// Optimised places of the new nodes. Printed by optimize_enclosing (refine/optimize_enclosing.cpp).
+constexpr EnclosePlaces places_at_half =
+#include "hextwist/refine/enclose_places_half.inc"
+    ;
+constexpr EnclosePlaces places_at_third =
+#include "hextwist/refine/enclose_places_third.inc"
+    ;
 
 /// Templates (a), (b), (c): a small hex at the box and one more across each direction in which the box keeps to a side.
 CubeMesh box_template(const CornerBox& box, const Reach& reach) {
@@ -88,7 +82,7 @@ int face_corner_mask(int corner_mask, int face) {
   return code;
 }
 
-HexTemplate make_enclose_template(const SplitTable& table, int mask, const Reaches& reach) {
+HexTemplate make_enclose_template(const SplitTable& table, int mask, const EnclosePlaces& reach) {
   std::array<std::uint8_t, n_hex_edges> edge_code;
   std::array<std::uint16_t, n_hex_faces> face_code;
   for (int e = 0; e < n_hex_edges; ++e) {
@@ -108,7 +102,7 @@ HexTemplate make_enclose_template(const SplitTable& table, int mask, const Reach
   return make_template(table, edge_code, face_code, mesh.points, mesh.hexes);
 }
 
-FacePattern make_face_pattern(int code, const Reaches& reach) {
+FacePattern make_face_pattern(int code, const EnclosePlaces& reach) {
   FacePattern pattern;
   const int n_marked = std::popcount(static_cast<unsigned>(code));
   if (n_marked == 1 || n_marked == 3) {
@@ -124,8 +118,13 @@ FacePattern make_face_pattern(int code, const Reaches& reach) {
   return pattern;
 }
 
-std::shared_ptr<const SplitTable> make_enclose_table(EncloseAt at) {
-  const Reaches reach = reaches(at);
+}  // namespace
+
+bool has_enclosing_template(int mask) {
+  return mask == 0 || mask == 255 || corner_box(mask).valid || corner_box(255 & ~mask).valid;
+}
+
+std::shared_ptr<const SplitTable> make_enclose_table(const EnclosePlaces& reach) {
   auto table = std::make_shared<SplitTable>(
       256, [reach](const SplitTable& self, int mask) { return make_enclose_template(self, mask, reach); });
   table->edge = {{{}, 0}, {{reach.marked.edge}, 2}, {{1 - reach.marked.edge}, 1}};
@@ -134,14 +133,8 @@ std::shared_ptr<const SplitTable> make_enclose_table(EncloseAt at) {
   return table;
 }
 
-}  // namespace
-
-bool has_enclosing_template(int mask) {
-  return mask == 0 || mask == 255 || corner_box(mask).valid || corner_box(255 & ~mask).valid;
-}
-
 std::shared_ptr<const SplitTable> enclose_table(EncloseAt at) {
-  static const std::array tables = {make_enclose_table(EncloseAt::half), make_enclose_table(EncloseAt::third)};
+  static const std::array tables = {make_enclose_table(places_at_half), make_enclose_table(places_at_third)};
   return tables[at == EncloseAt::half ? 0 : 1];
 }
 

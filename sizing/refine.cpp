@@ -20,10 +20,11 @@ std::size_t peak_memory() {
 Method technique(const Request& request) {
   const bool solid = is_solid(request.kind);
   if (request.depth && *request.depth < 0) throw Error("depth must not be negative");
-  const bool has_depth = request.depth.value_or(solid ? 0 : 1) > 0;
+  const bool has_depth = request.depth.value_or(0) > 0;
   switch (request.method) {
     case Method::single:
-      if (!solid && !has_depth) throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
+      if (!solid && request.depth && !has_depth)
+        throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
       return Method::single;
     case Method::combination:
       if (solid)

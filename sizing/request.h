@@ -33,7 +33,7 @@ enum class Concave { templates, fill };
 
 /// Which technique of the paper (table 1).
 enum class Method {
-  automatic,    ///< single for hexes and volumes and for depth >= 1, else combination
+  automatic,    ///< single for hexes and volumes and for depth >= 1; combination for all else
   single,       ///< trisecting: section 4
   parallel,     ///< enclosing at half: section 5.1 to 5.3; hexes, volumes and depth >= 1 one into eight (eight.h)
   combination,  ///< enclosing at a third, then trisecting along the target: section 5.4
@@ -52,8 +52,8 @@ struct Request {
   /// instead: every edge in numsplit + 1 pieces, 1 .. 29.
   int numsplit = 1;
   /// Layers of hexes around the target that are refined fully too: 0 exactly the target (for nodes, edges, faces and
-  /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0 for hexes and
-  /// volumes, 1 for everything else.
+  /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0; 1 for
+  /// Method::single of anything but hexes and volumes.
   std::optional<int> depth = std::nullopt;
   Method method = Method::automatic;
   Concave concave = Concave::templates;

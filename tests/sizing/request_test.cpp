@@ -53,17 +53,17 @@ TEST(request, depth_counts_layers_of_hexes) {
   EXPECT_EQ(growth(input, {.kind = TargetKind::hex, .targets = {centre}}), box_growth(1));
   EXPECT_EQ(growth(input, {.kind = TargetKind::hex, .targets = {centre}, .depth = 1}), box_growth(3));
   const Index node = 3 + 8 * (3 + 8 * 3);
-  EXPECT_EQ(growth(input, {.kind = TargetKind::node, .targets = {node}}), box_growth(2));
+  EXPECT_EQ(growth(input, {.kind = TargetKind::node, .targets = {node}, .depth = 1}), box_growth(2));
   EXPECT_EQ(growth(input, {.kind = TargetKind::node, .targets = {node}, .depth = 2}), box_growth(4));
   EXPECT_EQ(growth(input, {.kind = TargetKind::hex, .targets = {centre}, .depth = 50}), 26 * 343);
 }
 
-TEST(request, a_curve_a_surface_and_a_vertex_mean_the_hexes_that_touch_them) {
+TEST(request, depth_one_of_a_curve_a_surface_and_a_vertex_means_the_hexes_that_touch_them) {
   const MeshedModel input = brick(4, 5, 6);
   // Curve 1 runs along x at y = z = 0: 4 hexes, free neighbours on two sides and one edge.
-  EXPECT_EQ(growth(input, {.kind = TargetKind::curve, .targets = {1}}), 4 * (26 + 12 * 2 + 4));
-  EXPECT_EQ(growth(input, {.kind = TargetKind::surface, .targets = {5}}), 20 * (26 + 12));
-  EXPECT_EQ(growth(input, {.kind = TargetKind::vertex, .targets = {8}}), 26 + 12 * 3 + 4 * 3);
+  EXPECT_EQ(growth(input, {.kind = TargetKind::curve, .targets = {1}, .depth = 1}), 4 * (26 + 12 * 2 + 4));
+  EXPECT_EQ(growth(input, {.kind = TargetKind::surface, .targets = {5}, .depth = 1}), 20 * (26 + 12));
+  EXPECT_EQ(growth(input, {.kind = TargetKind::vertex, .targets = {8}, .method = Method::single}), 26 + 12 * 3 + 4 * 3);
 }
 
 TEST(request, all_volumes_are_refined_uniformly) {
@@ -86,9 +86,9 @@ TEST(request, numsplit_cuts_each_target_edge_in_a_power_of_three) {
   EXPECT_EQ(n, 729) << "and nothing else is as fine and regular";
 }
 
-TEST(request, depth_zero_is_the_combination_technique) {
+TEST(request, the_combination_technique_is_depth_zero_and_the_default) {
   const MeshedModel input = brick(6, 5, 4);
-  EXPECT_EQ(growth(input, {.kind = TargetKind::curve, .targets = {1}, .depth = 0}), 10 * 6);
+  EXPECT_EQ(growth(input, {.kind = TargetKind::curve, .targets = {1}}), 10 * 6);
   EXPECT_EQ(growth(input, {.kind = TargetKind::surface, .targets = {5}, .depth = 0}), 21 * 30);
   EXPECT_EQ(growth(input, {.kind = TargetKind::vertex, .targets = {1}, .depth = 0}), 3);
   // It stays within one original element: hexes two layers away are as they were.
@@ -133,7 +133,7 @@ TEST(request, smoothing_reaches_the_goals_of_unit_grids_and_moves_no_node_far_aw
       {{.kind = TargetKind::edge, .targets = {edge}, .depth = 0}, 0.60},
       {{.kind = TargetKind::face, .targets = {face}, .depth = 0}, 0.52},
       {{.kind = TargetKind::surface, .targets = {5}, .depth = 0}, 0.40},
-      {{.kind = TargetKind::curve, .targets = {1}}, 0.42},
+      {{.kind = TargetKind::curve, .targets = {1}, .depth = 1}, 0.42},
       {{.kind = TargetKind::hex, .targets = {hex(2, 2, 2), hex(3, 2, 2), hex(4, 2, 2), hex(2, 3, 2), hex(2, 4, 2)}},
        0.46}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
