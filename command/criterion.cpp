@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -253,7 +252,7 @@ class CriterionReader {
 
   Criterion factor() {
     const Deeper deeper(*this);
-    cut_word();
+    reader_.cut_at_sign();
     const Token token = reader_.peek();
     if (token.kind == Token::Kind::number) {
       Criterion result = made(Op::number, reader_.take());
@@ -309,18 +308,6 @@ class CriterionReader {
     }
   }
 
-  /// `x_coord-3`, `2/3`: signs may stand in words, but here they are signs.
-  void cut_word() {
-    const Token& token = reader_.peek();
-    if (token.kind != Token::Kind::word) return;
-    // A number may have a sign of its own, in its exponent.
-    double number = 0;
-    const char* begin = token.text.data();
-    const auto [rest, error] = std::from_chars(begin, begin + token.text.size(), number);
-    const std::size_t at = rest > begin ? static_cast<std::size_t>(rest - begin) : token.text.find_first_of("-/", 1);
-    if (at < token.text.size() && (token.text[at] == '-' || token.text[at] == '/')) reader_.split(at);
-  }
-
   Criterion attribute() {
     const Token token = reader_.peek();
     std::vector<Keyword> words;
@@ -356,6 +343,7 @@ class CriterionReader {
   /// "shape" when none is said; the metric's words joined by underscores.
   std::string metric_name() {
     Metric found = Metric::shape;
+    reader_.cut_at_sign();
     const Token token = reader_.peek();
     const auto is_metric = [](const std::string& words) {
       try {
@@ -368,17 +356,20 @@ class CriterionReader {
     const bool keyword =
         token.kind == Token::Kind::word && (same_word(token.text, "of") || same_word(token.text, "in"));
     if (token.kind == Token::Kind::word && !keyword) {
-      const Token& second = reader_.ahead();
-      if (second.kind == Token::Kind::word && is_metric(token.text + " " + second.text)) {
-        found = metric(token.text + " " + second.text);
+      reader_.take();
+      const Token& second = reader_.peek();
+      const std::string tail = second.text.substr(0, second.text.find_first_of("-/"));
+      const std::string two = token.text + " " + tail;
+      if (second.kind == Token::Kind::word && !tail.empty() && is_metric(two)) {
+        reader_.cut_at_sign();
         reader_.take();
+        found = metric(two);
       } else if (is_metric(token.text)) {
         found = metric(token.text);
       } else {
         for (const Metric each : metrics()) reader_.expect(metric_word(each));
-        reader_.fail();
+        reader_.fail(token);
       }
-      reader_.take();
     }
     return metric_word(found);
   }

@@ -90,9 +90,8 @@ std::string help() {
   std::string result = "Commands (words may be cut short; # starts a comment; ; separates commands):\n\n";
   for (const CommandSpec& spec : language())
     if (!spec.syntax.empty()) result += "  " + padded(spec.name, 12) + std::string(spec.summary) + "\n";
-  return result + "  " + padded("help range", 12) + "how to say which entities\n" + "  " +
-         padded("help expr", 12) + "{...}: variables and arithmetic\n" +
-         "\n'help <command>' shows syntax, options and examples.\n";
+  return result + "  " + padded("help range", 12) + "how to say which entities\n" + "  " + padded("help expr", 12) +
+         "{...}: variables and arithmetic\n" + "\n'help <command>' shows syntax, options and examples.\n";
 }
 
 std::string help(std::string_view word) {

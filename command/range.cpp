@@ -83,9 +83,12 @@ RangeItem read_point(Reader& reader) {
 
 /// Words that go on with a range rather than being a name.
 bool belongs_to_range(const Token& token) {
-  for (const auto word : {"except", "in", "common_to", "with", "all", "to", "by", "step", "expand"})
+  for (const auto word : {"in", "with", "all", "to", "by", "expand"})
     if (is_word(token, word)) return true;
-  return false;
+  const auto begins = [&](std::string_view word, std::size_t least) {
+    return token.kind == Token::Kind::word && token.text.size() >= least && begins_word(token.text, word);
+  };
+  return begins("except", 3) || begins("common_to", 6) || begins("step", 3);
 }
 
 bool starts_item(const Reader& reader, bool names, bool first) {
@@ -151,7 +154,7 @@ class RangeReader {
       if (*filter == RangeFilter::Kind::with)
         read.criterion = read_criterion(reader_, kind);
       else if (*filter == RangeFilter::Kind::except)
-        read.terms.push_back(exception(kind, nesting));
+        read.terms.push_back(exception(kind, place, nesting));
       else
         read.terms = terms(nesting + 1);
       range.filters.push_back(std::move(read));
@@ -184,7 +187,7 @@ class RangeReader {
   }
 
   /// What stands behind `except`: ids and names, or the kind again and any range of it.
-  RangeTerm exception(EntityKind kind, int nesting) {
+  RangeTerm exception(EntityKind kind, Place place, int nesting) {
     const bool names = has_names(kind);
     const bool parenthesis = reader_.at_symbol("(") && !starts_point(reader_);
     const Token word = parenthesis ? reader_.ahead() : reader_.peek();
@@ -192,7 +195,7 @@ class RangeReader {
     if (is_word(word, name(kind))) {
       if (parenthesis) reader_.take();
       reader_.take();
-      term.range = range(kind, Place::whole, nesting + 1);
+      term.range = range(kind, parenthesis ? Place::whole : place, nesting + 1);
       if (parenthesis) close_parenthesis(reader_);
       return term;
     }
@@ -238,8 +241,11 @@ class RangeReader {
   bool accept_parenthesis(std::vector<RangeTerm>& terms, int nesting) {
     if (!reader_.at_symbol("(")) return false;
     reader_.take();
+    bool first = true;
     do {
-      if (const auto kind = accept_kind(reader_))
+      const auto kind = accept_kind(reader_, first);
+      first = false;
+      if (kind)
         terms.push_back({*kind, false, range(*kind, Place::whole, nesting + 1)});
       else if (!accept_name(terms))
         reader_.fail();
@@ -331,6 +337,7 @@ RangeTerm read_single(Reader& reader) {
   const auto kind = accept_kind(reader);
   if (!kind) reader.fail();
   RangeTerm term{*kind, false, {}};
+  reader.cut_at_sign();
   term.range.token = reader.peek();
   if (reader.peek().kind == Token::Kind::number)
     term.range.items.push_back(read_ids(reader));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace hextwist {
 namespace {
@@ -84,6 +85,17 @@ void Reader::split(std::size_t length) {
       }
   const auto at = tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(at_));
   tokens_.insert(at, pieces.begin(), pieces.end());
+}
+
+void Reader::cut_at_sign() {
+  const Token& token = peek();
+  if (token.kind != Token::Kind::word) return;
+  // A number may have a sign of its own, in its exponent.
+  double number = 0;
+  const char* begin = token.text.data();
+  const auto [rest, error] = std::from_chars(begin, begin + token.text.size(), number);
+  const std::size_t at = rest > begin ? static_cast<std::size_t>(rest - begin) : token.text.find_first_of("-/", 1);
+  if (at < token.text.size() && (token.text[at] == '-' || token.text[at] == '/')) split(at);
 }
 
 std::optional<std::size_t> Reader::match(std::span<const Keyword> words) {

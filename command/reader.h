@@ -38,6 +38,8 @@ class Reader {
 
   /// Cuts the current token in two behind so many bytes, as if there were a blank: `x_coord-3` in arithmetic.
   void split(std::size_t length);
+  /// The same at the first - or / in a word, where these may only be signs: `x_coord-3`, `2/3`.
+  void cut_at_sign();
   bool at_symbol(std::string_view symbol) const { return peek().kind == Token::Kind::symbol && peek().text == symbol; }
 
   /// Which of the words the current token is: the exact one, else the only one that it is the beginning of.

@@ -47,6 +47,7 @@ Solid sphere(const Command& command) {
 }  // namespace
 
 void do_create(Execution& run) {
+  forget_members(run.state, true);
   SessionState& state = run.state;
   const Item& what = run.command.items.at(1);
   run.stage("create");

@@ -193,7 +193,9 @@ void do_import(Execution& run) {
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, false);
   constexpr std::array<std::string_view, 4> cad = {"geometry", "step", "brep", "iges"};
-  if (std::ranges::find(cad, word.name) != cad.end())
+  const bool is_cad = std::ranges::find(cad, word.name) != cad.end();
+  forget_members(run.state, is_cad || !run.state.has_cad);
+  if (is_cad)
     import_cad(run, file.text);
   else
     import_mesh(run, file.text);

@@ -100,6 +100,7 @@ void do_group(Execution& run);
 void do_help(Execution& run);
 void do_import(Execution& run);
 void do_list(Execution& run);
+void do_named_group(Execution& run);
 void do_node(Execution& run);
 void do_playback(Execution& run);
 void do_quality(Execution& run);
@@ -112,6 +113,10 @@ void do_scheme(Execution& run);
 void do_set(Execution& run);
 void do_smooth(Execution& run);
 void do_undo(Execution& run);
+/// "2 curves, 1 surface"
+std::string members_text(const Selector& selector, const Group& group);
+/// Takes members out of all groups that mean nothing for a new mesh, or drops the groups where the CAD is new too.
+void forget_members(ModelState& state, bool also_cad);
 /// `list undo`.
 void list_undo(Execution& run);
 

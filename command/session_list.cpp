@@ -124,6 +124,8 @@ class Lister {
         return counted(static_cast<std::int64_t>(mesh().node_sets[i].nodes.size()), EntityKind::node);
       case EntityKind::sideset:
         return counted(static_cast<std::int64_t>(mesh().side_sets[i].sides.size()), "side", "sides");
+      case EntityKind::group:
+        return members_text(selector_, selector_.groups[i]);
       default:
         break;
     }

@@ -180,7 +180,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"block 0 hex 1", 7, "block must be a whole number"},
            {"nodeset 1 node", 15, "expected an id"},
            {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
-           {"delete mesh", 8, "expected block, nodeset or sideset"},
+           {"delete mesh", 8, "expected block, nodeset, sideset or group"},
            {"record", 7, "expected stop or a file name in quotes"},
            {"set undo maybe", 10, "expected on, off or limit"},
            {"q volume 1", 1, "'q' is short for quality or quit"},

@@ -1,0 +1,66 @@
+// group: what it collects, and what ranges make of it.
+#include <gtest/gtest.h>
+
+#include "session_fixture.h"
+
+namespace hextwist {
+namespace {
+
+using Fixture = test::Fixture;
+
+TEST(Groups, CollectEntitiesUnderAName) {
+  Fixture f;
+  f.session.run(
+      "create brick x 3 interval 3; group \"rim\" add curve 1 2; group rim add vertex 5; group 1 add curve 3");
+  EXPECT_EQ(f.output.back(), "group 1 'rim': 1 vertex, 3 curves");
+  f.session.run("group 'rim' remove curve 1 9");
+  EXPECT_EQ(f.output.back(), "group 1 'rim': 1 vertex, 2 curves");
+  f.session.run("group rim xor curve 3 4");
+  EXPECT_EQ(f.output.back(), "group 1 'rim': 1 vertex, 2 curves");
+  f.session.run("list curve in rim");
+  EXPECT_TRUE(f.output.back().starts_with("curve 4: "));
+  f.session.run("group rim equals surface 1; list group 1");
+  EXPECT_EQ(f.output.back(), "group 1 'rim': 1 surface");
+  f.session.run("group other add hex 1; list group \"o*\"");
+  EXPECT_EQ(f.output.back(), "group 2 'other': 1 hex");
+  f.session.run("delete group rim");
+  EXPECT_EQ(f.error("list curve in rim"), "nothing is named 'rim'; there are 'brick', 'other'");
+}
+
+TEST(Groups, AreUndoneAndForgottenWithTheirModel) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3; group a add curve 1; group a add curve 2; undo; list group 1");
+  EXPECT_EQ(f.output.back(), "group 1 'a': 1 curve");
+  f.session.run("redo; list group 1");
+  EXPECT_EQ(f.output.back(), "group 1 'a': 2 curves");
+  f.session.run("create brick x 3 interval 3");
+  EXPECT_EQ(f.error("list group 1"), "there are no groups");
+  f.session.run("group a add curve 1; reset");
+  EXPECT_EQ(f.error("list group all"), "there are no groups");
+}
+
+TEST(Groups, MembersThatAreGoneCountNoLonger) {
+  Fixture f;
+  f.session.run(
+      "create brick x 3 interval 3; group a add hex 1 14; group a add edge 1; group a add face 1; group a add node 64; "
+      "refine hex 14; list group 1");
+  EXPECT_EQ(f.output.back(), "group 1 'a': 1 node, 1 edge, 1 face, 1 hex (1 more gone)");
+  f.session.run("undo; list group 1");
+  EXPECT_EQ(f.output.back(), "group 1 'a': 1 node, 1 edge, 1 face, 2 hexes");
+  f.session.run("refine node in a; check");
+  EXPECT_GT(f.session.meshed().mesh.n_hexes(), 27);
+}
+
+TEST(Groups, ErrorsSayWhatIsMissing) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  EXPECT_EQ(f.error("group 3 add curve 1"),
+            "there is no group 3; a new one is made by its name: group \"name\" add ...");
+  EXPECT_EQ(f.error("group \"\" add curve 1"), "this name is empty");
+  EXPECT_EQ(f.error("group b remove curve 1"), "no group is named 'b'");
+  EXPECT_EQ(f.error("group b add curve 99"), "curve 99 does not exist; curves are 1 to 12");
+  EXPECT_EQ(f.error("list group 1"), "there are no groups");
+}
+
+}  // namespace
+}  // namespace hextwist

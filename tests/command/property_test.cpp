@@ -1,0 +1,358 @@
+// Properties of the whole language, tried on random sentences made from its own tables.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "hextwist/command/braces.h"
+#include "hextwist/command/command_error.h"
+#include "hextwist/command/reader.h"
+#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/validate.h"
+#include "range_fixture.h"
+#include "sentences.h"
+#include "session_fixture.h"
+#include "support/association_checkers.h"
+#include "support/checkers.h"
+
+namespace hextwist {
+namespace {
+
+unsigned new_seed() {
+  const unsigned seed = std::random_device{}();
+  testing::Test::RecordProperty("seed", static_cast<int>(seed));
+  return seed;
+}
+
+std::vector<const CommandSpec*> commands() {
+  std::vector<const CommandSpec*> result;
+  for (const CommandSpec& spec : language())
+    if (!spec.syntax.empty()) result.push_back(&spec);
+  return result;
+}
+
+Command parsed(std::string_view text) {
+  const auto statements = split_statements(text);
+  if (statements.size() != 1) throw Error("not one statement: " + std::string(text));
+  return parse(statements[0]);
+}
+
+bool is_kind(std::string_view word) {
+  for (int k = 0; k < n_entity_kinds; ++k)
+    if (same_word(word, name(static_cast<EntityKind>(k)))) return true;
+  return false;
+}
+
+/// Every sentence parses, what is printed is a fixed point, and so are its words cut short.
+void check_fixed_points(int n_per_command) {
+  const unsigned seed = new_seed();
+  test::Sentences sentences(seed);
+  for (const CommandSpec* spec : commands())
+    for (int i = 0; i < n_per_command; ++i) {
+      const std::string text = sentences.sentence(*spec);
+      SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text);
+      std::string once;
+      try {
+        once = to_string(parsed(text));
+        ASSERT_EQ(to_string(parsed(once)), once);
+      } catch (const Error& error) {
+        FAIL() << once << "\n" << error.what();
+      }
+      // Some word of it in other letters; or shorter, which either means the same or is refused.
+      const Statement statement = split_statements(text)[0];
+      const auto word =
+          statement.tokens[static_cast<std::size_t>(sentences.below(static_cast<int>(statement.tokens.size()) - 1))];
+      const Command command = parse(statement);
+      const bool of_grammar = std::ranges::any_of(
+          command.items, [&](const Item& item) { return item.is_word && item.token.offset == word.offset; });
+      // Within ranges any word can be a name. scaled_jacobian is understood in full only, its beginning is another word.
+      const bool joined = word.text.find('_') != std::string::npos &&
+                          std::ranges::any_of(metrics(), [&](Metric metric) {
+                            std::string spelled = name(metric);
+                            std::ranges::replace(spelled, ' ', '_');
+                            return same_word(spelled, word.text);
+                          });
+      if (!of_grammar || joined) continue;
+      std::string other = text;
+      for (std::size_t k = 0; k < word.length; ++k)
+        other[word.offset + k] = static_cast<char>(std::toupper(static_cast<unsigned char>(other[word.offset + k])));
+      ASSERT_EQ(to_string(parsed(other)), once) << other;
+      other.erase(word.offset + 1 + static_cast<std::size_t>(sentences.below(static_cast<int>(word.length))),
+                  std::string::npos);
+      const std::string cut = other.substr(word.offset);
+      if (is_kind(cut)) continue;  // node is another word than nodeset
+      other += text.substr(word.offset + word.length);
+      try {
+        ASSERT_EQ(to_string(parsed(other)), once) << other;
+      } catch (const CommandError& error) {
+        ASSERT_GE(error.column(), 1);
+      }
+    }
+}
+
+TEST(Properties, WhatIsPrintedIsAFixedPointForEveryCommand) {
+  check_fixed_points(300);
+}
+TEST(SlowProperties, WhatIsPrintedIsAFixedPointForEveryCommand) {
+  check_fixed_points(20000);
+}
+
+/// What a range chooses, or its error's message.
+std::string chosen(const test::RangeFixture& f, DerivedTopology& topology, const std::string& text) {
+  const Selector selector{f.meshed, topology, f.groups};
+  const Command command = parsed("list " + text);
+  const Item& item = *command.find("range");
+  std::vector<std::string> notices;
+  std::string result;
+  try {
+    for (const Index i : select(selector, command.statement, item.kind, item.range, notices))
+      result += std::to_string(i) + " ";
+  } catch (const CommandError& error) {
+    EXPECT_GE(error.column(), 1);
+    return error.message();
+  }
+  return result;
+}
+
+void check_meaning(int n) {
+  const unsigned seed = new_seed();
+  test::Sentences sentences(seed);
+  sentences.max_id = 8;
+  test::RangeFixture f;
+  f.groups = {{1, "left", {}}, {4, "rim2", {}}};
+  f.groups[0].members[static_cast<int>(EntityKind::curve)] = {{1}, {2}};
+  f.groups[1].members[static_cast<int>(EntityKind::hex)] = {{3}, {70}};
+  DerivedTopology topology(f.meshed.mesh);
+  int n_good = 0;
+  for (int i = 0; i < n; ++i) {
+    const auto kind = static_cast<EntityKind>(sentences.below(n_entity_kinds));
+    const std::string text = std::string(name(kind)) + " " + sentences.range(kind);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text);
+    const std::string command = to_string(parsed("list " + text));
+    const std::string first = chosen(f, topology, text);
+    ASSERT_EQ(first, chosen(f, topology, command.substr(5))) << command;
+    n_good += !first.empty() && first.find_first_not_of("0123456789 ") == std::string::npos;
+  }
+  EXPECT_GT(n_good, n / 10);
+}
+
+TEST(Properties, ARangeMeansTheSameAsWhatIsPrintedOfIt) {
+  check_meaning(2000);
+}
+TEST(SlowProperties, ARangeMeansTheSameAsWhatIsPrintedOfIt) {
+  check_meaning(100000);
+}
+
+/// Everything that a command may change.
+struct Snapshot {
+  std::shared_ptr<const MeshedModel> kept;
+  Mesh mesh;
+  Association association;
+  const Model* model;
+
+  explicit Snapshot(const Session& session)
+      : mesh(session.meshed().mesh), association(session.meshed().association), model(session.meshed().model.get()) {}
+  testing::AssertionResult same(const Session& session) const {
+    if (session.meshed().model.get() != model) return testing::AssertionFailure() << "another model";
+    if (!(session.meshed().mesh == mesh)) return testing::AssertionFailure() << "another mesh";
+    return test::same_owners(association, session.meshed().association);
+  }
+};
+
+testing::AssertionResult promises_kept(const Session& session) {
+  const auto& [mesh, model, association] = session.meshed();
+  if (mesh.n_hexes() == 0) return testing::AssertionSuccess();
+  for (const auto& result :
+       {test::conformal(mesh), test::uninverted(mesh), test::sets_valid(mesh),
+        test::complete(mesh, association, *model), test::on_model(mesh, association, *model, 1e-7)})
+    if (!result) return result;
+  for (const Violation& violation : validate(mesh))
+    if (!is_warning(violation.kind)) return testing::AssertionFailure() << violation.text;
+  const auto wrong = check_association(mesh, association, *model);
+  return wrong.empty() ? testing::AssertionSuccess() : testing::AssertionFailure() << wrong.front();
+}
+
+/// Values that keep commands small and files in one place.
+test::Sentences::ValueText small_values(test::Sentences& sentences, const std::filesystem::path& folder) {
+  return [&sentences, folder](const CommandSpec&, const ArgumentSpec& argument) -> std::string {
+    const auto upto = [&](int low, int high) { return std::to_string(low + sentences.below(high - low + 1)); };
+    for (const std::string_view name : {"n", "n_y", "n_z"})
+      if (argument.name == name) return upto(1, 3);
+    for (const std::string_view name : {"width", "depth", "height", "radius"})
+      if (argument.name == name) return upto(1, 3);
+    if (argument.name == "splits") return upto(1, 2);
+    if (argument.name == "layers") return upto(0, 1);
+    if (argument.name == "sweeps") return upto(0, 4);
+    if (argument.name == "steps" || argument.name == "id" || argument.name == "count") return upto(1, 2);
+    if (argument.name == "growth") return "1";
+    if (argument.name == "limit") return "0.001";
+    if (argument.kind == ArgumentSpec::Kind::file) {
+      static const std::vector<std::string> files = {"a.msh", "b.e", "c.inp", "d.mesh", "e.vtu", "f.step", "g.brep"};
+      return "\"" + (folder / files[static_cast<std::size_t>(sentences.below(7))]).string() + "\"";
+    }
+    return "";
+  };
+}
+
+void check_sessions(int n_sessions, int n_commands) {
+  const unsigned seed = new_seed();
+  test::Sentences sentences(seed);
+  sentences.value_text = small_values(sentences, test::folder());
+  sentences.max_depth = 2;
+  const std::set<std::string_view> left_out = {"quit", "exit", "playback", "record", "help"};
+  std::vector<const CommandSpec*> chosen;
+  for (const CommandSpec* spec : commands()) {
+    if (left_out.contains(spec->name)) continue;
+    for (int weight = spec->name == "refine"                            ? 8
+                      : spec->name == "reset" || spec->name == "create" ? 0
+                                                                        : 1;
+         weight > 0; --weight)
+      chosen.push_back(spec);
+  }
+  int n_done = 0, n_refused = 0;
+  for (int i = 0; i < n_sessions; ++i) {
+    Session session;
+    std::string journal;
+    const auto run = [&](const std::string& text) {
+      journal += text + "\n";
+      SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + journal);
+      const Snapshot before(session);
+      try {
+        session.run(text);
+        ++n_done;
+        ASSERT_TRUE(promises_kept(session));
+      } catch (const CommandError& error) {
+        ++n_refused;
+        ASSERT_GE(error.line(), 1);
+        ASSERT_FALSE(error.message().empty());
+        ASSERT_TRUE(before.same(session)) << error.what();
+      }
+    };
+    static const std::vector<std::string> starts = {
+        "create brick x 2 y 1 interval 3 2 2", "create brick x 1 interval 3",
+        "create cylinder radius 1 height 2 interval 1", "create sphere radius 1 interval 1"};
+    run(starts[static_cast<std::size_t>(sentences.below(4))]);
+    if (sentences.one_in(3)) {  // the same mesh without its CAD
+      const std::string file = (test::folder() / "start.msh").string();
+      run("export mesh \"" + file + "\" overwrite");
+      run("reset");
+      run("import mesh \"" + file + "\"");
+    }
+    for (int k = 0; k < n_commands && !testing::Test::HasFatalFailure(); ++k) {
+      const CommandSpec& spec = *chosen[static_cast<std::size_t>(sentences.below(static_cast<int>(chosen.size())))];
+      run(sentences.sentence(spec));
+      if (session.meshed().mesh.n_hexes() > 1500 || session.meshed().mesh.n_hexes() == 0) break;
+    }
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GT(n_done, (n_done + n_refused) / 5) << "most commands are refused";
+}
+
+TEST(Properties, RandomCommandsOnRandomModelsKeepEveryPromise) {
+  check_sessions(12, 12);
+}
+TEST(SlowProperties, RandomCommandsOnRandomModelsKeepEveryPromise) {
+  check_sessions(150, 15);
+}
+
+/// Every word and sign of the language.
+std::vector<std::string> vocabulary() {
+  std::set<std::string> words = {
+      "to",   "by",      "step",  "all",   "except", "in",   "common_to", "with",
+      "at",   "ordinal", "and",   "or",    "not",    "of",   "tolerance", "(",
+      ")",    ",",       "<",     "<=",    "<>",     "=",    "*",         "+",
+      "-",    "{",       "}",     "{1}",   "#{a=2}", "{a}",  "1",         "2.5",
+      "-3",   "1e99",    "\"x\"", "'",     "\"",     ";",    "\n",        "\\",
+      "\\\n", "#",       "$",     "a.msh", "\xff",   "\x01", "é",         std::string(1, '\0')};
+  const std::function<void(const Pattern&)> collect = [&](const Pattern& pattern) {
+    for (const PatternNode& node : pattern) {
+      if (node.kind == PatternNode::Kind::word) words.insert(node.name);
+      for (const Pattern& choice : node.choices) collect(choice);
+    }
+  };
+  for (const CommandSpec* spec : commands()) collect(compile_pattern(spec->syntax));
+  for (const AttributeSpec& spec : attributes()) words.insert(std::string(spec.word));
+  return {words.begin(), words.end()};
+}
+
+std::string garbage(test::Sentences& sentences, const std::vector<std::string>& words) {
+  std::string text;
+  const auto specs = commands();
+  if (sentences.one_in(2)) {
+    text = sentences.sentence(*specs[static_cast<std::size_t>(sentences.below(static_cast<int>(specs.size())))]);
+    for (int n = 1 + sentences.below(3); n > 0; --n) {
+      const auto at = static_cast<std::size_t>(sentences.below(static_cast<int>(text.size()) + 1));
+      switch (sentences.below(4)) {
+        case 0:
+          text.erase(at, 1 + static_cast<std::size_t>(sentences.below(4)));
+          break;
+        case 1:
+          text.insert(at, 1, static_cast<char>(sentences.below(256)));
+          break;
+        case 2:
+          text.insert(at, " " + words[static_cast<std::size_t>(sentences.below(static_cast<int>(words.size())))] + " ");
+          break;
+        default:
+          text = text.substr(at) + " " + text.substr(0, at);
+      }
+      if (text.empty()) text = "x";
+    }
+    return text;
+  }
+  for (int n = 1 + sentences.below(14); n > 0; --n) {
+    text += words[static_cast<std::size_t>(sentences.below(static_cast<int>(words.size())))];
+    if (!sentences.one_in(4)) text += ' ';
+  }
+  return text;
+}
+
+void check_garbage(int n) {
+  const unsigned seed = new_seed();
+  test::Sentences sentences(seed);
+  const auto words = vocabulary();
+  Session session;
+  session.run("create brick x 1 interval 2");
+  const MeshedModel* meshed = &session.meshed();
+  const Mesh mesh = meshed->mesh;
+  int n_wrong = 0;
+  for (int i = 0; i < n; ++i) {
+    const std::string text = garbage(sentences, words);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + testing::PrintToString(text));
+    completions(text);
+    for (const Statement& statement : split_statements(text)) {
+      Variables variables;
+      std::string once;
+      try {
+        Statement said = statement;
+        if (has_braces(statement)) {
+          Expanded expanded = expand(statement, variables);
+          if (!expanded.statement) continue;
+          said = std::move(*expanded.statement);
+        }
+        once = to_string(parse(said));
+      } catch (const CommandError& error) {
+        ++n_wrong;
+        ASSERT_GE(error.line(), 1);
+        ASSERT_GE(error.column(), 1);
+        ASSERT_FALSE(error.message().empty());
+        ASSERT_NE(std::string(error.what()).find('^'), std::string::npos);
+        ASSERT_THROW(session.run(text_of(statement)), CommandError);
+        ASSERT_EQ(&session.meshed(), meshed);
+        continue;
+      }
+      ASSERT_EQ(to_string(parsed(once)), once);
+    }
+  }
+  EXPECT_TRUE(session.meshed().mesh == mesh);
+  EXPECT_GT(n_wrong, n / 2);
+}
+
+TEST(Properties, GarbageGetsAnErrorWithAPlaceAndChangesNothing) {
+  check_garbage(8000);
+}
+TEST(SlowProperties, GarbageGetsAnErrorWithAPlaceAndChangesNothing) {
+  check_garbage(500000);
+}
+
+}  // namespace
+}  // namespace hextwist
