@@ -148,6 +148,9 @@ void do_group(Execution& run) {
   }
   const Item* text = command.find("text");
   if (text && text->text.empty()) throw error_at(command.statement, text->token, "this name is empty");
+  if (!command.find("id"))
+    throw error_at(command.statement, command.items.at(1).token,
+                   "one " + std::string(name(kind)) + " at a time; 'all' goes with 'element type' only");
   const int id = static_cast<int>(command.find("id")->number);
   Mesh lists = lists_of(mesh);
   std::string line;

@@ -65,13 +65,14 @@ void check_fixed_points(int n_per_command) {
       const Command command = parse(statement);
       const bool of_grammar = std::ranges::any_of(
           command.items, [&](const Item& item) { return item.is_word && item.token.offset == word.offset; });
-      // Within ranges any word can be a name. scaled_jacobian is understood in full only, its beginning is another word.
-      const bool joined = word.text.find('_') != std::string::npos &&
-                          std::ranges::any_of(metrics(), [&](Metric metric) {
-                            std::string spelled = name(metric);
-                            std::ranges::replace(spelled, ' ', '_');
-                            return same_word(spelled, word.text);
-                          });
+      // Within ranges any word can be a name. scaled_jacobian is understood in full only, its beginning is another
+      // word.
+      const bool joined =
+          word.text.find('_') != std::string::npos && std::ranges::any_of(metrics(), [&](Metric metric) {
+            std::string spelled = name(metric);
+            std::ranges::replace(spelled, ' ', '_');
+            return same_word(spelled, word.text);
+          });
       if (!of_grammar || joined) continue;
       std::string other = text;
       for (std::size_t k = 0; k < word.length; ++k)

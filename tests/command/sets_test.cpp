@@ -177,5 +177,13 @@ TEST(Sets, AreRefinedWithTheMeshAndWrittenInEveryFormat) {
   }
 }
 
+TEST(Sets, AllBlocksAtOnceHaveAnElementTypeOnly) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  EXPECT_EQ(f.error("block all add hex 1"), "one block at a time; 'all' goes with 'element type' only");
+  EXPECT_EQ(f.error("block all name \"a\""), "one block at a time; 'all' goes with 'element type' only");
+  f.session.run("block all element type hex8");
+}
+
 }  // namespace
 }  // namespace hextwist
