@@ -250,5 +250,25 @@ TEST(Ranges, GroupsStandForTheirMembers) {
   EXPECT_EQ(f.error("curve in group 1"), "16: there are no groups");
 }
 
+// The ways in which journals of today's tools say it.
+TEST(Ranges, AreReadAsJournalsWriteThem) {
+  Fixture f;
+  f.groups = {{1, "all_vol", {}}, {2, "gaps", {}}};
+  f.groups[0].members[static_cast<int>(EntityKind::volume)] = {{1}};
+  f.groups[1].members[static_cast<int>(EntityKind::surface)] = {{1}, {2}};
+  EXPECT_EQ(f.ids("surface in volume in all_vol with x_coord < 1e-3"), (Ids{1}));
+  EXPECT_EQ(f.ids("surface in gaps with y_coord > -0.001 and x_coord>3"), (Ids{2}));
+  EXPECT_EQ(f.n("edge in surf all with Z_coord > 1.9"), 31u);
+  EXPECT_EQ(f.n("hex in node in face in block left with Z_coord < 1"), 6u);
+  EXPECT_EQ(f.n("node in all_vol expand with z_coord = 0 tolerance 0.001"), 20u);
+  EXPECT_EQ(f.n("node with z_coord > 0 and y_max <= 1.5 and x_max > 0.5"), 16u);
+  EXPECT_EQ(f.n("face all except face in block 10 20"), f.n("face all") - 21);
+  EXPECT_EQ(f.n("curve all except curve in surf 1"), 8u);
+  EXPECT_EQ(f.ids("surface ( at 2 1.5 2 ordinal 1 ordered )"), (Ids{6}));
+  EXPECT_EQ(f.n("node in hex in face in surface 2 5"), 48u);
+  EXPECT_EQ(f.n("hex with not block_assigned"), 20u);
+  EXPECT_EQ(f.n("surface with area < 9 or with is_planar = false"), 4u);
+}
+
 }  // namespace
 }  // namespace hextwist
