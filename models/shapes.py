@@ -205,29 +205,30 @@ def plate_quarter():
 
 # --- round things -------------------------------------------------------------------------------------------------
 
+def round_disk(r, core, n, rings):
+    """O-grid: a square of n x n with sides bulged a little, four sectors around it."""
+    swell = lambda s: 1 + 0.22 * (1 - s**2)
+
+    def side(degrees):
+        turn = math.radians(degrees)
+        return lambda u: (core * (math.cos(turn) * swell(2 * u - 1) - math.sin(turn) * (2 * u - 1)),
+                          core * (math.sin(turn) * swell(2 * u - 1) + math.cos(turn) * (2 * u - 1)))
+    sides = [hx.between(n, rings, side(a), hx.arc(0, 0, r, a - 45, a + 45)) for a in (0, 90, 180, 270)]
+
+    def middle(u, v):
+        x, y = 2 * u - 1, 2 * v - 1
+        return core * x * swell(y), core * y * swell(x)
+    return hx.merged([hx.patch(n, n, middle)] + sides)
+
+
 def cylinder():
     r, h, core = 20, 60, 9
 
     def cad():
         occ().addCylinder(0, 0, 0, 0, 0, h, r)
 
-    def disk():
-        """O-grid: a square with sides bulged a little, four sectors around it."""
-        swell = lambda s: 1 + 0.22 * (1 - s**2)
-
-        def side(degrees):
-            turn = math.radians(degrees)
-            return lambda u: (core * (math.cos(turn) * swell(2 * u - 1) - math.sin(turn) * (2 * u - 1)),
-                              core * (math.sin(turn) * swell(2 * u - 1) + math.cos(turn) * (2 * u - 1)))
-        sides = [hx.between(6, 3, side(a), hx.arc(0, 0, r, a - 45, a + 45)) for a in (0, 90, 180, 270)]
-
-        def middle(u, v):
-            x, y = 2 * u - 1, 2 * v - 1
-            return core * x * swell(y), core * y * swell(x)
-        return hx.merged([hx.patch(6, 6, middle)] + sides)
-
     def mesh():
-        return hx.joined([hx.swept(disk(), 8, lambda x, y, w: (x, y, w * h))])
+        return hx.joined([hx.swept(round_disk(r, core, 6, 3), 8, lambda x, y, w: (x, y, w * h))])
 
     return Shape("cylinder", "O-grid in a single solid: closed rims, seam edge", cad, mesh, pi * r**2 * h,
                  2 * pi * r**2 + 2 * pi * r * h,
@@ -444,6 +445,20 @@ def curved_plate():
 
 # --- irregular and concave ----------------------------------------------------------------------------------------
 
+def quads_by_gmsh(size):
+    """Quads of the current faces, about half of `size` long: Gmsh recombines triangles of that size and cuts again."""
+    for option, value in (("Mesh.Algorithm", 5), ("Mesh.RecombineAll", 1), ("Mesh.RecombinationAlgorithm", 1),
+                          ("Mesh.SubdivisionAlgorithm", 1), ("Mesh.MeshSizeMin", size), ("Mesh.MeshSizeMax", size)):
+        gmsh.option.setNumber(option, value)
+    gmsh.model.mesh.generate(2)
+    tags, points, _ = gmsh.model.mesh.getNodes()
+    kinds, _, nodes = gmsh.model.mesh.getElements(2)
+    assert list(kinds) == [3], "the faces did not become all quads"
+    index = {tag: i for i, tag in enumerate(tags.tolist())}
+    quads = np.array([index[tag] for tag in nodes[0].tolist()]).reshape(-1, 4)
+    return hx.welded(points.reshape(-1, 3)[:, :2], quads)
+
+
 def cam():
     """Outline of two circles and their tangents with a hole in each; quads by Gmsh, swept."""
     big, small, gap, bore, pin, t = 20, 10, 40, 9, 5, 18
@@ -468,17 +483,7 @@ def cam():
     def mesh():
         flat()
         occ().synchronize()
-        for option, value in (("Mesh.Algorithm", 5), ("Mesh.RecombineAll", 1), ("Mesh.RecombinationAlgorithm", 1),
-                              ("Mesh.SubdivisionAlgorithm", 1), ("Mesh.MeshSizeMin", 7), ("Mesh.MeshSizeMax", 7)):
-            gmsh.option.setNumber(option, value)
-        gmsh.model.mesh.generate(2)
-        tags, points, _ = gmsh.model.mesh.getNodes()
-        kinds, _, nodes = gmsh.model.mesh.getElements(2)
-        assert list(kinds) == [3], "the outline did not become all quads"
-        index = {tag: i for i, tag in enumerate(tags.tolist())}
-        quads = np.array([index[tag] for tag in nodes[0].tolist()]).reshape(-1, 4)
-        quads2d = hx.welded(points.reshape(-1, 3)[:, :2], quads)
-        return hx.joined([hx.swept(quads2d, 6, lambda x, y, w: (x, y, w * t))])
+        return hx.joined([hx.swept(quads_by_gmsh(7), 6, lambda x, y, w: (x, y, w * t))])
 
     tangent = math.sqrt(gap**2 - (big - small)**2)
     face = (tangent * (big + small) + big**2 * (pi / 2 + tilt) + small**2 * (pi / 2 - tilt) - pi * (bore**2 + pin**2))
@@ -520,6 +525,72 @@ def notched_cube():
                  groups=[(3, "cube", everything), (0, "inner_corner", box_at(x=16, y=16, z=16))])
 
 
+# --- counterparts of the paper's figures 7, 16 and 17 (./dev paper) -------------------------------------------------
+
+def bent_bar():
+    """Bar of 30 x 65, bent by 111 degrees around an axis 20 away: layers thin out, cells are narrow inside the bend."""
+    inner, outer, height, bend = 20, 50, 65, math.radians(111)
+
+    def cad():
+        face = profile([(inner, 0, 0), ("line", (outer, 0, 0)), ("line", (outer, 0, height)), ("line", (inner, 0, height)),
+                        ("line", (inner, 0, 0))])
+        occ().revolve([(2, face)], 0, 0, 0, 0, 0, 1, bend)
+
+    def mesh():
+        def mapping(u, v, w):
+            r, angle = inner + (outer - inner) * u, bend * (1 - (1 - w)**1.2)
+            return r * np.cos(angle), r * np.sin(angle), height * v
+        return hx.joined([hx.block(6, 13, 16, mapping)])
+
+    section = bend / 2 * (outer**2 - inner**2)
+    return Shape("bent_bar", "swept grid of 6 x 13 x 16, narrow inside the bend; stands for the paper's figure 7", cad, mesh,
+                 section * height, 2 * section + bend * (inner + outer) * height + 2 * (outer - inner) * height,
+                 binary=True, groups=[(3, "bar", everything), (2, "end", box_at(y=0))])
+
+
+def graded_rod():
+    """The disk of the cylinder swept with growing layers."""
+    r, h = 20, 40
+
+    def cad():
+        occ().addCylinder(0, 0, 0, 0, 0, h, r)
+
+    def mesh():
+        return hx.joined([hx.swept(round_disk(r, 10, 6, 3), 10, lambda x, y, w: (x, y, h * w**1.35))])
+
+    return Shape("graded_rod", "O-grid swept with growing layers; stands for the paper's figure 17", cad, mesh,
+                 pi * r**2 * h, 2 * pi * r**2 + 2 * pi * r * h, binary=True,
+                 groups=[(3, "rod", everything), (2, "top", box_at(z=h))])
+
+
+def bearing_plate():
+    """Plate with a hole off its middle: structured ends, unstructured quads by Gmsh between them, swept."""
+    length, width, t, x, y, r = 80, 40, 15, 40, 18, 10
+    ends = [(0, 20), (20, 60), (60, 80)]
+    size = 5  # of the quads, which Gmsh then halves
+
+    def cad():
+        cut(occ().addBox(0, 0, 0, length, width, t), occ().addCylinder(x, y, -1, 0, 0, t + 2, r))
+
+    def mesh():
+        left, middle, right = [occ().addRectangle(x0, 0, 0, x1 - x0, width) for x0, x1 in ends]
+        holed = occ().cut([(2, middle)], [(2, occ().addDisk(x, y, 0, r, r))])[0]
+        occ().fragment(holed, [(2, left), (2, right)])
+        occ().synchronize()
+        for _, face in gmsh.model.getEntities(2):
+            low, _, _, high, _, _ = gmsh.model.getBoundingBox(2, face)
+            if high - low < 30:
+                gmsh.model.mesh.setTransfiniteSurface(face)
+        for _, curve in gmsh.model.getEntities(1):
+            gmsh.model.mesh.setTransfiniteCurve(curve, round(occ().getMass(1, curve) / size) + 1)
+        return hx.joined([hx.swept(quads_by_gmsh(size), 6, lambda x, y, w: (x, y, w * t))])
+
+    face = length * width - pi * r**2
+    return Shape("bearing_plate", "swept quads, structured at the ends, unstructured around a hole; stands for the paper's "
+                 "figure 16", cad, mesh, face * t, 2 * face + 2 * (length + width) * t + 2 * pi * r * t, binary=True,
+                 groups=[(3, "plate", everything), (2, "hole", box_at(x=(x - r, x + r), y=(y - r, y + r)))])
+
+
 def all_models():
     return [bracket(), bracket_fillet(), plate_hole(), plate_quarter(), cylinder(), sphere(), inclusion(), pipe_tee(),
-            ring_twist(), curved_plate(), cam(), l_block(), notched_cube()]
+            ring_twist(), curved_plate(), cam(), l_block(), notched_cube(), bent_bar(), graded_rod(), bearing_plate()]

@@ -86,11 +86,20 @@ std::vector<std::uint8_t> scattered_nodes(std::span<const Hex> hexes, std::span<
   return part;
 }
 
-/// A smaller part of a marking, nearer to having templates everywhere.
+/// Corners that are marked with all three of their neighbours: of six or seven marked corners those on the ridges.
+int ridge_corners(int mask) {
+  int ridge = 0;
+  for (int c = 0; c < 8; ++c)
+    if (mask >> c & 1 && n_bits(marked_neighbours(mask, c)) == 3) ridge |= 1 << c;
+  return ridge;
+}
+
+/// A smaller part of a marking, nearer to having templates everywhere. Where a hex has no template, the ridges between
+/// marked faces go with the corners in which they end; one by one they would take a pass for every node.
 std::vector<std::uint8_t> part_to_go_first(std::span<const Hex> hexes, std::span<const std::uint8_t> marked,
                                            std::span<const Index> without) {
   const std::vector<Index> component = marked_components(hexes, marked);
-  std::vector<std::uint8_t> part(marked.size(), 0), whole(marked.size(), 0);
+  std::vector<std::uint8_t> part(marked.size(), 0), whole(marked.size(), 0), has_meeting(marked.size(), 0);
   for (const Index h : without) {
     const Hex& hex = hexes[h];
     const int mask = corner_mask(hex, marked);
@@ -105,8 +114,16 @@ std::vector<std::uint8_t> part_to_go_first(std::span<const Hex> hexes, std::span
       continue;
     }
     const int first = meeting_corners(hex, mask);
+    has_meeting[lowest] = 1;
     for (int c = 0; c < 8; ++c)
       if (first >> c & 1) part[hex[c]] = 1;
+  }
+  for (const Hex& hex : hexes) {
+    const int mask = corner_mask(hex, marked);
+    if (mask == 255 || n_bits(mask) < 6 || !has_enclosing_template(mask)) continue;
+    const int ridge = ridge_corners(mask);
+    for (int c = 0; c < 8; ++c)
+      if (ridge >> c & 1 && has_meeting[component[hex[c]]]) part[hex[c]] = 1;
   }
   for (std::size_t n = 0; n < part.size(); ++n)
     if (marked[n] && whole[component[n]]) part[n] = 1;

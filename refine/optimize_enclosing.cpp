@@ -123,13 +123,23 @@ Mesh result_of(const Case& one, const std::shared_ptr<const SplitTable>& table, 
   return refined(enclosed, trisect_table(), combination_codes(enclosed, one.target, target_edges(one.target)));
 }
 
-/// The smallest shapes of all cases, multiplied; 0 where a node comes too near to the skin of its hex.
-double worth(const EnclosePlaces& places, const std::vector<Case>& all, bool combination) {
+double smallest_shape(const Case& one, const std::shared_ptr<const SplitTable>& table, bool combination) {
+  return summarize(quality(Metric::shape, result_of(one, table, combination))).min;
+}
+
+/// The smallest shapes of all cases, multiplied; 0 where one is below its start, or a node too near to the skin of its
+/// hex.
+double worth(const EnclosePlaces& places, const std::vector<Case>& all, const std::vector<double>& start,
+             bool combination) {
   for (const double reach : {places.marked.face, places.marked.inside, places.unmarked.face, places.unmarked.inside})
     if (reach < least_reach || reach > 1 - least_reach) return 0;
   const auto table = make_enclose_table(places);
   double product = 1;
-  for (const Case& one : all) product *= summarize(quality(Metric::shape, result_of(one, table, combination))).min;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double smallest = smallest_shape(all[i], table, combination);
+    if (smallest < start[i] - 1e-6) return 0;
+    product *= smallest;
+  }
   return product;
 }
 
@@ -145,14 +155,13 @@ int main(int argc, char** argv) {
   const auto print = [&](const char* when) {
     const auto table = make_enclose_table(places);
     std::fprintf(stderr, "%s:", when);
-    for (const Case& one : all) {
-      const Summary shape = summarize(quality(Metric::shape, result_of(one, table, combination)));
-      std::fprintf(stderr, "  %s %.4f", one.name, shape.min);
-    }
+    for (const Case& one : all) std::fprintf(stderr, "  %s %.4f", one.name, smallest_shape(one, table, combination));
     std::fprintf(stderr, "\n");
   };
   print("before");
-  double best = worth(places, all, combination);
+  std::vector<double> start;
+  for (const Case& one : all) start.push_back(smallest_shape(one, make_enclose_table(places), combination));
+  double best = worth(places, all, start, combination);
   for (double step = 0.08; step > 1e-4;) {
     bool better = false;
     // Along each number, and along pairs of them: the smallest of several shapes has ridges.
@@ -162,7 +171,7 @@ int main(int argc, char** argv) {
           const EnclosePlaces before = places;
           *free[i / 4] += move;
           if (i / 4 != i % 4) *free[i % 4] += other;
-          const double now = worth(places, all, combination);
+          const double now = worth(places, all, start, combination);
           better |= now > best;
           if (now > best)
             best = now;
@@ -172,6 +181,6 @@ int main(int argc, char** argv) {
     if (!better) step /= 2;
   }
   print("after");
-  std::printf("{{%.6f, %.4f, %.4f}, {%.6f, %.4f, %.4f}}\n", places.marked.edge, places.marked.face,
+  std::printf("{{%.17g, %.4f, %.4f}, {%.17g, %.4f, %.4f}}\n", places.marked.edge, places.marked.face,
               places.marked.inside, places.unmarked.edge, places.unmarked.face, places.unmarked.inside);
 }

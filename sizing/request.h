@@ -57,9 +57,9 @@ struct Request {
   std::optional<int> depth = std::nullopt;
   Method method = Method::automatic;
   Concave concave = Concave::templates;
-  bool smooth = false;   ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
+  bool smooth = false;            ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
   std::vector<Index> fixed = {};  ///< nodes (0-based) that neither smoothing nor the repair of children moves
-  bool dry_run = false;  ///< count only: the result holds no mesh
+  bool dry_run = false;           ///< count only: the result holds no mesh
 };
 
 /// Seconds per stage of a refinement, in the order run.

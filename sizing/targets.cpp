@@ -140,6 +140,54 @@ CombinationTarget sub_element_target(const MeshedModel& input, const Request& re
   return target;
 }
 
+namespace {
+
+/// The hex that was cut: every corner is a corner of one of its children.
+Hex parent_of(const CutHex& cut, const HexTemplate& parts, const Mesh& refined) {
+  Hex parent{};
+  for (std::size_t i = 0; i < parts.children.size(); ++i)
+    for (int c = 0; c < n_hex_corners; ++c)
+      if (const LocalNode local = parts.children[i][c]; local < n_hex_corners)
+        parent[local] = refined.hexes[cut.first_child + static_cast<Index>(i)][c];
+  return parent;
+}
+
+/// Children of the faces that were cut, the others as they are. (Lineage::faces has only those with nodes inside.)
+void carry_faces(const std::vector<Quad>& faces, const Lineage& lineage, const Mesh& refined,
+                 std::vector<Quad>& carried) {
+  const auto sorted = [](Quad quad) {
+    std::ranges::sort(quad);
+    return quad;
+  };
+  std::vector<std::pair<Quad, bool>> wanted;  // nodes ascending; children found
+  std::vector<std::uint8_t> has_target(refined.points.size(), 0);
+  for (const Quad& quad : faces) {
+    wanted.emplace_back(sorted(quad), false);
+    for (const Index n : quad) has_target[n] = 1;
+  }
+  std::ranges::sort(wanted);
+  const auto find = [&](const Quad& quad) {
+    const auto found = std::ranges::lower_bound(wanted, sorted(quad), {}, &std::pair<Quad, bool>::first);
+    return found != wanted.end() && found->first == sorted(quad) ? found : wanted.end();
+  };
+  for (const CutHex& cut : lineage.hexes) {
+    const HexTemplate& parts = lineage.table->hex(cut.code);
+    const Hex parent = parent_of(cut, parts, refined);
+    if (std::ranges::count_if(parent, [&](Index n) { return has_target[n] != 0; }) < 4) continue;
+    for (int f = 0; f < n_hex_faces; ++f) {
+      const auto found = find(face_nodes(parent, f));
+      if (found == wanted.end() || found->second) continue;
+      found->second = true;
+      for (const ChildSide& child : parts.side[f])
+        carried.push_back(face_nodes(refined.hexes[cut.first_child + child.child], child.face));
+    }
+  }
+  for (const Quad& quad : faces)
+    if (!find(quad)->second) carried.push_back(quad);
+}
+
+}  // namespace
+
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined) {
   CombinationTarget carried;
   carried.nodes = target.nodes;
@@ -159,19 +207,7 @@ CombinationTarget carried_target(const CombinationTarget& target, const Lineage&
       from = to;
     }
   }
-  const auto key = [](const CutFace& face) { return std::array{face.corners[0], face.corners[3], face.corners[1]}; };
-  for (const Quad& quad : target.faces) {
-    const int symmetry = face_symmetry(quad);
-    const auto corner = [&](int k) { return quad[turned_corner(symmetry, k)]; };
-    const auto found = std::ranges::lower_bound(lineage.faces, std::array{corner(0), corner(3), corner(1)}, {}, key);
-    if (found == lineage.faces.end() || key(*found) != std::array{corner(0), corner(3), corner(1)}) {
-      carried.faces.push_back(quad);
-      continue;
-    }
-    const auto cut = std::ranges::lower_bound(lineage.hexes, found->side.hex, {}, &CutHex::hex);
-    for (const ChildSide& child : lineage.table->hex(cut->code).side[found->side.face])
-      carried.faces.push_back(face_nodes(refined.hexes[cut->first_child + child.child], child.face));
-  }
+  carry_faces(target.faces, lineage, refined, carried.faces);
   finish(carried);
   return carried;
 }

@@ -206,10 +206,9 @@ TEST(one_into_eight, a_structured_and_an_unstructured_region_in_one_request) {
   for (const std::string& line : result.report.notices) notices += line + "\n";
   EXPECT_NE(notices.find("2 hexes around hex 1: one into eight (0 irregular edges inside"), std::string::npos)
       << notices;
-  EXPECT_NE(
-      notices.find("8 hexes around hex 41: one into 27 (0 irregular edges inside, 1 of 9 sheets crosses itself): "
-                   "only 0 of its hexes could be cut in eight exactly"),
-      std::string::npos)
+  EXPECT_NE(notices.find("8 hexes around hex 41: one into 27 (0 irregular edges inside, 1 of 9 sheets crosses itself): "
+                         "only 0 of its hexes could be cut in eight exactly"),
+            std::string::npos)
       << notices;
 }
 
