@@ -31,8 +31,8 @@ struct PaperResult {
   MeshedModel input;
   RefineResult refined;  ///< before smoothing
 };
-/// Reads the model, refines it, and smooths the result: all of it, nodes sliding on the CAD, for a higher smallest shape
-/// and an average that rises by 0.02 where it can.
+/// Reads the model, refines it, and smooths the result: all of it, nodes sliding on the CAD, for a higher smallest
+/// shape and an average that rises by 0.02 where it can.
 PaperResult run(const PaperCase& paper_case);
 
 }  // namespace hextwist::test
