@@ -28,6 +28,7 @@ using namespace hextwist;
 
 constexpr int n = 4;  // hexes per direction
 constexpr double least_reach = 0.25;
+constexpr double least_shape = 0.45;  // of a template in the unit cube: 0.45 at the start
 Index node(int i, int j, int k) {
   return i + (n + 1) * (j + (n + 1) * k);
 }
@@ -129,13 +130,29 @@ double smallest_shape(const Case& one, const std::shared_ptr<const SplitTable>& 
   return summarize(quality(Metric::shape, result_of(one, table, combination))).min;
 }
 
-/// The smallest shapes of all cases, multiplied; 0 where one is below its start, or a node too near to the skin of its
-/// hex.
+/// The smallest shape of all hexes of all templates in the unit cube.
+double smallest_shape(const SplitTable& table) {
+  double smallest = 1;
+  for (int mask = 1; mask < 255; ++mask) {
+    if (!has_enclosing_template(mask)) continue;
+    const std::vector<Vec3> places = table.positions(mask);
+    for (const auto& child : table.hex(mask).children) {
+      std::array<Vec3, 8> corners;
+      for (int c = 0; c < 8; ++c) corners[c] = places[child[c]];
+      smallest = std::min(smallest, quality(Metric::shape, corners));
+    }
+  }
+  return smallest;
+}
+
+/// The smallest shapes of all cases, multiplied; 0 where one is below its start, a node too near to the skin of its
+/// hex, or a template bad by itself.
 double worth(const EnclosePlaces& places, const std::vector<Case>& all, const std::vector<double>& start,
              bool combination) {
   for (const double reach : {places.marked.face, places.marked.inside, places.unmarked.face, places.unmarked.inside})
     if (reach < least_reach || reach > 1 - least_reach) return 0;
   const auto table = make_enclose_table(places);
+  if (smallest_shape(*table) < least_shape) return 0;
   double product = 1;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double smallest = smallest_shape(all[i], table, combination);
