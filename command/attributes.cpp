@@ -330,7 +330,7 @@ Vec3 middle(const Selector& selector, EntityKind kind, Index i) {
     return sum / n;
   }
   const Box box = hextwist::box(selector, kind, i);
-  const Vec3 centre = (box.min + box.max) / 2;  // NaN where there is nothing
+  Vec3 centre = (box.min + box.max) / 2;  // NaN where there is nothing
   if (kind != EntityKind::curve && kind != EntityKind::surface) return centre;
   return selector.meshed.model->project({dimension(kind), i + 1}, centre).point;
 }

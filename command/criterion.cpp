@@ -311,6 +311,7 @@ class CriterionReader {
   Criterion attribute() {
     const Token token = reader_.peek();
     std::vector<Keyword> words;
+    words.reserve(table.size());
     for (const AttributeSpec& spec : table)
       words.push_back(
           {spec.word, (spec.kinds >> static_cast<int>(kind_) & 1) && spec.spelled.empty(), spec.spelled.empty()});

@@ -148,7 +148,9 @@ class RangeReader {
     skip_word(reader_, "expand");
     expect_items(reader_, names, range.items.empty());
     const bool bare = range.items.empty();
-    while (const auto filter = accept_filter(kind, place, bare, range.filters.empty())) {
+    while (true) {
+      const auto filter = accept_filter(kind, place, bare, range.filters.empty());
+      if (!filter) break;
       RangeFilter read;
       read.kind = *filter;
       if (*filter == RangeFilter::Kind::with)
