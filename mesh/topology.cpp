@@ -2,11 +2,15 @@
 // sort); an edge or face belongs to its lowest node, so each node can then sort and number its own few on its own.
 #include "hextwist/mesh/topology.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/topology_internal.h"
 
@@ -118,22 +122,48 @@ void check_nodes(const Mesh& mesh) {
     throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
 }
 
-Lists node_corners(const Mesh& mesh) {
-  check_nodes(mesh);
+/// Threads that a loop can have. For choosing how to cut work; results must not depend on it.
+static int n_threads() {
+  const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(limit)));
+}
+
+Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
+  // Each thread has a range of nodes and walks along all hexes: no counter is shared, every list comes out ascending.
+  const auto n_parts = static_cast<Index>(n_threads());
+  const auto for_each_part = [&](auto&& each) {
+    parallel_ranges(
+        n_parts,
+        [&](Index begin, Index end) {
+          for (Index part = begin; part < end; ++part) {
+            const auto low = static_cast<std::int64_t>(n_nodes) * part / n_parts;
+            const auto high = static_cast<std::int64_t>(n_nodes) * (part + 1) / n_parts;
+            each(static_cast<Index>(low), static_cast<std::uint32_t>(high - low));
+          }
+        },
+        1);
+  };
   Lists corners;
-  corners.first.assign(mesh.points.size() + 1, 0);
-  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    for (Index h = begin; h < end; ++h)
-      for (const Index node : mesh.hexes[h]) fetch_add(corners.first[node], 1);
+  resize_large(corners.first, static_cast<std::size_t>(n_nodes) + 1);
+  for_each_part([&](Index low, std::uint32_t width) {
+    for (const Hex& hex : hexes)
+      for (const Index node : hex)
+        if (static_cast<std::uint32_t>(node - low) < width) ++corners.first[node];
   });
   counts_to_ends(corners.first);
-  corners.items.resize(8 * mesh.hexes.size());
-  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    for (Index h = begin; h < end; ++h)
-      for (int c = 0; c < 8; ++c) corners.items[fetch_add(corners.first[mesh.hexes[h][c]], -1) - 1] = 8 * h + c;
+  resize_large(corners.items, 8 * hexes.size());
+  for_each_part([&](Index low, std::uint32_t width) {
+    for (Index h = static_cast<Index>(hexes.size()) - 1; h >= 0; --h)
+      for (int c = 7; c >= 0; --c)
+        if (const Index node = hexes[h][c]; static_cast<std::uint32_t>(node - low) < width)
+          corners.items[--corners.first[node]] = 8 * h + c;
   });
-  sort_lists(corners);
   return corners;
+}
+
+Lists node_corners(const Mesh& mesh) {
+  check_nodes(mesh);
+  return node_corners(mesh.hexes, mesh.n_nodes());
 }
 
 Edges edges(const Mesh& mesh) {

@@ -14,6 +14,8 @@ void check_nodes(const Mesh& mesh);
 
 /// Per node: 8 * hex + corner of every place where a hex names it, ascending. Throws as check_nodes().
 Lists node_corners(const Mesh& mesh);
+/// The same without the check.
+Lists node_corners(std::span<const Hex> hexes, Index n_nodes);
 
 /// Faces of a mesh that may have faces with more than two hexes: those stand in `more`, ascending by (face, side).
 struct LooseFaces {

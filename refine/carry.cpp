@@ -1,7 +1,9 @@
 #include "hextwist/refine/carry.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/origin.h"
 
@@ -17,36 +19,32 @@ void for_each_new_node(const Mesh& old_mesh, const Lineage& lineage, const Body&
                 [&](std::size_t i) { for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node); });
 }
 
-std::vector<std::int64_t> carried_ids(const std::vector<std::int64_t>& kept, std::int64_t next, std::size_t n) {
-  std::vector<std::int64_t> ids = kept;
-  ids.reserve(n);
-  while (ids.size() < n) ids.push_back(next++);
-  return ids;
+/// Fills ids[first], ... with next, next + 1, ...
+void count_on(std::vector<std::int64_t>& ids, std::size_t first, std::int64_t next) {
+  parallel_each(ids.size() - first, [&](std::size_t i) { ids[first + i] = next + static_cast<std::int64_t>(i); });
+}
+
+/// Old values, and room for those of the new nodes.
+template <class T>
+std::vector<T> of_old_nodes(const std::vector<T>& old, Index n_nodes) {
+  std::vector<T> values = copy_large(old, static_cast<std::size_t>(n_nodes));
+  values.resize(static_cast<std::size_t>(n_nodes));
+  return values;
 }
 
 /// Node ids stay with the nodes. Hex ids of hexes that were cut are gone for good.
 void carry_ids(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
-  if (!old_mesh.node_ids.empty())
-    mesh.node_ids = carried_ids(old_mesh.node_ids, old_mesh.node_ids.back() + 1, mesh.points.size());
+  if (!old_mesh.node_ids.empty()) {
+    mesh.node_ids = of_old_nodes(old_mesh.node_ids, split.n_nodes);
+    count_on(mesh.node_ids, old_mesh.node_ids.size(), old_mesh.node_ids.back() + 1);
+  }
   if (split.lineage.hexes.empty()) {
     mesh.hex_ids = old_mesh.hex_ids;
     return;
   }
-  std::vector<std::int64_t> kept(split.n_kept());
-  parallel_each(kept.size(), [&](std::size_t i) { kept[i] = hex_id(old_mesh, split.lineage.parent[i]); });
-  mesh.hex_ids = carried_ids(kept, hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1, mesh.hexes.size());
-}
-
-/// Calls use(new hex) for the hex itself or its children.
-template <typename Use>
-void for_each_child(const Split& split, Index old_hex, const Use& use) {
-  const Index first = split.first_child[old_hex];
-  if (!split.is_cut(old_hex)) return use(first);
-  const Index cut = split.cut_index(old_hex);
-  const Index end = cut + 1 < static_cast<Index>(split.lineage.hexes.size())
-                        ? split.lineage.hexes[cut + 1].first_child
-                        : static_cast<Index>(split.lineage.parent.size());
-  for (Index child = first; child < end; ++child) use(child);
+  resize_large(mesh.hex_ids, mesh.hexes.size());
+  parallel_each(split.n_kept(), [&](std::size_t i) { mesh.hex_ids[i] = hex_id(old_mesh, split.lineage.parent[i]); });
+  count_on(mesh.hex_ids, split.n_kept(), hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1);
 }
 
 /// Calls use(new side) for the side itself or the sides of the children that make it up.
@@ -58,13 +56,37 @@ void for_each_child_side(const Split& split, Side old_side, const Use& use) {
   for (const ChildSide& child : of.side[old_side.face]) use(Side{first + child.child, child.face});
 }
 
-void carry_blocks(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
-  for (const Block& block : old_mesh.blocks) {
-    Block carried{block.id, block.name, {}};
-    for (const Index h : block.hexes) for_each_child(split, h, [&](Index child) { carried.hexes.push_back(child); });
-    std::ranges::sort(carried.hexes);
-    mesh.blocks.push_back(std::move(carried));
+/// The old hexes of an ascending list that were not cut, then the children of those that were: ascending.
+std::vector<Index> carried_hexes(const std::vector<Index>& old_hexes, const Split& split) {
+  const std::vector<CutHex>& cut = split.lineage.hexes;
+  std::vector<Index> carried;
+  carried.reserve(old_hexes.size());
+  for (const Index h : old_hexes)
+    if (!split.is_cut(h)) carried.push_back(split.first_child[h]);
+  if (carried.size() == old_hexes.size()) return carried;
+  auto at = cut.begin();
+  for (const Index h : old_hexes) {
+    if (!split.is_cut(h)) continue;
+    at = std::lower_bound(at, cut.end(), h, [](const CutHex& a, Index hex) { return a.hex < hex; });
+    const Index end =
+        at + 1 == cut.end() ? static_cast<Index>(split.lineage.parent.size()) : std::next(at)->first_child;
+    for (Index child = at->first_child; child < end; ++child) carried.push_back(child);
   }
+  return carried;
+}
+
+void carry_blocks(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
+  for (const Block& block : old_mesh.blocks)
+    mesh.blocks.push_back({block.id, block.name, carried_hexes(block.hexes, split)});
+}
+
+/// Sorts what begins with the sides of hexes that were not cut, in order.
+template <class List, class SideOf>
+void sort_sides(List& list, Index n_kept, const SideOf& side_of) {
+  const auto kept_end = std::ranges::stable_partition(list, [&](const auto& item) {
+                          return std::invoke(side_of, item).hex < n_kept;
+                        }).begin();
+  std::ranges::sort(kept_end, list.end(), {}, side_of);
 }
 
 void carry_side_sets(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
@@ -72,7 +94,7 @@ void carry_side_sets(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
     SideSet carried{set.id, set.name, {}};
     for (const Side side : set.sides)
       for_each_child_side(split, side, [&](Side child) { carried.sides.push_back(child); });
-    std::ranges::sort(carried.sides);
+    sort_sides(carried.sides, split.n_kept(), std::identity{});
     mesh.side_sets.push_back(std::move(carried));
   }
 }
@@ -200,10 +222,13 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
         moved.push_back(i);
         quads.push_back(face_nodes(mesh.hexes[owned[i].side.hex], owned[i].side.face));
       }
-    const std::vector<Side> sides = find_sides(mesh, quads);
+    const std::vector<Side> sides = quads.empty() ? std::vector<Side>{} : find_sides(mesh, quads);
     for (std::size_t i = 0; i < moved.size(); ++i) owned[moved[i]].side = sides[i];
   }
-  std::ranges::sort(owned, {}, &Owned::side);
+  if (several_volumes)
+    std::ranges::sort(owned, {}, &Owned::side);
+  else
+    sort_sides(owned, split.n_kept(), &Owned::side);
   association.surface_faces.reserve(owned.size());
   association.face_surface.reserve(owned.size());
   for (const Owned& item : owned) {
@@ -215,11 +240,9 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
 Association carried_association(const Association& old, const Split& split, const Mesh& mesh) {
   Association association;
   if (old.empty()) return association;
-  association.node_owner = old.node_owner;
-  association.node_owner.resize(split.n_nodes);
-  association.node_parameters = old.node_parameters;
-  association.node_parameters.resize(split.n_nodes);
-  association.hex_volume.resize(split.lineage.parent.size());
+  association.node_owner = of_old_nodes(old.node_owner, split.n_nodes);
+  association.node_parameters = of_old_nodes(old.node_parameters, split.n_nodes);
+  resize_large(association.hex_volume, split.lineage.parent.size());
   parallel_each(split.lineage.parent.size(),
                 [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
   carry_node_owners(old, split, association);
@@ -234,9 +257,8 @@ Carried carry(const Mesh& old_mesh, const Association& old_association, Split& s
   Carried carried;
   Mesh& mesh = carried.mesh;
   mesh.hexes = std::move(split.hexes);
-  mesh.points.resize(split.n_nodes);
   carried.association = carried_association(old_association, split, mesh);
-  std::ranges::copy(old_mesh.points, mesh.points.begin());
+  mesh.points = of_old_nodes(old_mesh.points, split.n_nodes);
   for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];

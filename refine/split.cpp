@@ -1,96 +1,17 @@
+// Everything here is flat: a list of the cut hexes, one walk along their nodes that numbers edges and faces (each
+// belongs to its lowest node), prefix sums that number what is new, and one walk along the cut hexes that writes the
+// children.
 #include "hextwist/refine/split.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
 
+#include "hextwist/mesh/large_array_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/mesh/topology_internal.h"
+
 namespace hextwist {
 namespace {
-
-constexpr int grain = 1024;
-
-template <typename Body>
-void for_each_index(std::size_t n, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-  });
-}
-
-/// An occurrence of an edge or face in a cut hex. Items are counted along the cut hexes: 12 (or 6) for each.
-struct Occurrence {
-  std::uint64_t key;  // the other nodes: which edge or face of the bucket's node it is
-  Index item;
-};
-
-/// Gives equal edges (or faces) one number: bucket by lowest node, sort each bucket, count.
-/// of_hex: number per item, -1 where there is nothing. Returns the lowest item of each number.
-template <std::size_t n_per_hex, typename Key>
-std::vector<Index> number_shared(std::size_t n_cut, Index n_nodes, const Key& key,
-                                 std::vector<std::array<Index, n_per_hex>>& of_hex) {
-  // key(item) -> {lowest node, key}, lowest node -1: nothing there
-  std::vector<Index> first(static_cast<std::size_t>(n_nodes) + 1, 0);
-  of_hex.resize(n_cut);
-  for_each_index(n_cut, [&](std::size_t i) {
-    for (std::size_t item = i * n_per_hex; item < (i + 1) * n_per_hex; ++item) {
-      const Index lowest = key(item).first;
-      of_hex[i][item - i * n_per_hex] = -1;
-      if (lowest >= 0) std::atomic_ref(first[lowest + 1]).fetch_add(1, std::memory_order_relaxed);
-    }
-  });
-  for (Index n = 0; n < n_nodes; ++n) first[n + 1] += first[n];
-  std::vector<Occurrence> occurrences(first[n_nodes]);
-  for_each_index(n_cut, [&](std::size_t i) {
-    for (std::size_t item = i * n_per_hex; item < (i + 1) * n_per_hex; ++item) {
-      const auto [lowest, other] = key(item);
-      if (lowest < 0) continue;
-      const Index at = std::atomic_ref(first[lowest]).fetch_add(1, std::memory_order_relaxed);
-      occurrences[at] = {other, static_cast<Index>(item)};
-    }
-  });
-  // Each start has moved to its end: bucket n is now [first[n - 1], first[n]).
-  std::vector<Index> n_distinct(static_cast<std::size_t>(n_nodes) + 1, 0);
-  for_each_index(n_nodes, [&](std::size_t n) {
-    const auto begin = occurrences.begin() + (n ? first[n - 1] : 0), end = occurrences.begin() + first[n];
-    if (begin == end) return;
-    std::sort(begin, end, [](const Occurrence& a, const Occurrence& b) {
-      return a.key != b.key ? a.key < b.key : a.item < b.item;
-    });
-    Index count = 1;
-    for (auto at = begin + 1; at < end; ++at) count += at->key != (at - 1)->key;
-    n_distinct[n + 1] = count;
-  });
-  for (Index n = 0; n < n_nodes; ++n) n_distinct[n + 1] += n_distinct[n];
-  std::vector<Index> representative(n_distinct[n_nodes]);
-  for_each_index(n_nodes, [&](std::size_t n) {
-    Index number = n_distinct[n] - 1;
-    const Index begin = n ? first[n - 1] : 0;
-    for (Index at = begin; at < first[n]; ++at) {
-      if (at == begin || occurrences[at].key != occurrences[at - 1].key)
-        representative[++number] = occurrences[at].item;
-      const std::size_t item = occurrences[at].item;
-      of_hex[item / n_per_hex][item % n_per_hex] = number;
-    }
-  });
-  return representative;
-}
-
-/// The cut hexes with what their codes bring.
-struct CutList {
-  std::vector<Index> hex;
-  std::vector<const HexTemplate*> of;  // template per cut hex
-};
-
-CutList cut_hexes(const SplitTable& table, std::span<const std::uint16_t> codes) {
-  CutList cut;
-  for (std::size_t h = 0; h < codes.size(); ++h)
-    if (codes[h]) {
-      cut.hex.push_back(static_cast<Index>(h));
-      cut.of.push_back(&table.hex(codes[h]));
-    }
-  return cut;
-}
 
 Index checked(std::int64_t n) {
   if (n > std::numeric_limits<Index>::max())
@@ -98,60 +19,280 @@ Index checked(std::int64_t n) {
   return static_cast<Index>(n);
 }
 
-/// Numbers of the edges on cut hexes; lineage.edges gets their nodes.
-void number_edges(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split,
-                  std::int64_t& n_nodes) {
-  Lineage& lineage = split.lineage;
-  const auto ends = [&](std::size_t item) {
-    const std::size_t e = item % n_hex_edges;
-    const Hex& hex = hexes[cut.hex[item / n_hex_edges]];
-    return std::array{hex[edge_corner(static_cast<int>(e), 0)], hex[edge_corner(static_cast<int>(e), 1)]};
+/// The cut hexes with what their codes bring.
+struct CutList {
+  std::vector<Index> hex;
+  std::vector<const HexTemplate*> of;  ///< template per cut hex
+  /// Their nodes, renumbered in the same order without those that no cut hex has, when these are many.
+  std::vector<Hex> nodes;
+  Index n_nodes = 0;
+};
+
+CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& table,
+                  std::span<const std::uint16_t> codes) {
+  CutList cut;
+  cut.hex = where(static_cast<Index>(codes.size()), [&](Index h) { return codes[h] != 0; });
+  cut.of.resize(cut.hex.size());
+  cut.nodes.resize(cut.hex.size());
+  cut.n_nodes = n_nodes;
+  parallel_each(cut.hex.size(), [&](std::size_t i) {
+    cut.of[i] = &table.hex(codes[cut.hex[i]]);
+    cut.nodes[i] = hexes[cut.hex[i]];
+  });
+  if (cut.hex.size() > static_cast<std::size_t>(n_nodes) / 100) return cut;
+  std::vector<Index> used;
+  for (const Hex& hex : cut.nodes) used.insert(used.end(), hex.begin(), hex.end());
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  for (Hex& hex : cut.nodes)
+    for (Index& node : hex) node = static_cast<Index>(std::ranges::lower_bound(used, node) - used.begin());
+  cut.n_nodes = static_cast<Index>(used.size());
+  return cut;
+}
+
+/// What hex_edges and hex_faces hold until edges and faces have their numbers: 0 for nothing, else the rank among the
+/// edges (faces) of the same lowest node, and whether this is the first hex that has it.
+constexpr Index ranked(Index rank, bool first) {
+  return 2 * rank + (first ? 1 : 2);
+}
+constexpr Index rank_of(Index entry) {
+  return (entry - 1) / 2;
+}
+constexpr bool is_first(Index entry) {
+  return entry % 2 != 0;
+}
+
+/// Ranks the different edges (or faces) that belong to one node by their other nodes: the key.
+template <class Key>
+class Ranking {
+ public:
+  void clear() {
+    uses_.clear();
+    keys_.clear();
+  }
+  /// entry: where the rank of this use goes. Uses come in the order of hexes.
+  void add(const Key& key, Index& entry) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(keys_, key) - keys_.begin());
+    uses_.push_back({&entry, at, at == keys_.size()});
+    if (at == keys_.size()) keys_.push_back(key);
+  }
+  /// Writes all entries; returns how many different keys there were.
+  Index finish() {
+    for (const Use& use : uses_) {
+      const auto rank = std::ranges::count_if(keys_, [&](const Key& other) { return other < keys_[use.key]; });
+      *use.entry = ranked(static_cast<Index>(rank), use.first);
+    }
+    return static_cast<Index>(keys_.size());
+  }
+
+ private:
+  struct Use {
+    Index* entry;
+    std::size_t key;
+    bool first;
   };
-  const auto key = [&](std::size_t item) {
-    if (cut.of[item / n_hex_edges]->edge_code[item % n_hex_edges] == 0) return std::pair{Index{-1}, std::uint64_t{0}};
-    const auto [a, b] = ends(item);
-    return std::pair{std::min(a, b), static_cast<std::uint64_t>(std::max(a, b))};
-  };
-  const auto representative = number_shared(cut.hex.size(), lineage.n_old_nodes, key, split.hex_edges);
-  lineage.edges.resize(representative.size());
-  for (std::size_t i = 0; i < lineage.edges.size(); ++i) {
-    const std::size_t item = representative[i];
-    const auto [a, b] = ends(item);
-    std::uint16_t code = cut.of[item / n_hex_edges]->edge_code[item % n_hex_edges];
-    if (a > b) code = table.edge[code].reversed;
-    lineage.edges[i] = {std::min(a, b), std::max(a, b), static_cast<Index>(n_nodes), cut.hex[item / n_hex_edges], code};
-    n_nodes = checked(n_nodes + static_cast<std::int64_t>(table.edge[code].at.size()));
+  std::vector<Use> uses_;
+  std::vector<Key> keys_;
+};
+
+/// Which face of its lowest node: the node across and the lower neighbour.
+constexpr std::uint64_t face_key(Index diagonal, Index low) {
+  return static_cast<std::uint64_t>(diagonal) << 32 | static_cast<std::uint32_t>(low);
+}
+
+/// How many nodes each code puts on an edge, or in a face.
+template <class Pattern>
+std::vector<Index> n_nodes_of(const std::vector<Pattern>& patterns) {
+  std::vector<Index> n;
+  for (const Pattern& pattern : patterns) n.push_back(static_cast<Index>(pattern.at.size()));
+  return n;
+}
+
+/// Starts of the edges and faces of each node, and the totals.
+struct Starts {
+  std::vector<Index> edges, faces;
+};
+
+void counts_to_starts(std::vector<Index>& counts) {
+  std::int64_t sum = 0;
+  for (Index& entry : counts) {
+    const Index count = entry;
+    entry = checked(sum);
+    sum += count;
   }
 }
 
-/// Numbers of the faces on cut hexes that get nodes inside; lineage.faces gets their nodes.
-void number_faces(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split,
-                  std::int64_t& n_nodes) {
+/// Walks along the nodes; hex_edges and hex_faces get ranks.
+Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& split) {
+  const Lists corners = node_corners(cut.nodes, cut.n_nodes);
+  const std::vector<Index> n_on_edge = n_nodes_of(table.edge), n_in_face = n_nodes_of(table.face);
+  Starts starts;
+  resize_large(starts.edges, static_cast<std::size_t>(cut.n_nodes) + 1);
+  resize_large(starts.faces, static_cast<std::size_t>(cut.n_nodes) + 1);
+  resize_large(split.hex_edges, cut.hex.size());
+  resize_large(split.hex_faces, cut.hex.size());
+  parallel_ranges(cut.n_nodes, [&](Index begin, Index end) {
+    Ranking<Index> edges;
+    Ranking<std::uint64_t> faces;
+    for (Index node = begin; node < end; ++node) {
+      edges.clear();
+      faces.clear();
+      for (const Index corner : corners[node]) {
+        const Index i = corner >> 3;
+        const int c = corner & 7;
+        const Hex& hex = cut.nodes[i];
+        const HexTemplate& of = *cut.of[i];
+        for (int axis = 0; axis < 3; ++axis) {
+          const int e = edge_between(c, c ^ 1 << axis);
+          if (const Index other = hex[c ^ 1 << axis]; other > node && n_on_edge[of.edge_code[e]] > 0)
+            edges.add(other, split.hex_edges[i][e]);
+          const int f = 2 * axis + (c >> axis & 1), u = axis == 0 ? 2 : 1, v = axis == 2 ? 2 : 4;
+          const Index a = hex[c ^ u], b = hex[c ^ v], diagonal = hex[c ^ u ^ v];
+          if (a > node && b > node && diagonal > node && n_in_face[of.face_code[f]] > 0)
+            faces.add(face_key(diagonal, std::min(a, b)), split.hex_faces[i][f]);
+        }
+      }
+      starts.edges[node] = edges.finish();
+      starts.faces[node] = faces.finish();
+    }
+  });
+  counts_to_starts(starts.edges);
+  counts_to_starts(starts.faces);
+  return starts;
+}
+
+CutEdge cut_edge(const SplitTable& table, const Hex& hex, Index h, int e, std::uint8_t code) {
+  const Index a = hex[edge_corner(e, 0)], b = hex[edge_corner(e, 1)];
+  if (a < b) return {a, b, -1, h, code};
+  return {b, a, -1, h, table.edge[code].reversed};
+}
+
+CutFace cut_face(const SplitTable& table, const Hex& hex, Index h, int f, std::uint16_t code) {
+  const auto nodes = face_nodes(hex, f);
+  const int symmetry = face_symmetry(nodes);
+  CutFace face{{h, f}, {}, -1, table.face[code].turned[symmetry]};
+  for (int k = 0; k < 4; ++k) face.corners[k] = nodes[turned_corner(symmetry, k)];
+  return face;
+}
+
+/// Turns ranks into numbers, and has the first hex of each edge and face describe it.
+void number_edges_and_faces(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table,
+                            const Starts& starts, Split& split) {
   Lineage& lineage = split.lineage;
-  const auto key = [&](std::size_t item) {
-    const int f = static_cast<int>(item % n_hex_faces);
-    const std::size_t i = item / n_hex_faces;
-    if (table.face[cut.of[i]->face_code[f]].at.empty()) return std::pair{Index{-1}, std::uint64_t{0}};
-    const auto nodes = face_nodes(hexes[cut.hex[i]], f);
-    const int symmetry = face_symmetry(nodes);
-    const auto turned = [&](int k) { return nodes[turned_corner(symmetry, k)]; };
-    return std::pair{turned(0), static_cast<std::uint64_t>(turned(3)) << 32 | static_cast<std::uint32_t>(turned(1))};
-  };
-  const auto representative = number_shared(cut.hex.size(), lineage.n_old_nodes, key, split.hex_faces);
-  lineage.faces.resize(representative.size());
-  for (std::size_t i = 0; i < lineage.faces.size(); ++i) {
-    const std::size_t item = representative[i];
-    const int f = static_cast<int>(item % n_hex_faces);
-    const Index hex = cut.hex[item / n_hex_faces];
-    const auto nodes = face_nodes(hexes[hex], f);
-    const int symmetry = face_symmetry(nodes);
-    CutFace& face = lineage.faces[i];
-    face.side = {hex, f};
-    for (int k = 0; k < 4; ++k) face.corners[k] = nodes[turned_corner(symmetry, k)];
-    face.code = table.face[cut.of[item / n_hex_faces]->face_code[f]].turned[symmetry];
-    face.first_node = static_cast<Index>(n_nodes);
-    n_nodes = checked(n_nodes + static_cast<std::int64_t>(table.face[face.code].at.size()));
+  resize_large(lineage.edges, static_cast<std::size_t>(starts.edges.back()));
+  resize_large(lineage.faces, static_cast<std::size_t>(starts.faces.back()));
+  parallel_each(cut.hex.size(), [&](std::size_t i) {
+    const Index h = cut.hex[i];
+    for (int e = 0; e < n_hex_edges; ++e) {
+      Index& entry = split.hex_edges[i][e];
+      const Index found = entry;
+      if (found == 0) {
+        entry = -1;
+        continue;
+      }
+      const Index lowest = std::min(cut.nodes[i][edge_corner(e, 0)], cut.nodes[i][edge_corner(e, 1)]);
+      entry = starts.edges[lowest] + rank_of(found);
+      if (is_first(found)) lineage.edges[entry] = cut_edge(table, hexes[h], h, e, cut.of[i]->edge_code[e]);
+    }
+    for (int f = 0; f < n_hex_faces; ++f) {
+      Index& entry = split.hex_faces[i][f];
+      const Index found = entry;
+      if (found == 0) {
+        entry = -1;
+        continue;
+      }
+      entry = starts.faces[std::ranges::min(face_nodes(cut.nodes[i], f))] + rank_of(found);
+      if (is_first(found)) lineage.faces[entry] = cut_face(table, hexes[h], h, f, cut.of[i]->face_code[f]);
+    }
+  });
+}
+
+/// Numbers new nodes: edges, faces, hexes; and children. Returns how many hexes there will be.
+Index number_nodes_and_children(const CutList& cut, std::span<const std::uint16_t> codes, Split& split) {
+  Lineage& lineage = split.lineage;
+  const std::vector<Index> n_on_edge = n_nodes_of(lineage.table->edge), n_in_face = n_nodes_of(lineage.table->face);
+  std::int64_t node = lineage.n_old_nodes, child = lineage.n_old_hexes - std::ssize(cut.hex);
+  for (CutEdge& edge : lineage.edges) {
+    edge.first_node = checked(node);
+    node += n_on_edge[edge.code];
   }
+  for (CutFace& face : lineage.faces) {
+    face.first_node = checked(node);
+    node += n_in_face[face.code];
+  }
+  resize_large(lineage.hexes, cut.hex.size());
+  for (std::size_t i = 0; i < cut.hex.size(); ++i) {
+    lineage.hexes[i] = {cut.hex[i], checked(child), checked(node), codes[cut.hex[i]]};
+    child += std::ssize(cut.of[i]->children);
+    node += std::ssize(cut.of[i]->inside);
+  }
+  split.n_nodes = checked(node);
+  return checked(child);
+}
+
+/// Hexes that are not cut move together, in their order.
+void fill_kept(std::span<const Hex> hexes, const CutList& cut, Split& split) {
+  parallel_ranges(
+      static_cast<Index>(hexes.size()),
+      [&](Index begin, Index end) {
+        auto next_cut = std::ranges::lower_bound(cut.hex, begin);
+        for (Index h = begin; h < end; ++h) {
+          const Index run_end = next_cut == cut.hex.end() ? end : std::min(end, *next_cut);
+          const auto n_cut_before = static_cast<Index>(next_cut - cut.hex.begin());
+          std::copy(hexes.begin() + h, hexes.begin() + run_end, split.hexes.begin() + (h - n_cut_before));
+          for (; h < run_end; ++h) {
+            split.lineage.parent[h - n_cut_before] = h;
+            split.first_child[h] = h - n_cut_before;
+          }
+          if (next_cut != cut.hex.end()) ++next_cut;
+        }
+      },
+      1 << 14);
+}
+
+/// Children: the nodes of each template looked up, then its hexes written.
+void fill_children(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split) {
+  Lineage& lineage = split.lineage;
+  parallel_ranges(
+      static_cast<Index>(cut.hex.size()),
+      [&](Index begin, Index end) {
+        std::vector<Index> local;  // node of each local number of the template
+        for (Index i = begin; i < end; ++i) {
+          const HexTemplate& of = *cut.of[i];
+          const Hex& hex = hexes[cut.hex[i]];
+          local.resize(std::max<std::size_t>(local.size(), table.inside_node(static_cast<int>(of.inside.size()))));
+          std::ranges::copy(hex, local.begin());
+          for (int e = 0; e < n_hex_edges; ++e) {
+            const Index number = split.hex_edges[i][e];
+            if (number < 0) continue;
+            const CutEdge& shared = lineage.edges[number];
+            const int n = static_cast<int>(table.edge[shared.code].at.size());
+            const bool backwards = hex[edge_corner(e, 0)] > hex[edge_corner(e, 1)];
+            assert((backwards ? table.edge[shared.code].reversed : shared.code) == of.edge_code[e]);
+            for (int s = 0; s < n; ++s) local[table.edge_node(e, s)] = shared.first_node + (backwards ? n - 1 - s : s);
+          }
+          for (int f = 0; f < n_hex_faces; ++f) {
+            const Index number = split.hex_faces[i][f];
+            if (number < 0) continue;
+            const FacePattern& pattern = table.face[of.face_code[f]];
+            const int symmetry = face_symmetry(face_nodes(hex, f));
+            assert(pattern.turned[symmetry] == lineage.faces[number].code);
+            const auto& turned_slot = pattern.turned_slot[symmetry];
+            for (std::size_t s = 0; s < turned_slot.size(); ++s)
+              local[table.face_node(f, static_cast<int>(s))] = lineage.faces[number].first_node + turned_slot[s];
+          }
+          for (std::size_t s = 0; s < of.inside.size(); ++s)
+            local[table.inside_node(static_cast<int>(s))] = lineage.hexes[i].first_node + static_cast<Index>(s);
+          const Index first = lineage.hexes[i].first_child;
+          split.first_child[cut.hex[i]] = first;
+          for (std::size_t c = 0; c < of.children.size(); ++c) {
+            Hex& new_hex = split.hexes[first + c];
+            for (int corner = 0; corner < 8; ++corner) new_hex[corner] = local[of.children[c][corner]];
+            lineage.parent[first + c] = cut.hex[i];
+          }
+        }
+      },
+      64);
 }
 
 }  // namespace
@@ -170,70 +311,14 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
   lineage.n_old_nodes = n_nodes;
   lineage.n_old_hexes = static_cast<Index>(hexes.size());
   lineage.table = table;
-  const CutList cut = cut_hexes(*table, codes);
-
-  // Count: new nodes on edges, on faces, in hexes; children.
-  std::int64_t node = n_nodes;
-  number_edges(hexes, cut, *table, result, node);
-  number_faces(hexes, cut, *table, result, node);
-  const Index n_kept = lineage.n_old_hexes - static_cast<Index>(cut.hex.size());
-  std::int64_t child = n_kept;
-  lineage.hexes.resize(cut.hex.size());
-  for (std::size_t i = 0; i < cut.hex.size(); ++i) {
-    lineage.hexes[i] = {cut.hex[i], static_cast<Index>(child), static_cast<Index>(node), codes[cut.hex[i]]};
-    child = checked(child + static_cast<std::int64_t>(cut.of[i]->children.size()));
-    node = checked(node + static_cast<std::int64_t>(cut.of[i]->inside.size()));
-  }
-  result.n_nodes = static_cast<Index>(node);
-
-  // Fill: kept hexes, then children.
-  result.hexes.resize(child);
-  result.first_child.resize(hexes.size());
-  lineage.parent.resize(child);
-  Index kept = 0;
-  for (std::size_t h = 0; h < hexes.size(); ++h) {
-    if (codes[h]) continue;
-    result.hexes[kept] = hexes[h];
-    lineage.parent[kept] = static_cast<Index>(h);
-    result.first_child[h] = kept++;
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cut.hex.size(), 64), [&](const auto& range) {
-    std::vector<Index> local;
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const HexTemplate& of = *cut.of[i];
-      const Hex& hex = hexes[cut.hex[i]];
-      local.resize(std::max<std::size_t>(local.size(), table->inside_node(static_cast<int>(of.inside.size()))));
-      std::ranges::copy(hex, local.begin());
-      for (int e = 0; e < n_hex_edges; ++e) {
-        const Index number = result.hex_edges[i][e];
-        if (number < 0) continue;
-        const CutEdge& shared = lineage.edges[number];
-        const int n = static_cast<int>(table->edge[shared.code].at.size());
-        const bool backwards = hex[edge_corner(e, 0)] > hex[edge_corner(e, 1)];
-        assert((backwards ? table->edge[shared.code].reversed : shared.code) == of.edge_code[e]);
-        for (int s = 0; s < n; ++s) local[table->edge_node(e, s)] = shared.first_node + (backwards ? n - 1 - s : s);
-      }
-      for (int f = 0; f < n_hex_faces; ++f) {
-        const Index number = result.hex_faces[i][f];
-        if (number < 0) continue;
-        const FacePattern& pattern = table->face[of.face_code[f]];
-        const int symmetry = face_symmetry(face_nodes(hex, f));
-        assert(pattern.turned[symmetry] == lineage.faces[number].code);
-        const auto& turned_slot = pattern.turned_slot[symmetry];
-        for (std::size_t s = 0; s < turned_slot.size(); ++s)
-          local[table->face_node(f, static_cast<int>(s))] = lineage.faces[number].first_node + turned_slot[s];
-      }
-      for (std::size_t s = 0; s < of.inside.size(); ++s)
-        local[table->inside_node(static_cast<int>(s))] = lineage.hexes[i].first_node + static_cast<Index>(s);
-      const Index first = lineage.hexes[i].first_child;
-      result.first_child[cut.hex[i]] = first;
-      for (std::size_t c = 0; c < of.children.size(); ++c) {
-        Hex& new_hex = result.hexes[first + c];
-        for (int corner = 0; corner < 8; ++corner) new_hex[corner] = local[of.children[c][corner]];
-        lineage.parent[first + c] = cut.hex[i];
-      }
-    }
-  });
+  const CutList cut = cut_hexes(hexes, n_nodes, *table, codes);
+  number_edges_and_faces(hexes, cut, *table, rank_edges_and_faces(cut, *table, result), result);
+  const Index n_hexes = number_nodes_and_children(cut, codes, result);
+  resize_large(result.hexes, static_cast<std::size_t>(n_hexes));
+  resize_large(lineage.parent, static_cast<std::size_t>(n_hexes));
+  resize_large(result.first_child, hexes.size());
+  fill_kept(hexes, cut, result);
+  fill_children(hexes, cut, *table, result);
   return result;
 }
 
