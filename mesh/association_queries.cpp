@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/off_model_internal.h"
 
 namespace hextwist {
 
@@ -63,12 +64,10 @@ std::vector<Index> nodes_on(const Association& association, const Model& model, 
   return nodes;
 }
 
-OffModel off_model(const Mesh& mesh, const Association& association, const Model& model) {
-  std::array<std::vector<Index>, 3> nodes;
-  for (std::size_t n = 0; n < association.node_owner.size(); ++n) {
-    const int dim = association.node_owner[n].dim;
-    if (dim >= 0 && dim <= 2) nodes[dim].push_back(static_cast<Index>(n));
-  }
+namespace {
+
+OffModel off_model_at(const Mesh& mesh, const Association& association, const Model& model,
+                      const std::array<std::vector<Index>, 3>& nodes) {
   OffModel off;
   for (int dim = 0; dim < 3; ++dim) {
     std::vector<int> id;
@@ -91,6 +90,25 @@ OffModel off_model(const Mesh& mesh, const Association& association, const Model
   }
   if (off.max > 0) off.max_relative = off.max / model.box().diagonal();
   return off;
+}
+
+}  // namespace
+
+OffModel off_model(const Mesh& mesh, const Association& association, const Model& model) {
+  std::array<std::vector<Index>, 3> nodes;
+  for (std::size_t n = 0; n < association.node_owner.size(); ++n) {
+    const int dim = association.node_owner[n].dim;
+    if (dim >= 0 && dim <= 2) nodes[dim].push_back(static_cast<Index>(n));
+  }
+  return off_model_at(mesh, association, model, nodes);
+}
+
+OffModel detail::off_model(const Mesh& mesh, const Association& association, const Model& model,
+                           std::span<const Index> wanted) {
+  std::array<std::vector<Index>, 3> nodes;
+  for (const Index n : wanted)
+    if (const int dim = association.node_owner[n].dim; dim >= 0 && dim <= 2) nodes[dim].push_back(n);
+  return off_model_at(mesh, association, model, nodes);
 }
 
 }  // namespace hextwist

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hextwist/mesh/quality.h"
+
 namespace hextwist {
 namespace {
 
@@ -17,10 +19,18 @@ Index find_id(std::span<const std::int64_t> ids, Index n, std::int64_t id) {
 
 }  // namespace
 
-std::int64_t node_id(const Mesh& mesh, Index node) { return id_of(mesh.node_ids, node); }
-std::int64_t hex_id(const Mesh& mesh, Index hex) { return id_of(mesh.hex_ids, hex); }
-Index find_node(const Mesh& mesh, std::int64_t id) { return find_id(mesh.node_ids, mesh.n_nodes(), id); }
-Index find_hex(const Mesh& mesh, std::int64_t id) { return find_id(mesh.hex_ids, mesh.n_hexes(), id); }
+std::int64_t node_id(const Mesh& mesh, Index node) {
+  return id_of(mesh.node_ids, node);
+}
+std::int64_t hex_id(const Mesh& mesh, Index hex) {
+  return id_of(mesh.hex_ids, hex);
+}
+Index find_node(const Mesh& mesh, std::int64_t id) {
+  return find_id(mesh.node_ids, mesh.n_nodes(), id);
+}
+Index find_hex(const Mesh& mesh, std::int64_t id) {
+  return find_id(mesh.hex_ids, mesh.n_hexes(), id);
+}
 
 Box box(const Mesh& mesh) {
   Box result;
@@ -57,7 +67,7 @@ double volume(const Mesh& mesh, Index hex) {
 
 double volume(const Mesh& mesh) {
   double sum = 0;
-  for (Index h = 0; h < mesh.n_hexes(); ++h) sum += volume(mesh, h);
+  for (const double of_hex : quality(Metric::volume, mesh)) sum += of_hex;
   return sum;
 }
 

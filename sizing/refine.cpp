@@ -4,6 +4,7 @@
 #include "hextwist/refine/uniform.h"
 #include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/verify.h"
 
 namespace hextwist {
 namespace {
@@ -69,18 +70,24 @@ RefineResult run_passes(Pipeline& run) {
   return run.take_result();
 }
 
-void verify(const MeshedModel& input, MeshedModel& refined, Report& report) {
-  const auto summary = [](Metric metric, const Mesh& mesh) { return summarize(quality(metric, mesh)); };
-  report.shape_before = summary(Metric::shape, input.mesh);
-  report.shape_after = summary(Metric::shape, refined.mesh);
-  report.scaled_jacobian_before = summary(Metric::scaled_jacobian, input.mesh);
-  report.scaled_jacobian_after = summary(Metric::scaled_jacobian, refined.mesh);
-  report.volume_before = volume(input.mesh);
-  report.volume_after = volume(refined.mesh);
-  if (refined.model && !refined.association.empty())
-    report.off_cad = off_model(refined.mesh, refined.association, *refined.model);
-  for (Violation& violation : validate(refined.mesh))
-    if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));
+RefineResult run_request(const MeshedModel& input, const Measured* known, const Request& request,
+                         const Progress& progress) {
+  check(input, request);
+  Report report;
+  report.hexes_before = input.mesh.n_hexes();
+  report.nodes_before = input.mesh.n_nodes();
+  RefineResult result;
+  {
+    Pipeline run(input, request, report, progress);
+    result = run_passes(run);
+    if (!request.dry_run) verify(input, known, result.refined, report);
+  }
+  report.hexes_after = result.refined.mesh.n_hexes();
+  report.nodes_after = result.refined.mesh.n_nodes();
+  report.peak_memory_bytes = peak_memory();
+  if (request.dry_run) result = {};
+  result.report = std::move(report);
+  return result;
 }
 
 }  // namespace
@@ -96,22 +103,11 @@ const char* name(Method method) {
 }
 
 RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress) {
-  check(input, request);
-  Report report;
-  report.hexes_before = input.mesh.n_hexes();
-  report.nodes_before = input.mesh.n_nodes();
-  RefineResult result;
-  {
-    Pipeline run(input, request, report, progress);
-    result = run_passes(run);
-    if (!request.dry_run) verify(input, result.refined, report);
-  }
-  report.hexes_after = result.refined.mesh.n_hexes();
-  report.nodes_after = result.refined.mesh.n_nodes();
-  report.peak_memory_bytes = peak_memory();
-  if (request.dry_run) result = {};
-  result.report = std::move(report);
-  return result;
+  return run_request(input, nullptr, request, progress);
+}
+
+RefineResult refine(const MeshedModel& input, const Measured& known, const Request& request, const Progress& progress) {
+  return run_request(input, &known, request, progress);
 }
 
 }  // namespace hextwist

@@ -1,6 +1,7 @@
 // Single hex sheet operations: whole hexes and layers of them.
 #include <algorithm>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
 #include "hextwist/sizing/pipeline_internal.h"
@@ -11,10 +12,9 @@ namespace {
 
 /// Children of the target hexes: the targets of the next pass.
 std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
-  std::vector<Index> result;
-  for (std::size_t h = 0; h < lineage.parent.size(); ++h)
-    if (std::ranges::binary_search(hexes, lineage.parent[h])) result.push_back(static_cast<Index>(h));
-  return result;
+  std::vector<char> wanted(lineage.n_old_hexes, 0);
+  for (const Index h : hexes) wanted[h] = 1;
+  return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void trisect_passes(Pipeline& run) {
     mark_nodes(mesh.hexes, targets, marked);
     if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
     run.pass(trisect_table(), trisect_codes(mesh.hexes, marked));
-    targets = children_of(run.lineage(), targets);
+    if (i + 1 < run.request().numsplit) targets = children_of(run.lineage(), targets);
   }
 }
 

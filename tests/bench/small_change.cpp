@@ -4,6 +4,7 @@
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
+#include "hextwist/sizing/verify.h"
 #include "measure.h"
 #include "meshes.h"
 
@@ -27,7 +28,8 @@ RefineResult refined(TargetKind kind, Index target) {
   Request request;
   request.kind = kind;
   request.targets = {target};
-  return refine(input(), request);
+  static const Measured known = measured(input());  // as in a session, which has measured what it holds
+  return refine(input(), known, request);
 }
 
 /// Wall milliseconds of the second of two commands in a session.
