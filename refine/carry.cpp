@@ -257,8 +257,8 @@ Carried carry(const Mesh& old_mesh, const Association& old_association, Split& s
   Carried carried;
   Mesh& mesh = carried.mesh;
   mesh.hexes = std::move(split.hexes);
-  carried.association = carried_association(old_association, split, mesh);
   mesh.points = of_old_nodes(old_mesh.points, split.n_nodes);
+  carried.association = carried_association(old_association, split, mesh);
   for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];
