@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/sizing/verify.h"
 
 namespace hextwist {
 namespace {
@@ -37,6 +38,18 @@ Request request_of(const Execution& run) {
   return request;
 }
 
+/// What the session knows of its mesh, so that it need not be measured again.
+Measured known_of(const SessionState& state) {
+  const auto summary = [&](const QualityRow& row) {
+    const Mesh& mesh = state.meshed->mesh;
+    return Summary{
+        static_cast<Index>(row.count), row.average, row.std_dev, row.min, row.max, find_hex(mesh, row.min_hex),
+        find_hex(mesh, row.max_hex)};
+  };
+  return {summary(state.mesh_state.shape), summary(state.mesh_state.scaled_jacobian), state.mesh_state.volume,
+          state.off_cad};
+}
+
 std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
   std::string line = std::to_string(report.hexes_before) + " -> " + counted(report.hexes_after, EntityKind::hex);
   if (report.filled_hexes > 0)
@@ -57,7 +70,7 @@ void do_refine(Execution& run) {
   run.stage("select");
   const Request request = request_of(run);
   run.close_stage();
-  RefineResult result = refine(*state.meshed, request, run.core.callbacks.progress);
+  RefineResult result = refine(*state.meshed, known_of(state), request, run.core.callbacks.progress);
   const Report& report = result.report;
   run.record.filled_hexes = report.filled_hexes;
   run.record.seconds.insert(run.record.seconds.end(), report.seconds.begin(), report.seconds.end());

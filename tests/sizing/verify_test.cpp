@@ -1,0 +1,119 @@
+// Verifying a small change where it is, against verifying everything.
+#include "hextwist/sizing/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hextwist/geom/occ_model.h"
+#include "hextwist/mesh/io.h"
+#include "hextwist/mesh/primitives.h"
+#include "support/grids.h"
+
+namespace hextwist::test {
+namespace {
+
+MeshedModel ball() {
+  MeshedModel result{mesh_sphere({10}, {4, 5}), cad_sphere({10}).model, {}};
+  result.association = associate(result.mesh, *result.model, nullptr).association;
+  return result;
+}
+MeshedModel brick(int n) {
+  MeshedModel result{mesh_brick({1, 1, 1}, {n, n, n}), cad_brick({1, 1, 1}).model, {}};
+  result.association = associate(result.mesh, *result.model, nullptr).association;
+  return result;
+}
+
+void expect_same(const Summary& a, const Summary& b) {
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_EQ(a.min, b.min);
+  EXPECT_EQ(a.max, b.max);
+  EXPECT_EQ(a.min_hex, b.min_hex);
+  EXPECT_EQ(a.max_hex, b.max_hex);
+  EXPECT_NEAR(a.average, b.average, 1e-13);
+  EXPECT_NEAR(a.std_dev, b.std_dev, 1e-10);
+}
+
+/// Both ways of refining give the same mesh and say the same of it. Returns the result.
+RefineResult refined_both_ways(const MeshedModel& input, const Measured& known, const Request& request) {
+  const RefineResult all = refine(input, request), change = refine(input, known, request);
+  EXPECT_EQ(all.refined.mesh, change.refined.mesh);
+  expect_same(all.report.shape_before, change.report.shape_before);
+  expect_same(all.report.shape_after, change.report.shape_after);
+  expect_same(all.report.scaled_jacobian_after, change.report.scaled_jacobian_after);
+  EXPECT_NEAR(all.report.volume_after, change.report.volume_after, 1e-12 * all.report.volume_after);
+  EXPECT_EQ(all.report.off_cad.max, change.report.off_cad.max);
+  EXPECT_EQ(all.report.off_cad.node, change.report.off_cad.node);
+  EXPECT_EQ(all.report.violations.size(), change.report.violations.size());
+  return change;
+}
+
+TEST(verify, a_series_of_small_changes_is_reported_as_if_everything_had_been_measured) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (MeshedModel meshed : {ball(), brick(12)}) {
+    Measured known = measured(meshed);
+    for (int step = 0; step < 6; ++step) {
+      Request request;
+      request.kind = step == 5 ? TargetKind::node : TargetKind::hex;
+      request.targets = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
+      request.method = step % 2 && request.kind == TargetKind::hex ? Method::parallel : Method::automatic;
+      request.smooth = step == 3;
+      RefineResult result = refined_both_ways(meshed, known, request);
+      ASSERT_TRUE(result.report.violations.empty());
+      known = measured_after(result.report);
+      meshed = std::move(result.refined);
+    }
+  }
+}
+
+TEST(verify, curves_and_surfaces_of_a_shipped_model_are_reported_alike) {
+  const std::filesystem::path folder = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models";
+  MeshedModel bracket;
+  bracket.model = read_cad(folder / "bracket_fillet.brep").model;
+  bracket.mesh = read_mesh(folder / "bracket_fillet.msh").mesh;
+  bracket.association = associate(bracket.mesh, *bracket.model, nullptr).association;
+  const Measured known = measured(bracket);
+  for (Index id = 1; id <= bracket.model->count(0); id += 5) {
+    Request request;
+    request.kind = TargetKind::vertex;
+    request.targets = {id};
+    refined_both_ways(bracket, known, request);
+  }
+}
+
+TEST(verify, a_new_node_in_a_face_across_a_crack_is_found) {
+  // The cube is cut half-way through: nodes of the plane x = 0, y < 0 are doubled. That is a mesh (with a warning),
+  // until one side of the crack gets nodes that the other has not.
+  constexpr int n = 12;
+  Mesh mesh = mesh_brick({1, 1, 1}, {n, n, n});
+  const Index n_old = mesh.n_nodes();
+  std::vector<Index> twin(n_old, -1);
+  for (Index i = 0; i < n_old; ++i)
+    if (const Vec3 p = mesh.points[i]; std::abs(p.x()) < 1e-9 && p.y() < -1e-9) {
+      twin[i] = mesh.n_nodes();
+      mesh.points.push_back(p);
+    }
+  Index at_crack = -1;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    const Hex hex = mesh.hexes[h];
+    Vec3 centre = Vec3::Zero();
+    for (const Index i : hex) centre += mesh.points[i] / 8;
+    if (centre.x() < 0) continue;
+    for (Index& i : mesh.hexes[h])
+      if (twin[i] >= 0) i = twin[i];
+    if (hex != mesh.hexes[h] && std::abs(centre.z()) < 0.1 && centre.y() < -0.2) at_crack = h;
+  }
+  ASSERT_GE(at_crack, 0);
+  const FacetResult skin = associate_with_own_skin(mesh);
+  const MeshedModel input{mesh, skin.model, skin.association};
+  Request request;
+  request.targets = {at_crack};
+  const RefineResult result = refined_both_ways(input, measured(input), request);
+  ASSERT_FALSE(result.report.violations.empty());
+  EXPECT_EQ(result.report.violations[0].kind, ViolationKind::hanging_node);
+}
+
+}  // namespace
+}  // namespace hextwist::test
