@@ -8,7 +8,7 @@ cd "${2:-.}"
 commands='
   quality volume all shape
   refine surface 6 depth 1   # all hexes that touch the bore
-  refine curve 22            # the concave corner of the L
+  refine curve 22 depth 1    # the concave corner of the L
   refine vertex 9 depth 1    # a corner of the foot
   quality volume all shape
   export vtk "hextwist-demo.vtu" overwrite

@@ -35,16 +35,22 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
   current_ = &result_.refined;
 }
 
-void Pipeline::smooth_band() {
-  stages_.begin("smooth", fraction());
-  Mesh& mesh = result_.refined.mesh;
+std::vector<Index> Pipeline::new_hexes() const {
   // Hexes that were there before have their old ids and come first.
+  const Mesh& mesh = current_->mesh;
   const std::int64_t last_old = hex_id(input_.mesh, input_.mesh.n_hexes() - 1);
   std::vector<Index> fresh;
   for (Index h = mesh.n_hexes() - 1; h >= 0 && hex_id(mesh, h) > last_old; --h) fresh.push_back(h);
+  return fresh;
+}
+
+void Pipeline::smooth_band(bool fix_boundary) {
+  stages_.begin("smooth", fraction());
+  Mesh& mesh = result_.refined.mesh;
   SmoothOptions options;
-  options.nodes = nodes_inside(mesh, hex_band(mesh, fresh, smooth_layers));
+  options.nodes = nodes_inside(mesh, hex_band(mesh, new_hexes(), smooth_layers));
   options.fixed = request_.fixed;
+  options.fix_boundary = fix_boundary;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input_.model.get(), options,
                                        [&](const char* stage, double) { return stages_.report(stage, 0.9); });
   if (smoothed.stopped) throw Cancelled();

@@ -29,8 +29,10 @@ class Pipeline {
 
   /// Split, carry, place, repair: the result becomes the current mesh.
   void pass(std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes);
-  /// Smooths the hexes that are new since the input and a few layers around them.
-  void smooth_band();
+  /// Hexes that are new since the input.
+  std::vector<Index> new_hexes() const;
+  /// Smooths these and a few layers around them; without boundary nodes where these are to stay.
+  void smooth_band(bool fix_boundary = false);
   RefineResult take_result() { return std::move(result_); }
 
  private:

@@ -155,7 +155,21 @@ INSTANTIATE_TEST_SUITE_P(junctions, shipped_model,
                                          "ring_twist", "curved_plate", "cam", "l_block", "notched_cube"),
                          [](const auto& param) { return std::string(param.param); });
 
-// Issue 3: on refined models of our own both the smallest shape and the average rise, and the smallest never falls.
+TEST(junctions, thin_hexes_at_a_curved_surface_are_smoothed_between_two_rounds) {
+  const auto folder = test::data_folder();
+  if (folder.empty()) GTEST_SKIP() << "the folder of real CAD and meshes is not here";
+  MeshFile file = read_mesh(folder / "cad/bracket_fillet_1k.msh");
+  MeshedModel input;
+  input.model = read_cad(folder / "cad/bracket_fillet.brep", {}).model;
+  input.association = associate(file.mesh, *input.model, &file.tags).association;
+  input.mesh = std::move(file.mesh);
+  const RefineResult result = checked(input, {.kind = TargetKind::surface, .targets = {10}, .numsplit = 2});
+  EXPECT_TRUE(std::ranges::any_of(result.report.notices, [](const std::string& notice) {
+    return notice.starts_with("smoothed between two rounds");
+  }));
+}
+
+// On refined models of our own both the smallest shape and the average rise, and the smallest never falls.
 TEST(junctions, smoothing_a_refined_model_raises_the_smallest_shape_and_the_average) {
   for (const auto& [name, kind, dim] :
        {std::tuple{"bracket", TargetKind::curve, 1}, std::tuple{"cam", TargetKind::curve, 1},
