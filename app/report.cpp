@@ -18,6 +18,20 @@ Json quality_json(const QualityRow& row) {
           {"min_hex", row.min_hex}, {"max_hex", row.max_hex}, {"count", row.count}};
 }
 
+Json sizes_json(const SizesRow& row) {
+  if (row.hexes == 0) return nullptr;
+  return {{"hexes", row.hexes},
+          {"passes", row.passes},
+          {"met", row.met},
+          {"coarser", row.coarser},
+          {"finer", row.finer},
+          {"much_finer", row.much_finer},
+          {"smallest_ratio", row.smallest_ratio},
+          {"largest_ratio", row.largest_ratio},
+          {"n_unmet", row.n_unmet},
+          {"unmet", row.unmet}};
+}
+
 Json violations_json(const std::vector<ViolationRow>& rows) {
   Json result = Json::array();
   for (const ViolationRow& row : rows)
@@ -43,6 +57,7 @@ Json command_json(const CommandRecord& record) {
   row["nodes_after"] = record.after.nodes;
   row["filled_hexes"] = record.filled_hexes;
   row["dry_run"] = record.dry_run;
+  row["sizes"] = sizes_json(record.sizes);
   row["shape"] = {{"before", quality_json(record.before.shape)}, {"after", quality_json(record.after.shape)}};
   row["scaled_jacobian"] = {{"before", quality_json(record.before.scaled_jacobian)},
                             {"after", quality_json(record.after.scaled_jacobian)}};

@@ -124,9 +124,12 @@ const std::vector<CommandSpec> table = {
      {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
      {"redo", "redo 2"}},
     {"refine",
-     "refine {node|edge|face|hex|vertex|curve|surface|volume|~sheet} <range> "
-     "[numsplit <splits>] [depth <layers>] [bias <growth>] [concave {template|fill}] [method {auto|single|parallel|combination}] "
-     "[{smooth|no_smooth}] [dry_run] [~size] [~radius] [~sizing_function] [~direction]",
+     "refine {{node|edge|face|hex|vertex|curve|surface|volume} <range> "
+     "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
+     "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] "
+     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [graded]"
+     "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
+     "[concave {template|fill}] [{smooth|no_smooth}] [dry_run]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
      "every hex that touches it, with 2 one layer more. The default is 0, which for a node, edge, face, vertex, curve or "
@@ -134,15 +137,36 @@ const std::vector<CommandSpec> table = {
      "unless told otherwise; 'method parallel' halves the edges that leave the target. Of hexes, volumes and with depth 1 or more, "
      "'method parallel' makes one into eight instead of 27 wherever the sheets of a region allow it. 'smooth' moves the new nodes, and those of two "
      "layers around them, to better shapes. "
+     "'size' cuts until the elements at the target are about as large, each edge within a factor of sqrt(3); with a "
+     "'bias' above 1 the wished size grows with the distance from the target by about that factor from element to "
+     "element, and all hexes are looked at. 'sizing_function' takes the size from a function of place, in the hexes of the "
+     "target; with a 'bias' it is lowered until sizes grow by no more than that. 'radius' takes the hexes whose centroid is that near to the target. "
      "All volumes of the model together are refined uniformly instead: each edge in numsplit + 1 pieces.\n"
+     "'direction thickness' cuts only the edges that leave the surfaces or faces, and on from hex to hex to the other side; "
+     "'direction layers' cuts the hexes at the target into layers along it, each thicker than the one before by 'growth'. "
+     "'refine sheet' cuts only across the hex sheets of the edges (of the edge between two nodes; 'intersect': the other "
+     "sheets of the hexes around the edges), where the edges are longer than a length, or than a multiple of the sheets' "
+     "shortest edge. 'graded' takes more hexes along so that no neighbour is more than one level coarser.\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
-      {"growth", Kind::number, 1, 1e100, false, "accepted when 1"}},
-     {"refine curve 3", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
-      "refine volume all numsplit 1"}},
+      {"size", Kind::number, 0, 1e100, true, "wished size of elements at the target"},
+      {"growth", Kind::number, 1, 1e100, false, "growth of the wished size from element to element; default 1: none, the size is for the target alone"},
+      {"radius", Kind::number, 0, 1e100, false, "hexes whose centroid is that near to the target"},
+      {"function", Kind::word, 0, 0, false, "a sizing function; default: the one defined last"},
+      {"expression", Kind::string, 0, 0, false, "a size in x, y and z: \"0.1 + 0.2*abs(x)\""},
+      {"n", Kind::integer, 1, 50, false, "number of layers"},
+      {"ratio", Kind::number, 0.1, 10, false, "thickness of a layer / that of the one nearer to the target; default 1"},
+      {"first", Kind::integer, 1, 9e15, false, "id of a node"},
+      {"second", Kind::integer, 1, 9e15, false, "id of the node at the other end of the edge"},
+      {"length", Kind::number, 0, 1e100, false, "only edges longer than this"},
+      {"multiple", Kind::number, 0, 1e100, false, "only edges longer than this times the shortest"}},
+     {"refine curve 3", "refine curve 3 size 0.5 bias 1.5", "refine vertex 2 radius 4 numsplit 2",
+      "refine volume all sizing_function \"0.5 + 0.1*abs(x)\"", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
+      "refine volume all numsplit 1", "refine sheet edge 12 greater_than 0.5", "refine sheet node 1 2",
+      "refine surface 3 direction layers 4 growth 1.3", "refine hex in field \"error\" top 5 % graded"}},
     {"reset", "reset [{block|nodeset|sideset}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
@@ -171,6 +195,33 @@ const std::vector<CommandSpec> table = {
       {"which", Kind::range, 0, 0, false, "whose side of the faces"},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},
      {"sideset 5 surface 6", "sideset 5 face in surface 6 name \"wall\"", "sideset 7 surface 4 wrt volume 2", "sideset 5 remove face 3"}},
+    {"sizing",
+     "sizing {function <name> {constant <size>|<expression>|field <field> [file <file>]"
+     "|curvature <per_radian> [{curve|surface} <range>] [growth <growth>]|interval <n> curve <range> [growth <growth>]"
+     "|linear {node|edge|face|hex|vertex|curve|surface|volume} <range> size <size> [growth <growth>]"
+     "|minimum <first> <second> [<third> [<fourth>]]}|field <field> [file <file>]|list}",
+     "define a sizing function for 'refine ... sizing_function'",
+     "constant: the same everywhere. An expression in x, y and z in quotes. field: the values of a nodal or element "
+     "field of the mesh as it is now, or of a mesh file, interpolated. curvature: so many elements per radian on curved "
+     "curves and surfaces (of the whole CAD or those named). interval: so many elements along each curve. linear: a size "
+     "at entities. From curves, surfaces and sources sizes grow by 'growth' (default 1.5) from element to element. minimum: "
+     "the smallest of functions defined before. 'sizing field' makes a function of the field's name. 'sizing list' lists them.",
+     {{"name", Kind::word, 0, 0, false, "what to call it"},
+      {"size", Kind::number, 0, 1e100, true, "size of elements"},
+      {"expression", Kind::string, 0, 0, false, "a size in x, y and z"},
+      {"field", Kind::string, 0, 0, false, "name of a field, in quotes"},
+      {"file", Kind::file, 0, 0, false, "a mesh file"},
+      {"per_radian", Kind::number, 0, 1e6, true, "elements per radian"},
+      {"range", Kind::range, 0, 0, false, range_help},
+      {"growth", Kind::number, 1, 1e100, false, "growth of sizes from element to element"},
+      {"n", Kind::integer, 1, 1e6, false, "number of elements"},
+      {"first", Kind::word, 0, 0, false, "a sizing function"},
+      {"second", Kind::word, 0, 0, false, ""},
+      {"third", Kind::word, 0, 0, false, ""},
+      {"fourth", Kind::word, 0, 0, false, ""}},
+     {"sizing function f \"0.1 + 0.2*abs(x)\"", "sizing function bend curvature 3 growth 1.3",
+      "sizing function near linear curve 3 size 0.5 growth 1.5", "sizing function all minimum f bend",
+      "sizing field \"error size\" file \"solution.vtu\""}},
     {"smooth",
      "smooth {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
      "[scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}] [iterations <sweeps>] [boundary {slide|fixed}]",

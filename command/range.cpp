@@ -1,5 +1,6 @@
 #include "hextwist/command/range.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "hextwist/command/reader.h"
@@ -132,6 +133,30 @@ void expect_items(Reader& reader, bool names, bool first) {
   if (first) reader.expect("all");
 }
 
+/// "name" {above v | below v | top p [%]}
+void read_field_test(Reader& reader, RangeFilter& filter) {
+  filter.token = reader.take();
+  filter.field = filter.token.text;
+  using Test = RangeFilter::Test;
+  filter.test = reader.accept("above") ? Test::above : reader.accept("below") ? Test::below : Test::top;
+  if (filter.test == Test::top && !reader.accept("top")) reader.fail();
+  // "5%" and "%" are words.
+  const std::string& text = reader.peek().text;
+  double joined = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), joined);
+  const bool percent = filter.test == Test::top && bad == std::errc() && std::string_view(end) == "%";
+  if (reader.peek().kind != Token::Kind::number && !percent) {
+    reader.expect("a number");
+    reader.fail();
+  }
+  const Token number = reader.take();
+  filter.value = percent ? joined : number.value;
+  if (filter.test != Test::top) return;
+  if (!(filter.value > 0 && filter.value <= 100))
+    reader.fail(number, "a part of the whole is above 0 and at most 100 %");
+  skip_word(reader, "%");
+}
+
 /// Where a range stands: that decides what may follow it.
 enum class Place { whole, term };
 
@@ -153,7 +178,9 @@ class RangeReader {
       if (!filter) break;
       RangeFilter read;
       read.kind = *filter;
-      if (*filter == RangeFilter::Kind::with)
+      if (*filter == RangeFilter::Kind::field)
+        read_field_test(reader_, read);
+      else if (*filter == RangeFilter::Kind::with)
         read.criterion = read_criterion(reader_, kind);
       else if (*filter == RangeFilter::Kind::except)
         read.terms.push_back(exception(kind, place, nesting));
@@ -175,6 +202,14 @@ class RangeReader {
     const bool whole = place == Place::whole;
     if ((whole || first) && (whole || !other_kind_follows(kind)) && reader_.accept("except", 3))
       return RangeFilter::Kind::except;
+    // In a term it is about what the whole range is about, which must be said with that.
+    if (is_word(reader_.peek(), "in") && is_word(reader_.ahead(), "field") &&
+        reader_.ahead(2).kind == Token::Kind::string) {
+      if (!whole) return std::nullopt;
+      reader_.take();
+      reader_.take();
+      return RangeFilter::Kind::field;
+    }
     if (reader_.accept("in")) return RangeFilter::Kind::in;
     if (reader_.accept("common_to", 6)) return RangeFilter::Kind::common_to;
     if ((whole || (bare && first)) && reader_.accept("with")) return RangeFilter::Kind::with;
@@ -363,7 +398,12 @@ std::string to_string(const Range& range) {
   for (std::size_t i = 0; i < range.filters.size(); ++i) {
     const RangeFilter& filter = range.filters[i];
     if (!result.empty()) result += ' ';
-    if (filter.kind == RangeFilter::Kind::with) {
+    if (filter.kind == RangeFilter::Kind::field) {
+      constexpr const char* tests[] = {" above ", " below ", " top "};
+      result +=
+          "in field " + quoted_text(filter.field) + tests[static_cast<int>(filter.test)] + number_text(filter.value);
+      if (filter.test == RangeFilter::Test::top) result += " %";
+    } else if (filter.kind == RangeFilter::Kind::with) {
       result += "with " + to_string(filter.criterion);
     } else if (filter.kind == RangeFilter::Kind::except) {
       const Range& list = filter.terms[0].range;

@@ -3,6 +3,7 @@
 //   range      list filter ...                                        an empty list stands for all
 //   list       {id [to id [by step]] | name | all | (at x y z [ordinal n])} ...
 //   filter     {in | common_to} term [kind range] ...  |  with criterion  |  except {list | kind range}
+//              in field "name" {above v | below v | top p [%]}
 //   term       kind range | name | ( {kind range | name} ... )
 //
 // What binds to what: `except` belongs to the list of ids before it, and so does a kind word behind it; `in` and
@@ -42,10 +43,16 @@ struct RangeFilter {
     common_to,  ///< lie in, or touch, each entity of the terms
     with,       ///< meet the criterion
     except,     ///< are none of the term, which is of the same kind
+    field,      ///< have values of a field of the mesh that pass the test
   };
+  enum class Test { above, below, top };
   Kind kind = Kind::in;
   std::vector<RangeTerm> terms;
   Criterion criterion;
+  std::string field;        ///< its name
+  Test test = Test::above;  ///< `top`: the largest so many percent of the entities so far
+  double value = 0;
+  Token token;  ///< of the field's name
 };
 
 /// The items that pass every filter, one after the other. No items: all.

@@ -1,6 +1,7 @@
 #include "hextwist/command/selection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -70,6 +71,9 @@ class Evaluation {
           break;
         case RangeFilter::Kind::with:
           with(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::field:
+          field(kind, filter, chosen);
           break;
         case RangeFilter::Kind::except:
           except(kind, filter, chosen);
@@ -156,6 +160,63 @@ class Evaluation {
     const std::vector<Index> candidates = positions(chosen);
     const std::vector<char> good = meets(selector_, statement_, kind, filter.criterion, candidates);
     for (std::size_t i = 0; i < candidates.size(); ++i) chosen[candidates[i]] = good[i];
+  }
+
+  void field(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    if (kind != EntityKind::hex && kind != EntityKind::node)
+      throw error_at(statement_, filter.token,
+                     "fields have values at hexes and nodes, not at " + std::string(plural(kind)));
+    std::vector<Index> candidates = positions(chosen);
+    const std::vector<double> value = field_values(kind, filter);
+    using Test = RangeFilter::Test;
+    if (filter.test == Test::top) {
+      // The largest first; of equal ones those that come first.
+      std::ranges::stable_sort(candidates, std::greater{}, [&](Index i) { return value[i]; });
+      const double share = filter.value / 100 * static_cast<double>(candidates.size());
+      candidates.resize(static_cast<std::size_t>(std::ceil(share * (1 - 1e-12))));
+    } else {
+      std::erase_if(candidates, [&](Index i) {
+        return filter.test == Test::above ? !(value[i] > filter.value) : !(value[i] < filter.value);
+      });
+    }
+    std::ranges::fill(chosen, 0);
+    for (const Index i : candidates) chosen[i] = 1;
+  }
+
+  /// Of a hex: its value, or the average of its nodes. Of a node: its value. Of a vector: its length.
+  std::vector<double> field_values(EntityKind kind, const RangeFilter& filter) const {
+    const Mesh& mesh = selector_.meshed.mesh;
+    const auto fits = [&](const Field& field) {
+      return field.name == filter.field && (kind == EntityKind::hex || field.on == Field::On::node);
+    };
+    const auto found = std::ranges::find_if(mesh.fields, fits);
+    if (found == mesh.fields.end()) {
+      std::string known;
+      for (const Field& field : mesh.fields)
+        if (kind == EntityKind::hex || field.on == Field::On::node) known += (known.empty() ? "" : ", ") + field.name;
+      throw error_at(statement_, filter.token,
+                     "there is no field '" + printable(filter.field) + "' of " + std::string(plural(kind)) +
+                         (known.empty() ? "" : "; there are " + known));
+    }
+    const auto at = [&](Index i) {
+      double sum = 0;
+      for (int c = 0; c < found->components; ++c) {
+        const double x = found->values[static_cast<std::size_t>(i) * static_cast<std::size_t>(found->components) +
+                                       static_cast<std::size_t>(c)];
+        if (found->components == 1) return x;
+        sum += x * x;
+      }
+      return std::sqrt(sum);
+    };
+    std::vector<double> values(static_cast<std::size_t>(count(selector_, kind)));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (found->on == Field::On::hex || kind == EntityKind::node) {
+        values[i] = at(static_cast<Index>(i));
+        continue;
+      }
+      for (const Index n : mesh.hexes[i]) values[i] += at(n) / 8;
+    }
+    return values;
   }
 
   [[noreturn]] void refuse_nothing(EntityKind kind, const Token& token) const {

@@ -45,6 +45,14 @@ struct MeshState {
   double volume = 0;
 };
 
+/// How well wished sizes were met (SizeReport), hexes by the ids that users know; hexes 0: none were wished for.
+struct SizesRow {
+  std::int64_t hexes = 0, coarser = 0, finer = 0, much_finer = 0, n_unmet = 0;
+  int passes = 0;
+  double met = 1, smallest_ratio = 0, largest_ratio = 0;
+  std::vector<std::int64_t> unmet;  ///< at most 1000 of them
+};
+
 /// What one command did. Of a command that changes nothing, before and after are the same.
 struct CommandRecord {
   std::string command;  ///< as said, on one line
@@ -54,6 +62,7 @@ struct CommandRecord {
   MeshState before, after;
   bool dry_run = false;  ///< after.hexes and after.nodes are then what would have been
   std::int64_t filled_hexes = 0;
+  SizesRow sizes;
   OffModel off_cad;               ///< of the mesh afterwards
   std::int64_t off_cad_node = 0;  ///< id of its worst node, 0: none
   double cad_volume = 0;          ///< of the model afterwards

@@ -111,6 +111,7 @@ void do_refine(Execution& run);
 void do_reset(Execution& run);
 void do_scheme(Execution& run);
 void do_set(Execution& run);
+void do_sizing(Execution& run);
 void do_smooth(Execution& run);
 void do_undo(Execution& run);
 /// "2 curves, 1 surface"
@@ -126,6 +127,12 @@ void add_step(Session::Core& core, Step step) noexcept;
 /// Writes a command that went well to the journal, if there is one; expressions alone likewise.
 void keep_on_record(Session::Core& core, const Command& command);
 void keep_on_record(Session::Core& core, const Statement& statement);
+
+/// How sizes grow from a source unless it is said, per unit of distance and plus one: the usual 1.5.
+inline constexpr double default_growth = 1.5;
+/// A sizing function typed as an expression; the error points into it. One by name.
+SizeFieldPtr typed_size(const Command& command, const Item& expression);
+SizeFieldPtr named_size(const Execution& run, const Item& name);
 
 /// Runs the commands of a text; see Session::run().
 int run_text(Session::Core& core, std::string_view text, std::string_view source_name, int first_line = 1);

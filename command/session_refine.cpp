@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <iterator>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/mesh/histogram.h"
+#include "hextwist/sizing/adapt.h"
+#include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/verify.h"
 
 namespace hextwist {
@@ -8,8 +12,113 @@ namespace {
 
 constexpr int max_local_numsplit = 8;
 
+/// What is asked of sizes; the engine checks the rest, these have a place to point at.
+void read_sizes(const Execution& run, Request& request) {
+  const Command& command = run.command;
+  if (const Item* radius = command.find("radius")) request.radius = radius->number;
+  if (const Item* size = command.find("size")) {
+    request.size = size->number;
+    if (command.find("splits")) throw error_at(command.statement, size->token, "give numsplit or a size, not both");
+  }
+  if (const Item* function = command.find("function")) {
+    request.size_field = named_size(run, *function);
+  } else if (const Item* expression = command.find("expression")) {
+    request.size_field = typed_size(command, *expression);
+  } else if (command.has("sizing_function")) {
+    if (run.state.sizing.empty()) throw Error("there is no sizing function; define one with 'sizing function'");
+    request.size_field = run.state.sizing.at(run.state.last_sizing).field;
+  }
+  if (request.size_field && command.find("splits"))
+    throw error_at(command.statement, command.find("splits")->token, "give numsplit or a sizing function, not both");
+  if (const Item* growth = command.find("growth")) {
+    request.bias = growth->number;
+    if (request.bias != 1 && !request.size && !request.size_field)
+      throw error_at(command.statement, growth->token,
+                     "a bias other than 1 needs a size or a sizing function to grow from");
+  }
+}
+
+SizesRow sizes_row(const Mesh& mesh, const SizeReport& sizes) {
+  SizesRow row;
+  row.hexes = static_cast<std::int64_t>(sizes.hexes.size());
+  row.coarser = sizes.n_coarser;
+  row.finer = sizes.n_finer;
+  row.much_finer = sizes.n_much_finer;
+  row.passes = sizes.n_passes;
+  row.met = sizes.met();
+  if (!sizes.ratio.empty()) {
+    const auto [least, most] = std::ranges::minmax(sizes.ratio);
+    row.smallest_ratio = least;
+    row.largest_ratio = most;
+  }
+  row.n_unmet = static_cast<std::int64_t>(sizes.unmet.size());
+  for (std::size_t i = 0; i < std::min(sizes.unmet.size(), max_violation_rows); ++i)
+    row.unmet.push_back(hex_id(mesh, sizes.unmet[i]));
+  return row;
+}
+
+std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
+  std::string text = "actual / wished size of " +
+                     counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
+                     counted(sizes.n_passes, "pass", "passes") + ": " + short_number(100 * sizes.met()) +
+                     "% within a factor of sqrt(3), " + std::to_string(sizes.n_coarser) + " coarser, " +
+                     std::to_string(sizes.n_finer) + " finer (" + std::to_string(sizes.n_much_finer) +
+                     " by more than 3)\n" + histogram(sizes.ratio);
+  if (text.ends_with('\n')) text.pop_back();
+  if (!sizes.unmet.empty())
+    text += "\n" + counted(static_cast<std::int64_t>(sizes.unmet.size()), EntityKind::hex) +
+            " are still too large, the first: hex " + std::to_string(hex_id(mesh, sizes.unmet.front()));
+  return text;
+}
+
+/// `refine sheet ...`.
+SheetRequest sheets_of(const Execution& run) {
+  const Command& command = run.command;
+  SheetRequest request;
+  if (const Item* range = command.find("range")) {
+    request.edges = run.chosen(*range);
+  } else {
+    const Mesh& mesh = run.state.meshed->mesh;
+    std::array<Index, 2> nodes{};
+    for (int i = 0; i < 2; ++i) {
+      const Item& said = *command.find(i == 0 ? "first" : "second");
+      nodes[i] = find_node(mesh, static_cast<std::int64_t>(said.number));
+      if (nodes[i] < 0) throw error_at(command.statement, said.token, "there is no node " + short_number(said.number));
+    }
+    request.edges = {find_edge(run.core.selector().topology.edges(), nodes[0], nodes[1])};
+    if (request.edges.front() < 0)
+      throw error_at(command.statement, command.find("second")->token, "no edge joins these nodes");
+  }
+  request.crossing = command.has("intersect");
+  if (const Item* length = command.find("length")) request.greater_than = length->number;
+  if (const Item* multiple = command.find("multiple")) request.factor = multiple->number;
+  return request;
+}
+
+void read_direction(const Command& command, Request& request) {
+  request.through_thickness = command.has("thickness");
+  if (const Item* n = command.find("n")) {
+    request.layers = LayerRequest{.n_layers = static_cast<int>(n->number)};
+    if (const Item* ratio = command.find("ratio")) request.layers->growth = ratio->number;
+  }
+}
+
+/// What every refinement can be told.
+void read_common(const Execution& run, Request& request) {
+  const Command& command = run.command;
+  request.concave = command.has("fill") ? Concave::fill : Concave::templates;
+  request.smooth = command.has("smooth");
+  if (run.state.fixed_nodes) request.fixed = *run.state.fixed_nodes;
+  request.dry_run = command.has("dry_run");
+}
+
 Request request_of(const Execution& run) {
   const Command& command = run.command;
+  if (command.has("sheet")) {
+    Request request{.sheets = sheets_of(run)};
+    read_common(run, request);
+    return request;
+  }
   const Item& range = *command.find("range");
   Request request;
   request.kind = static_cast<TargetKind>(range.kind);  // the same order, as far as that goes
@@ -27,15 +136,27 @@ Request request_of(const Execution& run) {
           "numsplit must be at most " + std::to_string(max_local_numsplit) + " unless all volumes are refined");
   }
   if (const Item* layers = command.find("layers")) request.depth = static_cast<int>(layers->number);
-  if (const Item* growth = command.find("growth"); growth && growth->number != 1)
-    throw error_at(command.statement, growth->token, "a bias other than 1 is not supported yet");
-  request.concave = command.has("fill") ? Concave::fill : Concave::templates;
-  request.smooth = command.has("smooth");
+  read_sizes(run, request);
+  read_direction(command, request);
+  read_common(run, request);
   for (const Method method : {Method::automatic, Method::single, Method::parallel, Method::combination})
     if (command.has(name(method))) request.method = method;
-  if (run.state.fixed_nodes) request.fixed = *run.state.fixed_nodes;
-  request.dry_run = command.has("dry_run");
   return request;
+}
+
+/// `graded`: through the adaptive call, which keeps the levels.
+RefineResult refine_graded(const Execution& run, const Request& request) {
+  if (request.numsplit != 1 || request.size || request.size_field || request.method != Method::automatic ||
+      request.through_thickness || request.layers)
+    throw Error("graded cuts whole hexes once: it goes with depth, radius and concave only");
+  const MeshedModel& meshed = *run.state.meshed;
+  std::vector<std::string> notices;
+  std::vector<std::uint8_t> flags(meshed.mesh.hexes.size(), 0);
+  for (const Index h : region_target(meshed, request, notices)) flags[h] = 1;
+  AdaptResult result =
+      adapt(meshed, flags, {.concave = request.concave, .smooth = request.smooth}, run.core.callbacks.progress);
+  std::ranges::move(notices, std::back_inserter(result.report.notices));
+  return {std::move(result.refined), {}, std::move(result.origin), std::move(result.report)};
 }
 
 /// What the session knows of its mesh, so that it need not be measured again.
@@ -70,7 +191,9 @@ void do_refine(Execution& run) {
   run.stage("select");
   const Request request = request_of(run);
   run.close_stage();
-  RefineResult result = refine(*state.meshed, known_of(state), request, run.core.callbacks.progress);
+  RefineResult result = run.command.has("graded")
+                            ? refine_graded(run, request)
+                            : refine(*state.meshed, known_of(state), request, run.core.callbacks.progress);
   const Report& report = result.report;
   run.record.filled_hexes = report.filled_hexes;
   run.record.seconds.insert(run.record.seconds.end(), report.seconds.begin(), report.seconds.end());
@@ -102,6 +225,9 @@ void do_refine(Execution& run) {
   state.tags = nullptr;
   state.meshed = std::make_shared<MeshedModel>(std::move(result.refined));
   run.say(line);
+  if (!report.sizes) return;
+  run.record.sizes = sizes_row(state.meshed->mesh, *report.sizes);
+  run.say(sizes_text(state.meshed->mesh, *report.sizes));
 }
 
 }  // namespace hextwist

@@ -194,6 +194,8 @@ void do_reset(Execution& run) {
       return run.change_sets(std::move(lists));
     }
   static_cast<ModelState&>(run.state) = ModelState();
+  run.state.sizing.clear();
+  run.state.last_sizing.clear();
 }
 
 }  // namespace hextwist

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "hextwist/command/group.h"
 #include "hextwist/command/session.h"
 #include "hextwist/mesh/smooth.h"
+#include "hextwist/sizing/size_field.h"
 
 namespace hextwist {
 
@@ -34,6 +37,14 @@ struct ModelState {
 
 /// Everything that a command may change; copied before each, so that a failure can put it back.
 struct SessionState : ModelState {
+  /// Sizing functions by name, and the one that was defined last.
+  struct NamedSize {
+    SizeFieldPtr field;
+    std::string text;  ///< the command that made it
+  };
+  std::map<std::string, NamedSize> sizing;
+  std::string last_sizing;
+
   Glue glue = Glue::automatic;
   double feature_angle = 35;  ///< degrees
   double tolerance = 1e-5;    ///< of a mesh on its CAD, relative to the model size

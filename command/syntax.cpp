@@ -42,6 +42,7 @@ class Matcher {
   Reader& reader_;
   const CommandSpec& spec_;
   Command& out_;
+  std::vector<Keyword> outer_;  // options that may follow: a name that is left out must not swallow them
 
   const ArgumentSpec& argument(const std::string& name) const {
     const auto found = std::ranges::find(spec_.arguments, name, &ArgumentSpec::name);
@@ -98,7 +99,9 @@ class Matcher {
         reader_.expect("a file name in quotes");
         return false;
       case Kind::word:
-        if (token.kind == Token::Kind::word) return true;
+        if (token.kind == Token::Kind::word &&
+            std::ranges::none_of(outer_, [&](const Keyword& option) { return begins_word(token.text, option.word); }))
+          return true;
         reader_.expect("a word");
         return false;
     }
@@ -134,13 +137,17 @@ class Matcher {
 
   void options(const PatternNode& node) {
     std::vector<bool> said(node.choices.size());
+    const std::size_t n_outer = outer_.size();
+    std::vector<std::size_t> ignored;
+    for (std::size_t i = 0; i < node.choices.size(); ++i) first_words(node.choices[i], i, outer_, ignored);
     while (true) {
       const auto choice = choose(node, said);
-      if (!choice) return;
+      if (!choice) break;
       if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
       sequence(node.choices[*choice]);
     }
+    outer_.resize(n_outer);
   }
 
   void value(const ArgumentSpec& spec) {

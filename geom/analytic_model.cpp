@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hextwist/geom/curvature.h"
 #include "hextwist/geom/incidence.h"
 
 namespace hextwist {
@@ -31,7 +32,7 @@ double number_or_zero(double value) {
 }
 
 /// What the three solids share; each one provides foot(), point() and the measures.
-class ClosedForm : public Model {
+class ClosedForm : public Model, public KnowsCurvature {
  public:
   using Model::project;
 
@@ -68,6 +69,7 @@ class ClosedForm : public Model {
 
 class Brick final : public ClosedForm {
  public:
+  double curvature(Owner, Parameters) const override { return 0; }
   explicit Brick(const Vec3& size) : ClosedForm({8, 12, 6, 1}), size_(size) {
     // An entity fixes some of the three axes; it is part of those that fix a subset of them at the same ends.
     for (int dim = 1; dim < 4; ++dim)
@@ -162,6 +164,9 @@ class Brick final : public ClosedForm {
 
 class Cylinder final : public ClosedForm {
  public:
+  double curvature(Owner entity, Parameters) const override {
+    return entity.dim == 1 || entity == Owner{2, side} ? 1 / r_ : 0;
+  }
   Cylinder(double r, double h) : ClosedForm({2, 2, 3, 1}), r_(r), h_(h) {
     for (int end = 1; end <= 2; ++end) {
       incidence_.add({1, end}, {0, end});
@@ -249,6 +254,7 @@ class Cylinder final : public ClosedForm {
 
 class Sphere final : public ClosedForm {
  public:
+  double curvature(Owner entity, Parameters) const override { return entity.dim == 2 ? 1 / r_ : 0; }
   explicit Sphere(double r) : ClosedForm({0, 0, 1, 1}), r_(r) {
     incidence_.add({3, 1}, {2, 1});
     incidence_.close();

@@ -1,6 +1,7 @@
 // Closest points on edges: closed forms for lines and circles, else a polyline finds the place and Newton finishes.
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
+#include <Eigen/Geometry>
 #include <ElCLib.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -92,6 +93,13 @@ Vec3 Curve::point(double t) const {
 
 Vec3 Curve::derivative(double t) const {
   return degenerate() ? Vec3::Zero() : from_occ(curve_->DN(t, 1));
+}
+
+double Curve::curvature(double t) const {
+  if (degenerate() || kind_ == GeomAbs_Line) return 0;
+  const Vec3 d1 = from_occ(curve_->DN(t, 1)), d2 = from_occ(curve_->DN(t, 2));
+  const double speed = d1.norm();
+  return speed > 0 ? d1.cross(d2).norm() / (speed * speed * speed) : 0;
 }
 
 double Curve::into_range(double t) const {

@@ -45,6 +45,8 @@ class Curve {
   Vec3 point(double t) const;
   /// First derivative, zero on a degenerate edge.
   Vec3 derivative(double t) const;
+  /// One over the radius; 0 where straight, on a degenerate edge and where the derivative vanishes.
+  double curvature(double t) const;
   double length() const;
   Box box() const;
 

@@ -254,6 +254,13 @@ Vec3 OccModel::tangent(int curve, double t) const {
   return length > 0 ? Vec3(d / length) : Vec3::Zero();
 }
 
+double OccModel::curvature(Owner owner, Parameters at) const {
+  entity(owner);
+  if (owner.dim == 1) return curves_[index(owner.id)]->curvature(at.u);
+  if (owner.dim == 2) return surfaces_[index(owner.id)]->curvature(at.u, at.v);
+  return 0;
+}
+
 // A face's orientation says on which side its material is, provided that the solid is not inside out.
 const OccModel::Sides& OccModel::sides() const {
   std::call_once(sides_made_, [this] {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/geom/curvature.h"
 #include "hextwist/geom/occ_curve_internal.h"
 #include "hextwist/geom/occ_surface_internal.h"
 
@@ -23,7 +24,7 @@ using Names = std::array<std::vector<std::string>, 4>;
 using ShapeMaps = std::array<TopTools_IndexedMapOfShape, 4>;
 ShapeMaps entity_maps(const TopoDS_Shape& shape);
 
-class OccModel final : public Model {
+class OccModel final : public Model, public KnowsCurvature {
  public:
   OccModel(const TopoDS_Shape& shape, Names names);
 
@@ -44,6 +45,7 @@ class OccModel final : public Model {
   Vec3 normal(int surface, Parameters at) const override;
   void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
                std::span<Projection> out) const override;
+  double curvature(Owner entity, Parameters at) const override;
   bool contains(int volume, const Vec3& point) const override;
   std::vector<int> near(int dim, const Vec3& p, double distance) const override;
 

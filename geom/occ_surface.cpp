@@ -6,6 +6,7 @@
 #include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <GeomLProp_SLProps.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
@@ -113,6 +114,17 @@ const char* Surface::type() const {
 
 bool Surface::has_closed_form() const {
   return kind_ <= GeomAbs_Torus;
+}
+
+double Surface::curvature(double u, double v) const {
+  if (kind_ == GeomAbs_Plane) return 0;
+  // In closed form also at poles, where the parameters have no say.
+  if (kind_ == GeomAbs_Cylinder)
+    return 1 / static_cast<const Geom_CylindricalSurface*>(surface_.get())->Cylinder().Radius();
+  if (kind_ == GeomAbs_Sphere) return 1 / static_cast<const Geom_SphericalSurface*>(surface_.get())->Sphere().Radius();
+  GeomLProp_SLProps properties(surface_, u, v, 2, 1e-12);
+  if (!properties.IsCurvatureDefined()) return 0;
+  return std::max(std::abs(properties.MaxCurvature()), std::abs(properties.MinCurvature()));
 }
 
 Vec3 Surface::normal(double u, double v) const {

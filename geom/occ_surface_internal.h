@@ -44,6 +44,9 @@ class Surface {
   /// Unit vector along dS/du x dS/dv; its limit where that vanishes; zero where there is no limit (tip of a cone).
   Vec3 normal(double u, double v) const;
 
+  /// The larger principal curvature; 0 where there is none.
+  double curvature(double u, double v) const;
+
   Box box() const;
   const FaceIntegrals& integrals() const;
 

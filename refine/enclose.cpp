@@ -138,6 +138,15 @@ std::shared_ptr<const SplitTable> enclose_table(EncloseAt at) {
   return tables[at == EncloseAt::half ? 0 : 1];
 }
 
+std::shared_ptr<const SplitTable> enclose_table(double from_marked) {
+  // Inner nodes a little farther out than those on edges, as at a third, and the same seen from the other side.
+  const auto farther = [](double t, double by) {
+    return t <= 0.5 ? t + by * t * (1 - 2 * t) : 1 - ((1 - t) + by * (1 - t) * (2 * t - 1));
+  };
+  const auto reach = [&](double t) { return Reach{t, farther(t, 0.6), farther(t, 0.78)}; };
+  return make_enclose_table({reach(from_marked), reach(1 - from_marked)});
+}
+
 std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
   std::vector<std::uint16_t> codes(hexes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hexes.size(), 4096), [&](const auto& range) {

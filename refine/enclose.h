@@ -24,6 +24,9 @@ enum class EncloseAt { half, third };
 
 std::shared_ptr<const SplitTable> enclose_table(EncloseAt at);
 
+/// Cut edges at any fraction of their length from the marked node, 0.01 .. 0.99: layers of a chosen thickness.
+std::shared_ptr<const SplitTable> enclose_table(double from_marked);
+
 /// A marking of the corners that has a template.
 bool has_enclosing_template(int corner_mask);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
@@ -30,8 +32,23 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association, request_.fixed),
                       std::back_inserter(report_.off_nodes));
   }
+  const std::vector<Index>& parent = parts.lineage.parent;
+  std::vector<Index> origin(parent.size());
+  parallel_each(parent.size(),
+                [&](std::size_t h) { origin[h] = result_.origin.empty() ? parent[h] : result_.origin[parent[h]]; });
+  result_.origin = std::move(origin);
   result_.lineage = std::move(parts.lineage);
   result_.refined = std::move(next);
+  current_ = &result_.refined;
+}
+
+void Pipeline::keep() {
+  result_.refined = input_;
+  result_.lineage.n_old_nodes = input_.mesh.n_nodes();
+  result_.lineage.n_old_hexes = input_.mesh.n_hexes();
+  result_.lineage.parent.resize(input_.mesh.hexes.size());
+  std::iota(result_.lineage.parent.begin(), result_.lineage.parent.end(), 0);
+  result_.origin = result_.lineage.parent;
   current_ = &result_.refined;
 }
 

@@ -29,6 +29,8 @@ class Pipeline {
 
   /// Split, carry, place, repair: the result becomes the current mesh.
   void pass(std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes);
+  /// Makes the input the result, for a request that finds nothing to do.
+  void keep();
   /// Hexes that are new since the input.
   std::vector<Index> new_hexes() const;
   /// Smooths these and a few layers around them; without boundary nodes where these are to stay.
@@ -49,6 +51,12 @@ class Pipeline {
 void trisect_passes(Pipeline& run);
 /// Hexes and layers of hexes, every edge halved where the region allows it (sections 5.1 to 5.3, eight.h).
 void eight_passes(Pipeline& run);
+/// Across chosen sheets; through the thickness behind surfaces; in layers along the target.
+void sheet_passes(Pipeline& run);
+void thickness_passes(Pipeline& run);
+void layer_passes(Pipeline& run);
+/// Hexes cut until they have the wished size.
+void size_passes(Pipeline& run);
 /// Around nodes, edges and faces: parallel or combination (section 5).
 void sub_element_passes(Pipeline& run, Method method);
 

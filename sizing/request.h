@@ -18,6 +18,8 @@
 
 namespace hextwist {
 
+class SizeField;
+
 /// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
 struct MeshedModel {
   Mesh mesh;
@@ -42,6 +44,23 @@ enum class Method {
 /// "auto", "single", "parallel", "combination".
 const char* name(Method method);
 
+/// Instead of targets: the hex sheets (mesh/sheets.h) that edges belong to. Their edges are cut in three, once; nothing
+/// else is.
+struct SheetRequest {
+  std::vector<Index> edges = {};  ///< as numbered by edges(); each chooses the sheet that cuts it
+  /// The sheets that cross those at the edges instead: across the other directions of the hexes around the edges.
+  bool crossing = false;
+  std::optional<double> greater_than = std::nullopt;  ///< leave edges alone that are no longer than this
+  std::optional<double> factor = std::nullopt;        ///< or than this times the shortest edge of the sheets
+};
+
+/// Layers along the target in the hexes that touch it: boundary layers.
+struct LayerRequest {
+  int n_layers = 2;  ///< that each of these hexes is cut into, 1 .. 50
+  double growth =
+      1;  ///< thickness of a layer / thickness of the one before it, which is nearer to the target. 0.1 .. 10
+};
+
 /// Which entities to refine and how much.
 struct Request {
   TargetKind kind = TargetKind::hex;
@@ -55,6 +74,29 @@ struct Request {
   /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0; 1 for
   /// Method::single of anything but hexes and volumes.
   std::optional<int> depth = std::nullopt;
+  /// Instead of depth: hexes whose centroid lies within this distance of the target entity (the CAD entity itself
+  /// where it is one).
+  std::optional<double> radius = std::nullopt;
+
+  /// Instead of numsplit: elements of about this size. Edges are cut in three while they are longer than sqrt(3) times
+  /// the wished size, so that they end within a factor sqrt(3) of it.
+  std::optional<double> size = std::nullopt;
+  /// With size: 1, the size is wished for at the target only (the hexes that depth or radius choose; by default those
+  /// that touch it); above 1, everywhere, growing by bias - 1 per unit of distance from the target entity, so that
+  /// neighbours grow by about that factor; depth or radius then limit where. With a size field: the wished sizes are
+  /// lowered so that they grow by at most that much.
+  double bias = 1;
+  /// Wished size by place (size_field.h), in the hexes of the target; with a size, the smaller of both counts.
+  std::shared_ptr<const SizeField> size_field = nullptr;
+  /// Sizes are approached in passes that each cut by up to three; after so many the rest is reported as unmet. 1 .. 30.
+  int max_passes = 12;
+
+  /// Refinement in one direction only. Of surfaces and faces: the edges that leave them are cut in three (numsplit
+  /// times), and so on from hex to hex to the other side of the mesh.
+  bool through_thickness = false;
+  std::optional<LayerRequest> layers = std::nullopt;  ///< of anything but hexes and volumes
+  std::optional<SheetRequest> sheets = std::nullopt;  ///< kind and targets are then not looked at
+
   Method method = Method::automatic;
   Concave concave = Concave::templates;
   bool smooth = false;            ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
@@ -68,6 +110,24 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// How well a request for sizes was met. The zone: the hexes at which it was wished for (with a bias: the hexes that it
+/// made and those at the target). The actual size of a hex is the cube root of its volume; the wished one that at its
+/// centroid.
+struct SizeReport {
+  int n_passes = 0;
+  std::vector<Index> hexes;   ///< of the zone, ascending
+  std::vector<double> ratio;  ///< per hex of the zone: actual size / wished size
+  Index n_coarser = 0;        ///< ratio above sqrt(3)
+  Index n_finer = 0;          ///< below 1 / sqrt(3)
+  Index n_much_finer = 0;     ///< below 1 / 3
+  std::vector<Index> unmet;   ///< hexes that would be cut again if there were passes left, ascending
+  /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
+  double met() const {
+    const auto n = static_cast<double>(hexes.size());
+    return hexes.empty() ? 1 : 1 - static_cast<double>(n_coarser + n_finer) / n;
+  }
+};
+
 struct Report {
   std::int64_t hexes_before = 0, hexes_after = 0;
   std::int64_t nodes_before = 0, nodes_after = 0;
@@ -78,6 +138,7 @@ struct Report {
   double volume_before = 0, volume_after = 0;
   std::vector<Disappointment> off_nodes;  ///< nodes that were left off their owner
   std::vector<Violation> violations;      ///< of the result; empty unless something is wrong with it
+  std::optional<SizeReport> sizes;        ///< of a request for sizes; absent for a dry run
   std::vector<std::string> notices;       ///< decisions taken, one line each
   std::vector<StageTime> seconds;
   double total_seconds = 0;
@@ -93,7 +154,8 @@ struct Cancelled : Error {
 
 struct RefineResult {
   MeshedModel refined;
-  Lineage lineage;  ///< of the last pass
+  Lineage lineage;            ///< of the last pass
+  std::vector<Index> origin;  ///< over all passes: per hex, the hex of the input that it lies in; empty for a dry run
   Report report;
 };
 

@@ -1,10 +1,13 @@
 #include "hextwist/sizing/targets.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/split_table.h"
+#include "hextwist/sizing/target_distance.h"
 
 namespace hextwist {
 namespace {
@@ -53,7 +56,35 @@ void finish(CombinationTarget& target) {
   sort_unique(target.edges);
 }
 
+/// Hexes whose centroid lies within the request's radius of its targets.
+std::vector<Index> hexes_within(const MeshedModel& input, const Request& request) {
+  const std::vector<Vec3> centres = centroids(input.mesh);
+  std::vector<double> distance(centres.size());
+  TargetDistance(input, request.kind, request.targets).evaluate(centres, distance);
+  std::vector<Index> found = where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *request.radius; });
+  if (found.empty())
+    throw Error("no hex has its centroid within " + std::to_string(*request.radius) +
+                " of the target: the nearest is " + std::to_string(*std::ranges::min_element(distance)) + " away");
+  return found;
+}
+
 }  // namespace
+
+std::vector<Vec3> centroids(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Vec3> result(hexes.size());
+  parallel_each(hexes.size(), [&](std::size_t i) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index n : mesh.hexes[hexes[i]]) sum += mesh.points[n];
+    result[i] = sum / n_hex_corners;
+  });
+  return result;
+}
+
+std::vector<Vec3> centroids(const Mesh& mesh) {
+  std::vector<Index> all(mesh.hexes.size());
+  std::iota(all.begin(), all.end(), 0);
+  return centroids(mesh, all);
+}
 
 bool is_solid(TargetKind kind) {
   return kind == TargetKind::hex || kind == TargetKind::volume;
@@ -93,6 +124,11 @@ std::vector<Index> solid_target(const MeshedModel& input, const Request& request
 }
 
 std::vector<Index> region_target(const MeshedModel& input, const Request& request, std::vector<std::string>& notices) {
+  if (request.radius) {
+    if (request.kind == TargetKind::edge || request.kind == TargetKind::face)
+      sub_element_target(input, request, notices);  // checks that they exist
+    return hexes_within(input, request);
+  }
   if (is_solid(request.kind)) return with_layers(input.mesh, solid_target(input, request), request.depth.value_or(0));
   return layers_around(input.mesh, sub_element_target(input, request, notices).nodes, request.depth.value_or(1));
 }
@@ -210,6 +246,12 @@ CombinationTarget carried_target(const CombinationTarget& target, const Lineage&
   carry_faces(target.faces, lineage, refined, carried.faces);
   finish(carried);
   return carried;
+}
+
+std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(lineage.n_old_hexes), 0);
+  for (const Index h : hexes) wanted[h] = 1;
+  return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
 }
 
 std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers) {

@@ -12,6 +12,10 @@ namespace hextwist {
 /// Throws Error unless the request has targets, all of which exist; names the first that does not.
 void check_targets(const MeshedModel& input, const Request& request);
 
+/// The average of the corners of each hex.
+std::vector<Vec3> centroids(const Mesh& mesh);
+std::vector<Vec3> centroids(const Mesh& mesh, std::span<const Index> hexes);
+
 /// Hexes and volumes are solid targets: they name hexes. All others name nodes, edges and faces.
 bool is_solid(TargetKind kind);
 
@@ -32,6 +36,9 @@ CombinationTarget sub_element_target(const MeshedModel& input, const Request& re
 
 /// What a sub-element target has become after a pass: children of its edges and faces, and all nodes on it.
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined);
+
+/// Children of these hexes (ascending); of a hex that was not cut, itself.
+std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes);
 
 /// Hexes that the nodes touch (1 layer), those that touch them (2), ...; ascending.
 std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers);

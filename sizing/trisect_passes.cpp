@@ -1,23 +1,10 @@
 // Single hex sheet operations: whole hexes and layers of them.
-#include <algorithm>
-
-#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
 #include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
-namespace {
-
-/// Children of the target hexes: the targets of the next pass.
-std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
-  std::vector<char> wanted(lineage.n_old_hexes, 0);
-  for (const Index h : hexes) wanted[h] = 1;
-  return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
-}
-
-}  // namespace
 
 void trisect_passes(Pipeline& run) {
   std::vector<Index> targets = region_target(run.input(), run.request(), run.report().notices);

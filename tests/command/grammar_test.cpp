@@ -100,7 +100,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
            {"foo", 1, "expected block, check, create, curve, delete"},
            {"refine crve 3", 8,
-            "expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you mean 'curve'?)"},
+            "expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you mean 'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
            {"refine curve", 13,
             "expected an id, a name, all, except, in, common_to or with, found the end of the command"},
@@ -161,12 +161,15 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"refine curve 3 depth -1", 22, "depth must be a whole number"},
            {"refine curve 3 bias 0.5", 21, "bias must be a number of at least 1"},
            {"refine curve 3 concave", 23, "expected template or fill"},
-           {"refine curve 3 s", 16, "'s' is short for smooth, size or sizing_function"},
-           {"refine curve 3 size 0.5", 16, "'size' is not supported yet"},
-           {"refine curve 3 radius 2", 16, "'radius' is not supported yet"},
-           {"refine curve 3 sizing_function f", 16, "'sizing_function' is not supported yet"},
+           {"refine curve 3 s", 16, "'s' is short for size, smooth or sizing_function"},
+           {"refine curve 3 size 0", 21, "size must be a number above 0"},
+           {"refine curve 3 size", 20, "expected a number"},
+           {"refine curve 3 radius -2", 23, "radius must be a number of at least 0"},
            {"refine curve 3 method fast", 23, "expected auto, single, parallel or combination"},
-           {"refine sheet edge 3", 8, "'sheet' is not supported yet"},
+           {"refine sheet 3", 14, "expected edge, node or intersect"},
+           {"refine sheet edge 3 greater_than 1 factor 2", 36, "this option was given already"},
+           {"refine hex in field \"error\" over 3", 29, "expected above, below or top"},
+           {"refine hex in field \"error\" top 101 %", 33, "a part of the whole is above 0 and at most 100 %"},
            {"smooth volume", 14, "expected an id"},
            {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
            {"smooth volume all iterations -1", 30, "iterations must be a whole number"},
@@ -209,7 +212,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
 
 TEST(Grammar, TheCaretStandsUnderTheWord) {
   EXPECT_STREQ(error_of("reset\nrefine crve 3\n", "part.jou").what(),
-               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface or volume, found 'crve' (did you "
+               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
                "mean 'curve'?)\n  refine crve 3\n         ^~~~");
   EXPECT_STREQ(error_of("import\tmésh 3").what(),
                "expected mesh, exodus, gmsh, abaqus, vtk, medit, geometry, step, brep or iges, found 'mésh'"

@@ -119,7 +119,7 @@ TEST(Session, AFailedCommandLeavesEverythingAsItWas) {
     EXPECT_EQ(f.last().command, text);
   }
   EXPECT_EQ(f.error("refine hex 1 except 1"), "this names no hex");
-  EXPECT_EQ(f.error("refine curve 1 bias 1.5"), "a bias other than 1 is not supported yet");
+  EXPECT_EQ(f.error("refine curve 1 bias 1.5"), "a bias other than 1 needs a size or a sizing function to grow from");
   EXPECT_EQ(f.error("help bogus"), "there is no command 'bogus'; 'help' lists them");
   EXPECT_EQ(f.error("export vtk \"a.msh\""), "vtk files end in .vtu here, not in '.msh'");
   EXPECT_EQ(f.error("import gmsh \"a.e\""), "gmsh files end in .msh here, not in '.e'");

@@ -1,0 +1,40 @@
+// Where in a mesh is a point? The hex that holds it and its place in the hex's unit cube.
+#pragma once
+
+#include <span>
+
+#include "hextwist/geom/box_tree.h"
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+struct HexPlace {
+  Index hex = -1;
+  Vec3 at = Vec3::Zero();  ///< coordinates in the unit cube (corners.h), 0 to 1
+  double distance = 0;     ///< 0 inside; else how far the point is from that place
+};
+
+/// Point of a hex at a place in its unit cube.
+Vec3 trilinear_point(std::span<const Vec3, 8> corners, const Vec3& at);
+/// Closest place in one hex: the inverse of the trilinear map by Newton's method for points inside, the closest of the
+/// six bilinear faces for those outside.
+HexPlace closest_place(std::span<const Vec3, 8> corners, const Vec3& p);
+
+/// Finds the hexes of a mesh; keeps a copy of their corners and a tree of their boxes. Any number of threads may ask.
+class HexLocator {
+ public:
+  explicit HexLocator(const Mesh& mesh);
+  /// The hexes of a selection only; HexPlace::hex is an index of the mesh.
+  HexLocator(const Mesh& mesh, std::span<const Index> hexes);
+
+  /// The hex that holds p, the lowest index where several do; outside of the mesh the nearest place of the nearest hex.
+  /// hex is -1 for a locator without hexes.
+  HexPlace locate(const Vec3& p) const;
+
+ private:
+  std::vector<Index> hexes_;
+  std::vector<std::array<Vec3, 8>> corners_;
+  BoxTree tree_;
+};
+
+}  // namespace hextwist

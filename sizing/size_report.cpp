@@ -1,0 +1,46 @@
+#include "hextwist/sizing/size_report.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+
+std::vector<double> actual_sizes(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<double> sizes(hexes.size());
+  parallel_each(hexes.size(), [&](std::size_t i) { sizes[i] = std::cbrt(std::abs(volume(mesh, hexes[i]))); });
+  return sizes;
+}
+
+std::vector<double> wished_sizes(const Mesh& mesh, std::span<const Index> hexes, const SizeField& wish) {
+  const std::vector<Vec3> centres = centroids(mesh, hexes);
+  std::vector<double> wished(hexes.size());
+  wish.evaluate(centres, wished);
+  return wished;
+}
+
+SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish) {
+  SizeReport report;
+  std::vector<double> wished = wished_sizes(mesh, hexes, wish);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < hexes.size(); ++i) {
+    if (!std::isfinite(wished[i])) continue;  // no wish here
+    hexes[n] = hexes[i];
+    wished[n++] = wished[i];
+  }
+  hexes.resize(n);
+  report.ratio = actual_sizes(mesh, hexes);
+  for (std::size_t i = 0; i < hexes.size(); ++i) {
+    double& ratio = report.ratio[i];
+    ratio /= wished[i];
+    report.n_coarser += ratio > std::numbers::sqrt3;
+    report.n_finer += ratio < 1 / std::numbers::sqrt3;
+    report.n_much_finer += ratio < 1.0 / 3;
+  }
+  report.hexes = std::move(hexes);
+  return report;
+}
+
+}  // namespace hextwist

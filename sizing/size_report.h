@@ -1,0 +1,21 @@
+// How the sizes of hexes compare with the wish.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/size_field.h"
+
+namespace hextwist {
+
+/// Size of each hex of a selection: the cube root of its volume.
+std::vector<double> actual_sizes(const Mesh& mesh, std::span<const Index> hexes);
+
+/// What is wished of hexes: the field at their centroids.
+std::vector<double> wished_sizes(const Mesh& mesh, std::span<const Index> hexes, const SizeField& wish);
+
+/// Fills hexes, ratio and the counts.
+SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish);
+
+}  // namespace hextwist

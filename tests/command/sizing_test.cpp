@@ -1,0 +1,214 @@
+// Size-driven, directional and adaptive refinement as commands.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hextwist/command/session.h"
+#include "hextwist/mesh/io.h"
+#include "hextwist/sizing/adapt.h"
+#include "support/checkers.h"
+#include "support/grids.h"
+
+namespace hextwist {
+namespace {
+
+struct Fixture {
+  Session session;
+  std::vector<std::string> output;
+
+  Fixture() {
+    SessionCallbacks callbacks;
+    callbacks.output = [this](const std::string& line) { output.push_back(line); };
+    session.set_callbacks(std::move(callbacks));
+  }
+  std::string error(std::string_view text) {
+    try {
+      session.run(text);
+    } catch (const CommandError& error) {
+      return error.message();
+    }
+    return "no error";
+  }
+  const CommandRecord& last() const { return session.records().back(); }
+  const Mesh& mesh() const { return session.meshed().mesh; }
+};
+
+/// A brick of 4 x 4 x 4 unit cubes from 0 to 4 with fields: "h" of nodes, 1 + x; "error" of hexes, its number.
+void take_fields(Session& session) {
+  Mesh mesh = test::grid(4, 4, 4);
+  Field h{"h", Field::On::node, 1, {}}, error{"error", Field::On::hex, 1, {}};
+  for (const Vec3& p : mesh.points) h.values.push_back(1 + p.x());
+  for (std::size_t i = 0; i < mesh.hexes.size(); ++i) error.values.push_back(static_cast<double>(i + 1));
+  mesh.fields = {h, error};
+  session.take(std::move(mesh), nullptr);
+}
+
+TEST(Sizing, SizeWithBiasReportsHowWellItWasMet) {
+  Fixture f;
+  f.session.run("create brick x 10 interval 10; refine curve 1 size 0.2 bias 1.5");
+  EXPECT_TRUE(test::conformal(f.mesh()));
+  EXPECT_TRUE(test::uninverted(f.mesh()));
+  const SizesRow& sizes = f.last().sizes;
+  EXPECT_GT(sizes.hexes, 0);
+  EXPECT_GE(sizes.passes, 1);
+  EXPECT_EQ(sizes.coarser, 0);
+  EXPECT_EQ(sizes.n_unmet, 0);
+  EXPECT_GE(sizes.met, 0.9);
+  EXPECT_LE(sizes.largest_ratio, std::sqrt(3.0));
+  ASSERT_GE(f.output.size(), 2u);
+  EXPECT_TRUE(f.output.back().starts_with("actual / wished size of " + std::to_string(sizes.hexes) + " hexes after "))
+      << f.output.back();
+  EXPECT_NE(f.output.back().find(" .. "), std::string::npos) << "a histogram";
+}
+
+TEST(Sizing, NumsplitWithABiasOfOneIsAccepted) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4; refine hex 1 numsplit 2 bias 1.0");
+  EXPECT_EQ(f.last().sizes.hexes, 0);
+  EXPECT_GT(f.mesh().n_hexes(), 64);
+}
+
+TEST(Sizing, WhatMakesNoSenseTogetherIsRefused) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4");
+  EXPECT_EQ(f.error("refine curve 1 numsplit 2 size 0.5"), "give numsplit or a size, not both");
+  EXPECT_EQ(f.error("refine curve 1 numsplit 2 sizing_function \"1\""), "give numsplit or a sizing function, not both");
+  EXPECT_EQ(f.error("refine curve 1 bias 1.5"), "a bias other than 1 needs a size or a sizing function to grow from");
+  EXPECT_EQ(f.error("refine curve 1 depth 1 radius 2"), "give a depth or a radius, not both");
+  EXPECT_EQ(f.error("refine curve 1 sizing_function"),
+            "there is no sizing function; define one with 'sizing function'");
+  EXPECT_EQ(f.error("refine curve 1 sizing_function f"),
+            "there is no sizing function 'f'; define one with 'sizing function'");
+  EXPECT_EQ(f.error("refine hex 1 graded size 1"),
+            "graded cuts whole hexes once: it goes with depth, radius and concave only");
+  EXPECT_EQ(f.error("refine hex 1 direction layers 3"), "layers lie along nodes, edges and faces, not a hex");
+  EXPECT_EQ(f.mesh().n_hexes(), 64);
+}
+
+TEST(Sizing, FunctionsByExpressionNameAndTheLastOne) {
+  Fixture f;
+  f.session.run("create brick x 8 interval 8");
+  f.session.run("sizing function f \"0.4 + 0*x\"; refine volume 1 sizing_function f");
+  const Index n = f.mesh().n_hexes();
+  EXPECT_EQ(n, 512 * 27);
+  Fixture g;
+  g.session.run("create brick x 8 interval 8; sizing function f constant 5");
+  EXPECT_EQ(g.error("sizing function g constant 0.4"),
+            "'g' could be an option behind 'refine ... sizing_function': choose another name");
+  g.session.run("sizing function fine constant 0.4; refine volume 1 sizing_function no_smooth");
+  EXPECT_EQ(g.mesh().n_hexes(), n) << "the last one; and an option behind it is no name";
+  Fixture h;
+  h.session.run("create brick x 8 interval 8; refine volume 1 sizing_function \"0.4\"");
+  EXPECT_EQ(h.mesh().n_hexes(), n);
+  h.session.run("sizing list");
+  EXPECT_EQ(h.output.back(), "no sizing functions");
+}
+
+TEST(Sizing, ErrorsInExpressionsPointIntoThem) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  try {
+    f.session.run("refine volume 1 sizing_function \"1 + foo(x)\"");
+    FAIL();
+  } catch (const CommandError& error) {
+    EXPECT_EQ(error.column(), 38) << error.what();
+  }
+  EXPECT_NE(f.error("refine volume 1 sizing_function \"x - 5\"").find("sizes must be positive"), std::string::npos);
+}
+
+TEST(Sizing, EveryKindOfFunctionCanBeDefinedAndListed) {
+  Fixture f;
+  f.session.run("create cylinder radius 2 height 10");
+  f.session.run(
+      "sizing function fa constant 1; sizing function fb \"1 + abs(z)\"; sizing function fc curvature 4 growth 1.2;"
+      "sizing function fd interval 20 curve 1; sizing function fe linear vertex 1 size 0.1 growth 2;"
+      "sizing function fm minimum fa fb fc fd; sizing function fc curvature 4 surface 1; sizing list");
+  ASSERT_EQ(f.output.size(), 1u + 6u);
+  EXPECT_EQ(f.output.back(), "fm: sizing function fm minimum fa fb fc fd");
+  EXPECT_EQ(f.output[3], "fc: sizing function fc curvature 4 surface 1 (the last)");
+  f.session.run("refine volume 1 sizing_function fm");
+  EXPECT_TRUE(test::conformal(f.mesh()));
+  EXPECT_EQ(f.last().sizes.coarser, 0);
+  EXPECT_EQ(f.error("sizing function x minimum fa zz"),
+            "there is no sizing function 'zz'; there are: fa, fb, fc, fd, fe, fm");
+  f.session.run("reset; sizing list");
+  EXPECT_EQ(f.output.back(), "no sizing functions");
+  EXPECT_EQ(f.error("sizing function fc curvature 4"), "there is no CAD whose curvature could be asked for");
+  EXPECT_EQ(f.error("sizing field \"h\""), "there is no mesh to take a field from");
+}
+
+TEST(Sizing, FieldsOfThisMeshAndOfAnotherFile) {
+  Fixture f;
+  take_fields(f.session);
+  const auto file = test::output_folder() / "sizes.vtu";
+  f.session.run("export vtk \"" + file.string() + "\" overwrite");
+  f.session.run("sizing field \"h\"; refine volume 1 sizing_function h size 0.5");
+  EXPECT_EQ(f.mesh().n_hexes(), 64 * 27);
+  Fixture g;
+  g.session.run("create brick x 4 interval 4");
+  g.session.run("sizing function fs field \"h\" file \"" + file.string() + "\"");
+  g.session.run("refine volume 1 sizing_function fs");
+  EXPECT_EQ(g.mesh().n_hexes(), 64) << "sizes of 1 to 3 where the brick is: there is nothing to cut";
+  EXPECT_EQ(f.error("sizing field \"nope\""), "the mesh has no field \"nope\"; it has h, error");
+}
+
+TEST(Sizing, HexesInAFieldAboveBelowAndTop) {
+  Fixture f;
+  take_fields(f.session);
+  const auto count = [&](const std::string& range) {
+    f.session.run("delete block all; block 1 hex " + range);
+    return f.mesh().blocks.front().hexes.size();
+  };
+  f.session.run("block 1 hex 1");
+  EXPECT_EQ(count("in field \"error\" above 60"), 4u);
+  EXPECT_EQ(count("in field \"error\" below 3"), 2u);
+  EXPECT_EQ(count("in field \"error\" top 25 %"), 16u);
+  EXPECT_EQ(count("1 to 10 in field \"error\" top 25%"), 3u);
+  EXPECT_EQ(count("1 to 10 in field \"error\" top 25"), 3u);
+  EXPECT_EQ(count("in field \"h\" above 4"), 16u) << "the average of the nodes";
+  EXPECT_EQ(count("in field \"error\" above 60 in field \"error\" below 62"), 1u);
+  EXPECT_EQ(f.error("refine hex in field \"nope\" above 1"), "there is no field 'nope' of hexes; there are h, error");
+  EXPECT_EQ(f.error("list node in field \"error\" above 1"), "there is no field 'error' of nodes; there are h");
+  EXPECT_EQ(f.error("list face in field \"h\" above 1"), "fields have values at hexes and nodes, not at faces");
+  EXPECT_EQ(f.error("refine hex in field \"error\" above 100"), "this names no hex");
+}
+
+TEST(Sizing, GradedRefinementKeepsLevelsWithinOne) {
+  Fixture f;
+  take_fields(f.session);
+  f.session.run("refine hex in field \"error\" top 2 % graded");
+  f.session.run("refine hex in field \"level\" above 0 graded");
+  EXPECT_TRUE(test::conformal(f.mesh()));
+  const std::vector<int> level = levels(f.mesh());
+  EXPECT_EQ(std::ranges::max(level), 2);
+  std::vector<int> low(f.mesh().points.size(), 9), high(f.mesh().points.size(), 0);
+  for (std::size_t h = 0; h < level.size(); ++h)
+    for (const Index n : f.mesh().hexes[h]) {
+      low[n] = std::min(low[n], level[h]);
+      high[n] = std::max(high[n], level[h]);
+    }
+  for (std::size_t n = 0; n < low.size(); ++n) EXPECT_LE(high[n] - low[n], 1);
+}
+
+TEST(Sizing, SheetsLayersAndThicknessAsCommands) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4; refine sheet node 1 2");
+  EXPECT_EQ(f.mesh().n_hexes(), 64 + 2 * 16);
+  f.session.run("undo; refine sheet edge 1 greater_than 0.5");
+  EXPECT_EQ(f.mesh().n_hexes(), 64 + 2 * 16);
+  f.session.run("undo; refine sheet edge 1 factor 1.5");
+  EXPECT_EQ(f.mesh().n_hexes(), 64) << "none is longer than 1.5 times the shortest";
+  f.session.run("refine sheet intersect edge 1");
+  EXPECT_EQ(f.mesh().n_hexes(), 4 * (9 + 2 * 3 * 3 + 9));
+  f.session.run("undo; refine surface 1 direction layers 3 growth 1.5");
+  EXPECT_EQ(f.mesh().n_hexes(), 64 + 2 * 16);
+  f.session.run("undo; refine surface 1 direction thickness");
+  EXPECT_EQ(f.mesh().n_hexes(), 64 * 3);
+  EXPECT_EQ(f.error("refine sheet node 1 9999"), "there is no node 9999");
+  f.session.run("undo");
+  EXPECT_EQ(f.error("refine sheet node 1 125"), "no edge joins these nodes");
+}
+
+}  // namespace
+}  // namespace hextwist
