@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/refine/trisect.h"
 
@@ -92,10 +93,7 @@ void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std:
 }
 
 std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
-  std::vector<Index> result;
-  for (std::size_t h = 0; h < hexes.size(); ++h)
-    if (corner_mask(hexes[h], marked)) result.push_back(static_cast<Index>(h));
-  return result;
+  return where(static_cast<Index>(hexes.size()), [&](Index h) { return corner_mask(hexes[h], marked) != 0; });
 }
 
 }  // namespace hextwist

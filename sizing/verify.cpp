@@ -230,8 +230,8 @@ bool verify_change(const MeshedModel& input, const Measured& known, const Meshed
   report.shape_after = updated(known.shape, Metric::shape, difference);
   report.scaled_jacobian_after = updated(known.scaled_jacobian, Metric::scaled_jacobian, difference);
   report.volume_after = report.volume_before;
-  for (const Index h : difference.taken) report.volume_after -= volume(input.mesh, h);
-  for (const Index h : difference.added) report.volume_after += volume(refined.mesh, h);
+  for (const double v : quality(Metric::volume, input.mesh, difference.taken)) report.volume_after -= v;
+  for (const double v : quality(Metric::volume, refined.mesh, difference.added)) report.volume_after += v;
   report.off_cad = off_after(known.off_cad, input, refined, change);
   return true;
 }

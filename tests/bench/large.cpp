@@ -16,9 +16,9 @@
 namespace hextwist::bench {
 namespace {
 
-/// Peak beyond `before` over the bytes of input and output; says what happened on stderr.
-double ratio(std::size_t before, const Mesh& input, const Mesh& output, const char* what) {
-  const double arrays = static_cast<double>(bytes(input) + bytes(output));
+/// Peak beyond `before` over the bytes of input and output, and of who owns what; says what happened on stderr.
+double ratio(std::size_t before, const Mesh& input, const Mesh& output, std::size_t owners, const char* what) {
+  const double arrays = static_cast<double>(bytes(input) + bytes(output) + owners);
   const double peak = static_cast<double>(peak_memory() - before);
   std::fprintf(stderr, "%s: %.1f -> %.1f million hexes, arrays %.2f GiB, peak %.2f GiB, %.1f CPU s\n", what,
                1e-6 * input.n_hexes(), 1e-6 * output.n_hexes(), arrays / 0x1p30, peak / 0x1p30,
@@ -36,14 +36,16 @@ double run_task(const std::string& task, int n) {
     request.kind = TargetKind::volume;
     request.targets = {1};
     const RefineResult result = refine(input, request);
-    return ratio(before, input.mesh, result.refined.mesh, task.c_str());
+    return ratio(before, input.mesh, result.refined.mesh, bytes(input.association) + bytes(result.refined.association),
+                 task.c_str());
   }
   if (task == "refine_hex") {
     MeshedModel input = cube_on_brick(n);
     Request request;
     request.targets = {middle_hex(n)};
     const RefineResult result = refine(input, request);
-    return ratio(before, input.mesh, result.refined.mesh, task.c_str());
+    return ratio(before, input.mesh, result.refined.mesh, bytes(input.association) + bytes(result.refined.association),
+                 task.c_str());
   }
   const Mesh mesh = cube(n);
   Split parts;
@@ -57,7 +59,7 @@ double run_task(const std::string& task, int n) {
     throw Error("there is no task " + task);
   }
   const Mesh refined = carry(mesh, {}, parts).mesh;
-  return ratio(before, mesh, refined, task.c_str());
+  return ratio(before, mesh, refined, 0, task.c_str());
 }
 
 void add_memory() {

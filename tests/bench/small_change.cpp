@@ -24,9 +24,10 @@ Split split_one() {
   return split(mesh.hexes, mesh.n_nodes(), trisect_table(), trisect_codes(mesh.hexes, marked));
 }
 
-RefineResult refined(TargetKind kind, Index target) {
+RefineResult refined(TargetKind kind, Index target, int depth) {
   Request request;
   request.kind = kind;
+  request.depth = depth;
   request.targets = {target};
   static const Measured known = measured(input());  // as in a session, which has measured what it holds
   return refine(input(), known, request);
@@ -52,8 +53,9 @@ void add_small_change() {
     Split parts = split_one();
     return carry(input().mesh, input().association, parts);
   });
-  add_time("small/hex", [] { return refined(TargetKind::hex, middle_hex(side)); });
-  add_time("small/curve", [] { return refined(TargetKind::curve, 1); });
+  add_time("small/hex", [] { return refined(TargetKind::hex, middle_hex(side), 0); });
+  add_time("small/curve", [] { return refined(TargetKind::curve, 1, 1); });
+  add_time("small/curve_combination", [] { return refined(TargetKind::curve, 1, 0); });
   add_value("small/second_command", second_command);
 }
 
