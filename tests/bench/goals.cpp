@@ -33,6 +33,7 @@ constexpr Goal goals[] = {
     {2, "marks to mesh with points, templates", "pass/ball_templates", "peer/dealii_ball", rate, 6, 20},
     {2, "marks to mesh with points, filled", "pass/ball_fill", "peer/dealii_ball", rate, 6, 20},
     {2, "all one into 8 against Gmsh's refine", "pass/all8", "peer/gmsh_refine", rate, 0, 1},
+    {2, "all one into 8 against deal.II", "pass/all8", "peer/dealii_uniform", rate, 0, 1},
     {3, "split and carry one hex of a million, to copy", "small/pass", "small/copy", cpu, 0, -3},
     {3, "refine hex of a million, to copy", "small/hex", "small/copy", cpu, 0, -3},
     {3, "refine curve depth 1, to copy", "small/curve", "small/copy", cpu, 0, -3},
