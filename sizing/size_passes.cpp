@@ -88,7 +88,7 @@ void mark_wishing_nodes(const Mesh& mesh, std::span<const Index> hexes, const Si
 /// An edge is cut in three when both its ends are marked: the nodes of too large hexes at which the wish is smaller
 /// than the hex. Where the wish varies within a hex, only its fine side is cut then, and the children lie between fine
 /// and coarse as the wish does; cutting all of it would put the transition into its neighbours, which are small enough
-/// already. A hex in which nothing would be cut that way is cut whole.
+/// already. A hex in which nothing would be cut that way is cut whole, and so are all where the wish jumps (size_field.h).
 Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish, std::span<const std::uint8_t> in_zone,
                  Report& report) {
   Step step{trisect_table(), {}, too_large_hexes(mesh, wish, in_zone)};
