@@ -11,6 +11,11 @@ constexpr double max_group_id = 2147483647;
 constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ..., in ..., with ...; see 'help range'";
 
 // clang-format off
+#define METRICS \
+  "shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number]|=condition_number|skew" \
+  "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal|relative [size]|=relative_size|shear" \
+  "|oddy|distortion|volume|jacobian|dimension"
+
 const std::vector<CommandSpec> table = {
     {"block",
      "block {<id>|all} {{hex|volume|group} <range> [name <text>]|add {hex|volume|group} <range> [name <text>]"
@@ -51,7 +56,22 @@ const std::vector<CommandSpec> table = {
     {"delete", "delete {block|nodeset|sideset|group} <range>", "delete blocks, sets or groups", "Their members stay.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"delete block 2", "delete nodeset all"}},
-    {"draw", "", "draw the mesh into a file", "", {}, {}},
+    {"draw",
+     "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
+     " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [overwrite]",
+     "draw the mesh into a picture or a page",
+     "A .png is a picture; a .html is a page of its own that turns with the mouse and tells which hex was clicked. Hexes "
+     "(of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side sets) alone; edges and nodes (of curves, "
+     "vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or sheets apart, or with 'quality' good "
+     "from bad. 'from' is the direction to look from.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"x", Kind::number, -1e100, 1e100, false, "from the mesh to the eye; default 1 -1 0.7, z is up"},
+      {"y", Kind::number, -1e100, 1e100, false, ""},
+      {"z", Kind::number, -1e100, 1e100, false, ""},
+      {"width", Kind::integer, 16, 8000, false, "of a .png; default 1200 900"},
+      {"height", Kind::integer, 16, 8000, false, ""},
+      {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
+     {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
     {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit} <file> [overwrite]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
@@ -101,9 +121,7 @@ const std::vector<CommandSpec> table = {
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
     {"quality",
      "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> "
-     "[{shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number]|=condition_number|skew"
-     "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal|relative [size]|=relative_size|shear"
-     "|oddy|distortion|volume|jacobian|dimension|all}] [histogram] [low <lowest>] [high <highest>]",
+     "[{" METRICS "|all}] [histogram] [low <lowest>] [high <highest>]",
      "print the quality of hexes",
      "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
      "the entities. Without a metric: shape, 1 for a cube, 0 where flat; 'all': every one. The values are those of "

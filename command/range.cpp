@@ -38,7 +38,11 @@ RangeItem read_ids(Reader& reader) {
   item.kind = RangeItem::Kind::id;
   item.token = item.last_token = reader.peek();
   item.first = item.last = read_whole_number(reader, "an id", "ids");
-  if (!reader.accept("to")) return item;
+  // `draw hex 3 to "a.png"` is no span.
+  const Token& next = reader.ahead();
+  const bool file = next.kind == Token::Kind::string ||
+                    (next.kind == Token::Kind::word && next.text.find_first_of("./") != std::string::npos);
+  if (file || !reader.accept("to")) return item;
   item.kind = RangeItem::Kind::span;
   item.last_token = reader.peek();
   item.last = read_whole_number(reader, "an id", "ids");

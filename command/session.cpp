@@ -19,13 +19,13 @@ using Function = void (*)(Execution&);
 
 Function function_of(std::string_view command) {
   static const std::map<std::string_view, Function> functions = {
-      {"block", do_group},    {"check", do_check},     {"create", do_create}, {"curve", do_scheme},
-      {"delete", do_delete},  {"exit", do_quit},       {"export", do_export}, {"group", do_named_group},
-      {"help", do_help},      {"import", do_import},   {"list", do_list},     {"node", do_node},
-      {"nodeset", do_group},  {"quality", do_quality}, {"quit", do_quit},     {"playback", do_playback},
-      {"record", do_record},  {"redo", do_redo},       {"refine", do_refine}, {"reset", do_reset},
-      {"set", do_set},        {"sideset", do_group},   {"sizing", do_sizing}, {"smooth", do_smooth},
-      {"surface", do_scheme}, {"undo", do_undo},       {"volume", do_scheme},
+      {"block", do_group},       {"check", do_check},    {"create", do_create},   {"curve", do_scheme},
+      {"delete", do_delete},     {"draw", do_draw},      {"exit", do_quit},       {"export", do_export},
+      {"group", do_named_group}, {"help", do_help},      {"import", do_import},   {"list", do_list},
+      {"node", do_node},         {"nodeset", do_group},  {"quality", do_quality}, {"quit", do_quit},
+      {"playback", do_playback}, {"record", do_record},  {"redo", do_redo},       {"refine", do_refine},
+      {"reset", do_reset},       {"set", do_set},        {"sideset", do_group},   {"smooth", do_smooth},
+      {"sizing", do_sizing},     {"surface", do_scheme}, {"undo", do_undo},       {"volume", do_scheme},
   };
   return functions.at(command);
 }

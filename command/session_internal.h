@@ -95,6 +95,7 @@ std::string record_violations(CommandRecord& record, const Mesh& mesh, const std
 void do_check(Execution& run);
 void do_create(Execution& run);
 void do_delete(Execution& run);
+void do_draw(Execution& run);
 void do_export(Execution& run);
 void do_group(Execution& run);
 void do_help(Execution& run);
@@ -120,6 +121,9 @@ std::string members_text(const Selector& selector, const Group& group);
 void forget_members(ModelState& state, bool also_cad);
 /// `list undo`.
 void list_undo(Execution& run);
+
+/// The metrics whose words stand behind the item of that name, up to the next option; shape where there are none.
+std::vector<Metric> metrics_after(const Command& command, std::string_view place);
 
 /// What a command changed since `before` can be undone from now on. Nothing if that is nothing.
 void remember(Session::Core& core, const std::string& command, const ModelState& before);

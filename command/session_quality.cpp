@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -24,20 +25,22 @@ std::string cell(double value) {
   return formatted(size == 0 || (size >= 1e-3 && size < 999.99995) ? "%9.4f" : "%9.3g", value);
 }
 
-/// The metric's words, those after the range that are no option of another kind.
-std::vector<Metric> chosen_metrics(const Command& command) {
-  if (command.has("all")) return {metrics().begin(), metrics().end()};
+}  // namespace
+
+std::vector<Metric> metrics_after(const Command& command, std::string_view place) {
   std::string words;
-  bool after_range = false;
+  bool behind = false, all = false;
   for (const Item& item : command.items) {
-    const bool option = item.name == "histogram" || item.name == "low" || item.name == "high";
-    if (after_range && item.is_word && !option) words += item.name + " ";
-    after_range |= item.name == "range";
+    constexpr std::array<std::string_view, 7> options = {"histogram", "low", "high",     "from",
+                                                         "pixels",    "to",  "overwrite"};
+    if (behind && item.is_word && std::ranges::find(options, item.name) != options.end()) break;
+    if (behind && item.is_word) words += item.name + " ";
+    all |= behind && item.is_word && item.name == "all";
+    behind |= item.name == place;
   }
+  if (all) return {metrics().begin(), metrics().end()};
   return {words.empty() ? Metric::shape : metric(words)};
 }
-
-}  // namespace
 
 void do_quality(Execution& run) {
   const Item& range = *run.command.find("range");
@@ -55,7 +58,7 @@ void do_quality(Execution& run) {
   const double high = limit("highest", std::numeric_limits<double>::infinity());
   run.say(formatted("%-16s %9s %9s %9s %9s %10s %9s %10s", "", "count", "average", "std. dev.", "min", "(hex)", "max",
                     "(hex)"));
-  for (const Metric metric : chosen_metrics(run.command)) {
+  for (const Metric metric : metrics_after(run.command, "range")) {
     std::vector<double> values;
     std::vector<Index> kept;
     const auto all = quality(metric, mesh, hexes);

@@ -43,6 +43,7 @@ constexpr Emphasis rounds[] = {{10, 1.25}, {30, 1.1}, {100, 1.05}};
 constexpr Emphasis milder_rounds[] = {{3, 1.5}, {1, 1.5}, {1, 2}};  // when the first of those costs too much
 constexpr int first_sweeps = 3;                                     // before the first round
 constexpr int max_lifts = 15;                                       // sweeps per round
+constexpr double least_gain = 1e-3;                                 // of the average distortion above 1, per sweep
 constexpr int max_averages = 5;                                     // sweeps per round, until the end
 
 class Smoother {
@@ -113,13 +114,18 @@ class Smoother {
   void settle(const char* stage, Sweep sweep, Emphasis emphasis, int max_sweeps = std::numeric_limits<int>::max()) {
     measure();
     const SweepRule fixed_rule = rule(emphasis);
+    const bool watched = sweep == sweep_mean_ratio && emphasis.weight == 0;  // the energy measured is its own
+    double energy = watched ? average_distortion(state_.mesh, state_.problem.hexes) : 0;
     for (int i = 0; i < max_sweeps && !finished(); ++i) {
       const SweepCount count = sweep(state_, fixed_rule);
       if (!end_sweep(stage, count)) return;
-      if (count.moved * 1000 <= state_.problem.n_nodes()) {
-        report_.converged = true;
-        return;
+      report_.converged = count.moved * 1000 <= state_.problem.n_nodes();
+      if (watched) {
+        const double before = energy;
+        energy = average_distortion(state_.mesh, state_.problem.hexes);
+        report_.converged |= before - energy < least_gain * (energy - 1);
       }
+      if (report_.converged) return;
     }
   }
 

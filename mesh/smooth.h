@@ -49,8 +49,8 @@ struct SmoothOptions {
   /// Sweeps over the nodes at most, all stages together. >= 0.
   int iterations = 100;
   /// A node is at rest when its step is shorter than this times its edges; the end is when all but one in a
-  /// thousand are. > 0.
-  double tolerance = 1e-3;
+  /// thousand are, or (mean ratio) when a sweep gains less than a thousandth of the average distortion above 1. > 0.
+  double tolerance = 1e-2;
   /// The worst hexes are lifted as far as the average shape stays above its start less this. Shape units; infinite:
   /// the worst at any price; below 0: the average must rise by as much.
   double average_loss = 0;

@@ -49,7 +49,7 @@ struct SmoothState {
 struct SweepRule {
   /// No corner may get a distortion (shape^(-3/2)) above this, and one that has more must get less.
   double limit = std::numeric_limits<double>::infinity();
-  double tolerance = 1e-3;  ///< SmoothOptions::tolerance
+  double tolerance = 1e-2;  ///< SmoothOptions::tolerance
   /// Energy per corner: h + weight * reference * (h / reference)^16, h: its distortion.
   double weight = 0;
   double reference = 1;

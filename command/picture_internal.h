@@ -1,0 +1,57 @@
+// Pictures of a mesh: what is seen of it, and the two files that show that.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+/// Quads, lines and points in space. A line from a point to itself is a dot.
+struct Picture {
+  struct Facet {
+    std::array<std::int32_t, 4> corners;  ///< a cycle, into points
+    Colour colour;
+    std::int64_t hex = 0;  ///< id of the hex that it belongs to
+    double value = 0;      ///< its quality, where that gives the colours
+  };
+  struct Line {
+    Vec3 from, to;
+    Colour colour;
+    float width = 1;      ///< pixels of a picture of 1000
+    bool on_top = false;  ///< seen through everything else
+  };
+  struct LegendRow {
+    Colour colour;
+    std::string text;
+  };
+  std::vector<Vec3> points;
+  std::vector<Facet> facets;
+  std::vector<Line> lines;
+  std::vector<LegendRow> legend;
+  std::string title;
+  std::string metric;                                ///< what gives the colours, "" for none
+  double low = 0, high = 1;                          ///< values at the ends of the scale
+  bool small_is_better = false;                      ///< the good end of the scale is `low`
+  Vec3 view = Vec3(1, -1, 0.7), up = Vec3::UnitZ();  ///< direction from the mesh to the eye
+};
+
+/// Colour of a value in 0 (bad) .. 1 (good).
+Colour scale_colour(double goodness);
+/// The i-th of a row of colours that can be told apart.
+Colour row_colour(std::size_t i);
+const char* row_colour_name(std::size_t i);
+
+/// width * height pixels, row by row from the top; parallel projection, the same for any number of threads.
+std::vector<Colour> render(const Picture& picture, int width, int height);
+/// A PNG file of such pixels.
+std::string png(const std::vector<Colour>& pixels, int width, int height);
+/// A page that draws the picture by itself, to be turned with the mouse; nothing is loaded from elsewhere.
+std::string html(const Picture& picture);
+
+}  // namespace hextwist

@@ -1,0 +1,203 @@
+// draw: pictures and pages.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "command/session_fixture.h"
+#include "hextwist/command/picture_internal.h"
+
+namespace hextwist {
+
+using test::Fixture, test::folder, test::written;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::uint32_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint32_t result = 0;
+  for (std::size_t i = 0; i < 4; ++i) result = result << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return result;
+}
+
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<Colour> colours;
+  const Colour& at(int x, int y) const { return colours.at(static_cast<std::size_t>(y) * width + x); }
+  std::ptrdiff_t n_drawn() const {
+    return std::ranges::count_if(colours, [](const Colour& c) { return c != Colour{255, 255, 255}; });
+  }
+};
+
+/// Reads the PNG files that are written here: one chunk of data, rows as differences from those above.
+Pixels decoded(const std::string& file) {
+  EXPECT_EQ(file.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  Pixels result;
+  std::string packed;
+  for (std::size_t at = 8; at < file.size();) {
+    const std::size_t size = number_at(file, at);
+    const std::string body = file.substr(at + 4, size + 4);
+    EXPECT_EQ(number_at(file, at + 8 + size),
+              crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
+    if (body.starts_with("IHDR")) {
+      result.width = static_cast<int>(number_at(body, 4));
+      result.height = static_cast<int>(number_at(body, 8));
+      EXPECT_EQ(body.substr(12), std::string("\10\2\0\0\0", 5));
+    }
+    if (body.starts_with("IDAT")) packed += body.substr(4);
+    at += size + 12;
+  }
+  const std::size_t row = static_cast<std::size_t>(result.width) * 3;
+  std::string rows((row + 1) * static_cast<std::size_t>(result.height), '\0');
+  uLongf n = static_cast<uLongf>(rows.size());
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(rows.data()), &n, reinterpret_cast<const Bytef*>(packed.data()),
+                       static_cast<uLong>(packed.size())),
+            Z_OK);
+  EXPECT_EQ(n, rows.size());
+  result.colours.resize(static_cast<std::size_t>(result.width) * result.height);
+  for (int y = 0; y < result.height; ++y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * (row + 1);
+    EXPECT_EQ(rows[begin], 2);
+    for (int x = 0; x < result.width; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const int above = y > 0 ? result.at(x, y - 1)[k] : 0;
+        result.colours[static_cast<std::size_t>(y) * result.width + x][k] =
+            static_cast<std::uint8_t>(above + static_cast<unsigned char>(rows[begin + 1 + 3 * x + k]));
+      }
+  }
+  return result;
+}
+
+Pixels drawn(Fixture& f, const std::string& command) {
+  const auto file = folder() / "a.png";
+  f.session.run("draw " + command + " to '" + file.string() + "' overwrite");
+  return decoded(content(file));
+}
+
+/// Which of the first row colours it is, whatever the light; -1: none.
+int row_of(const Colour& colour) {
+  for (int i = 0; i < 4; ++i) {
+    const Colour full = row_colour(i);
+    const double shade = static_cast<double>(colour[0]) / full[0];
+    if (std::abs(colour[1] - shade * full[1]) < 4 && std::abs(colour[2] - shade * full[2]) < 4 && shade > 0.3) return i;
+  }
+  return -1;
+}
+
+TEST(Draw, APictureHasTheSizeAskedAndShowsTheMesh) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 1");
+  const Pixels usual = drawn(f, "");
+  EXPECT_EQ(usual.width, 1200);
+  EXPECT_EQ(usual.height, 900);
+  // Seen along an axis the cube is a square that fills 92% of the height.
+  const Pixels front = drawn(f, "from 0 -1 0 pixels 400 300");
+  EXPECT_EQ(front.width, 400);
+  EXPECT_EQ(front.height, 300);
+  EXPECT_NEAR(static_cast<double>(front.n_drawn()), 0.92 * 0.92 * 300 * 300, 1500);
+  EXPECT_EQ(row_of(front.at(200, 150)), 0);
+  EXPECT_EQ(front.at(5, 5), (Colour{255, 255, 255}));
+}
+
+TEST(Draw, WhatIsNearerHidesWhatIsBehind) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; reset block");
+  // Blocks below and above the middle; x runs to the right when seen from -y.
+  f.session.run("block 1 hex with y_coord < 0; block 2 hex with y_coord > 0");
+  const Pixels front = drawn(f, "from 0 -1 0 pixels 200 200"), back = drawn(f, "from 0 1 0 pixels 200 200");
+  EXPECT_EQ(row_of(front.at(80, 80)), 0);
+  EXPECT_EQ(row_of(back.at(80, 80)), 1);
+  f.session.run("undo 2; block 1 hex with x_coord < 0; block 2 hex with x_coord > 0");
+  const Pixels left_right = drawn(f, "from 0 -1 0 pixels 200 200");
+  EXPECT_EQ(row_of(left_right.at(70, 80)), 0);
+  EXPECT_EQ(row_of(left_right.at(130, 80)), 1);
+  f.session.run("undo 2; block 1 hex with z_coord < 0; block 2 hex with z_coord > 0");
+  const Pixels up_down = drawn(f, "from 0 -1 0 pixels 200 200");
+  EXPECT_EQ(row_of(up_down.at(80, 130)), 0);
+  EXPECT_EQ(row_of(up_down.at(80, 70)), 1);
+  EXPECT_NE(f.all_output().find("  block 2: orange"), std::string::npos) << f.all_output();
+}
+
+TEST(Draw, EveryKindOfEntityCanBeDrawn) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3; nodeset 1 curve 1; sideset 1 surface 1; block 2 hex 1 2 3");
+  std::set<std::ptrdiff_t> areas;
+  for (const char* what : {"mesh", "volume 1", "hex 1", "surface 1", "face 1 to 4", "curve 1", "edge 1 2", "vertex 1",
+                           "node 1", "block 2", "nodeset 1", "sideset 1", "sheet 1", "hex 1 quality skew",
+                           "quality volume", "volume 1 quality relative size pixels 200 150"}) {
+    f.session.run("set undo on");
+    const Pixels pixels = drawn(f, what);
+    EXPECT_GT(pixels.n_drawn(), 100) << what;
+    areas.insert(pixels.n_drawn());
+  }
+  EXPECT_GT(areas.size(), 8u);
+}
+
+TEST(Draw, QualityGivesTheColours) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  const Pixels cubes = drawn(f, "quality shape from 0 -1 0 pixels 200 200");
+  const Colour best = scale_colour(1), seen = cubes.at(80, 80);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], best[k] * static_cast<double>(seen[0]) / best[0], 4);
+  EXPECT_NE(cubes.at(10, 60), (Colour{255, 255, 255})) << "the scale";
+  f.session.run("refine hex 1");
+  EXPECT_NE(drawn(f, "quality shape from 0 -1 0 pixels 200 200").colours, cubes.colours);
+  EXPECT_NE(scale_colour(0), scale_colour(1));
+  EXPECT_EQ(scale_colour(-1), scale_colour(0));
+  EXPECT_EQ(scale_colour(2), scale_colour(1));
+}
+
+TEST(Draw, APageStandsByItself) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; block 7 hex 1 name '</script><b>&'");
+  const auto file = folder() / "a.html";
+  f.session.run("draw to '" + file.string() + "'");
+  const std::string page = content(file);
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  for (const char* outside : {"http:", "https:", "src=", "href=", "import ", "fetch("})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_EQ(page.find("</script>"), page.rfind("</script>")) << "a name must not end the script";
+  const auto array = [&](const std::string& name) {
+    const std::size_t begin = page.find("," + name + ":\"") + name.size() + 3;
+    return page.substr(begin, page.find('"', begin) - begin);
+  };
+  // 24 quads of four numbers of four bytes, three bytes becoming four characters.
+  EXPECT_EQ(array("quads").size(), 24u * 16 / 3 * 4);
+  EXPECT_EQ(array("points").size(), 26u * 12 / 3 * 4);
+  EXPECT_EQ(array("hexes").size(), 24u * 8 / 3 * 4);
+  EXPECT_NE(f.all_output().find("24 faces drawn"), std::string::npos);
+}
+
+TEST(Draw, MistakesLeaveNoFile) {
+  Fixture f;
+  EXPECT_EQ(f.error("draw to 'a.png'"), "there is no mesh to draw");
+  f.session.run("create brick x 2 interval 2");
+  EXPECT_EQ(f.error("draw to 'a.jpg'"), "pictures end in .png or .html, not in '.jpg'");
+  const auto file = folder() / "a.png";
+  EXPECT_EQ(f.error("draw from 0 0 0 to '" + file.string() + "'"), "this is no direction to look from");
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const auto old = written("old.png", "old");
+  EXPECT_NE(f.error("draw to '" + old.string() + "'").find("exists already"), std::string::npos);
+  EXPECT_EQ(content(old), "old");
+  EXPECT_NE(f.error("draw to '/no/folder/a.png'").find("there is no folder"), std::string::npos);
+}
+
+TEST(Draw, TheNumberOfThreadsDoesNotChangeAPicture) {
+  Fixture f;
+  f.session.run("create sphere radius 1; refine surface 1; set threads 1");
+  const std::vector<Colour> one = drawn(f, "quality shape").colours;
+  f.session.run("set threads 2");
+  EXPECT_EQ(drawn(f, "quality shape").colours, one);
+  f.session.run("set threads 0");
+}
+
+}  // namespace
+}  // namespace hextwist
