@@ -2,7 +2,9 @@
 
 #include <readline/history.h>
 #include <readline/readline.h>
+#include <strings.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -34,18 +36,36 @@ std::filesystem::path history_file() {
   return failed ? std::filesystem::path() : folder / "history";
 }
 
+Session* session_of_prompt = nullptr;  // readline's callbacks have no argument for it
+std::vector<std::string> offered;
+
+char* next_offer(const char*, int at) {
+  static std::size_t next = 0;
+  if (at == 0) next = 0;
+  return next < offered.size() ? strdup(offered[next++].c_str()) : nullptr;
+}
+
 char** complete(const char* beginning, int start, int end) {
   const std::string line(rl_line_buffer, static_cast<std::size_t>(end));
-  const bool is_path = std::strpbrk(beginning, "./") || (start > 0 && std::strchr("\"'", rl_line_buffer[start - 1]));
-  if (is_path) return nullptr;  // readline's own: file names
+  const char quote = start > 0 ? rl_line_buffer[start - 1] : ' ';
+  const bool quoted = quote == '"' || quote == '\'';
+  if (quoted) {
+    // A name or a file: what could stand where the quote begins?
+    const std::string before = line.substr(0, static_cast<std::size_t>(start) - 1) + " ";
+    const std::vector<std::string> words = completions(before);
+    offered = session_of_prompt->completions(before);
+    std::erase_if(offered, [&](std::string& text) {
+      const bool is_word = std::ranges::find(words, text) != words.end();
+      if (text.front() == '"') text = text.substr(1, text.size() - 2);
+      return is_word || strncasecmp(text.c_str(), beginning, std::strlen(beginning)) != 0;
+    });
+    if (offered.empty()) return nullptr;  // readline's own: file names
+  } else {
+    if (std::strpbrk(beginning, "./")) return nullptr;
+    offered = session_of_prompt->completions(line);
+  }
   rl_attempted_completion_over = 1;
-  static std::vector<std::string> words;
-  words = completions(line);
-  return rl_completion_matches(beginning, [](const char*, int at) -> char* {
-    static std::size_t next = 0;
-    if (at == 0) next = 0;
-    return next < words.size() ? strdup(words[next++].c_str()) : nullptr;
-  });
+  return rl_completion_matches(beginning, next_offer);
 }
 
 int on_signal() {
@@ -80,6 +100,7 @@ void run_interactive(Session& session, Console& console) {
   rl_completer_quote_characters = "\"'";
   rl_basic_word_break_characters = " \t\n;,\"'";
   rl_signal_event_hook = on_signal;
+  session_of_prompt = &session;
   const std::filesystem::path history = history_file();
   stifle_history(history_length);
   if (!history.empty()) read_history(history.c_str());
@@ -93,9 +114,10 @@ void run_interactive(Session& session, Console& console) {
       console.error(error.what());
     }
     console.idle();
+    // Now rather than at the end, which a second Ctrl-C may bring at once.
+    if (!history.empty()) write_history(history.c_str());
   }
   if (!session.finished()) std::cout << "\n";
-  if (!history.empty()) write_history(history.c_str());
 }
 
 int run_standard_input(Session& session) {

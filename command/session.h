@@ -114,6 +114,10 @@ class Session {
   /// from tags if not null) as by import. Throws Error.
   void take(Mesh mesh, std::shared_ptr<const Model> model, const Association* tags = nullptr);
 
+  /// Words and names that could stand at the end of this beginning of a command and start like its last word (all of
+  /// them after a blank). Sorted; names with blanks in quotes.
+  std::vector<std::string> completions(std::string_view line) const;
+
   const MeshedModel& meshed() const;
   /// One per command run so far.
   const std::vector<CommandRecord>& records() const;

@@ -188,7 +188,30 @@ void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::st
   take_meshed(state, std::move(result));
 }
 
+void note_ignored(const Execution& run, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (run.command.has(word)) run.note("'" + std::string(word) + "' changes nothing here");
+}
+
+namespace {
+
+/// Only all blocks can be read or written.
+void check_blocks(const Execution& run) {
+  const Item* blocks = run.command.find("blocks");
+  if (!blocks) return;
+  const auto& [items, filters, token] = blocks->range;
+  if (items.size() != 1 || items[0].kind != RangeItem::Kind::all || !filters.empty())
+    throw error_at(run.command.statement, token, "all blocks are read and written together: say 'all'");
+}
+
+}  // namespace
+
 void do_import(Execution& run) {
+  check_blocks(run);
+  note_ignored(run, {"heal", "noheal", "no_heal", "no_geom", "attributes_on", "attributes_off", "separate_bodies"});
+  const double feature_angle = run.state.feature_angle;
+  // Between the faces there, not by how much they turn.
+  if (const Item* angle = run.command.find("angle")) run.state.feature_angle = 180 - angle->number;
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, false);
@@ -199,9 +222,11 @@ void do_import(Execution& run) {
     import_cad(run, file.text);
   else
     import_mesh(run, file.text);
+  run.state.feature_angle = feature_angle;
 }
 
 void do_export(Execution& run) {
+  check_blocks(run);
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, true);

@@ -125,6 +125,11 @@ void list_undo(Execution& run);
 /// The metrics whose words stand behind the item of that name, up to the next option; shape where there are none.
 std::vector<Metric> metrics_after(const Command& command, std::string_view place);
 
+/// Switching it off forgets all steps.
+void switch_undo(Execution& run, bool on);
+/// Says that words were understood and change nothing here.
+void note_ignored(const Execution& run, std::initializer_list<const char*> words);
+
 /// What a command changed since `before` can be undone from now on. Nothing if that is nothing.
 void remember(Session::Core& core, const std::string& command, const ModelState& before);
 void add_step(Session::Core& core, Step step) noexcept;

@@ -17,9 +17,7 @@ void do_set(Execution& run) {
       history.limit = static_cast<std::size_t>(size->number * 1e6);
       history.drop_oldest();
     } else {
-      history.on = command.has("on");
-      // Steps can be taken only from the state that they were kept beside.
-      if (!history.on) history.undo.clear(), history.redo.clear();
+      switch_undo(run, command.has("on"));
     }
   }
   if (const Item* count = command.find("count")) {

@@ -187,6 +187,7 @@ void do_delete(Execution& run) {
 }
 
 void do_reset(Execution& run) {
+  if (run.command.has("genesis")) return run.change_sets({});
   for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
     if (run.command.has(name(kind))) {
       Mesh lists = lists_of(run.state.meshed->mesh);

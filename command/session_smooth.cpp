@@ -105,6 +105,7 @@ void do_smooth(Execution& run) {
 void do_scheme(Execution& run) {
   const Item& range = *run.command.find("range");
   const SmoothScheme scheme = *said_scheme(run);
+  note_ignored(run, {"free", "fixed", "beta", "cpu"});
   auto schemes = run.state.schemes ? *run.state.schemes : std::vector<std::pair<Owner, SmoothScheme>>();
   const std::vector<Index> positions = run.chosen(range);
   for (const Index i : positions) {

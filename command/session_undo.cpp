@@ -97,8 +97,16 @@ void Execution::change_sets(Mesh lists) {
   mesh.side_sets.swap(lists.side_sets);
 }
 
+void switch_undo(Execution& run, bool on) {
+  History& history = run.core.history;
+  history.on = on;
+  // Steps can be taken only from the state that they were kept beside.
+  if (!on) history.undo.clear(), history.redo.clear();
+}
+
 void do_undo(Execution& run) {
   History& history = run.core.history;
+  if (run.command.has("on") || run.command.has("off")) return switch_undo(run, run.command.has("on"));
   travel(run, history.undo, history.redo, "undo", "undone:");
 }
 

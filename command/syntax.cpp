@@ -253,32 +253,39 @@ std::string to_string(const Command& command) {
   return result;
 }
 
-std::vector<std::string> completions(std::string_view line) {
+Expected expected_at_end(std::string_view line) {
   std::vector<Statement> statements = split_statements(line);
   const bool fresh = line.empty() || std::string_view(" \t;\n").find(line.back()) != std::string_view::npos;
   const bool separated = line.find_last_not_of(" \t") == std::string_view::npos ||
                          std::string_view(";\n").find(line[line.find_last_not_of(" \t")]) != std::string_view::npos;
-  std::string beginning;
+  Expected result;
   Statement statement{std::make_shared<const Source>(), {Token{}}};
   if (!separated && !statements.empty()) {
     statement = std::move(statements.back());
     if (!fresh) {
-      beginning = statement.tokens[statement.tokens.size() - 2].text;
+      result.beginning = statement.tokens[statement.tokens.size() - 2].text;
       statement.tokens.erase(statement.tokens.end() - 2);
     }
   }
   for (Token& token : statement.tokens)  // its value is not known yet; most are numbers
     if (token.kind == Token::Kind::braces) token = {Token::Kind::number, "1", 1, token.offset, token.length};
   Reader reader(statement);
-  std::vector<std::string> result;
+  result.before.assign(statement.tokens.begin(), statement.tokens.end() - 1);
   try {
     parse(reader);
   } catch (const CommandError&) {
     // Wrong before its end: nothing to offer. Wrong at its end: that is where the word goes.
-    if (!reader.stopped_at_end()) return {};
+    if (!reader.stopped_at_end()) return result;
   }
-  for (const std::string& word : reader.expected())
-    if (word.find(' ') == std::string::npos && begins_word(beginning, word)) result.push_back(word);
+  result.what = reader.expected();
+  return result;
+}
+
+std::vector<std::string> completions(std::string_view line) {
+  const Expected expected = expected_at_end(line);
+  std::vector<std::string> result;
+  for (const std::string& word : expected.what)
+    if (word.find(' ') == std::string::npos && begins_word(expected.beginning, word)) result.push_back(word);
   std::ranges::sort(result);
   return result;
 }

@@ -74,6 +74,14 @@ Command parse(const Statement& statement);
 /// The command in full words, as the language writes it; parsing that gives the same items.
 std::string to_string(const Command& command);
 
+/// The end of a beginning of a command: what could stand there.
+struct Expected {
+  std::vector<Token> before;      ///< the tokens of the command up to there
+  std::string beginning;          ///< of the word that stands there already, "" behind a blank
+  std::vector<std::string> what;  ///< words, and descriptions such as "a name"; none where the command is wrong already
+};
+Expected expected_at_end(std::string_view line);
+
 /// Words that could stand at the end of this beginning of a command and start like its last word (all of them after a
 /// blank). Sorted.
 std::vector<std::string> completions(std::string_view line);

@@ -6,6 +6,7 @@
 
 #include "hextwist/geom/model.h"
 #include "hextwist/mesh/association.h"
+#include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/split.h"
 
 namespace hextwist {
@@ -35,8 +36,10 @@ std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end
 /// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
-/// (inverted_hexes).
+/// (inverted_hexes). progress is asked after each sweep; once it returns false, little more is tried, and the caller
+/// should drop the mesh.
 std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association, std::span<const Index> fixed = {});
+                                            Association& association, std::span<const Index> fixed = {},
+                                            const SmoothProgress& progress = {});
 
 }  // namespace hextwist

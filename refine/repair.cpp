@@ -36,7 +36,8 @@ constexpr Reach backed_off_reach = {1, false, false};  // sliding would put node
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
 /// stay. Returns the hexes that are inverted still.
 std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, Association& association,
-                            const std::vector<Index>& bad, Reach reach, std::span<const Index> fixed) {
+                            const std::vector<Index>& bad, Reach reach, std::span<const Index> fixed,
+                            const SmoothProgress& progress) {
   const auto may_move = [&](Index n) {
     const bool inside = association.empty() || association.node_owner[n].dim == 3;
     return n < split.lineage.n_old_nodes ? reach.old_nodes && inside : reach.slide || inside;
@@ -46,10 +47,10 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   options.fixed.assign(fixed.begin(), fixed.end());
   options.nodes = nodes_of(mesh, hex_band(mesh, bad, reach.layers), 0);
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
-  if (smooth(mesh, association, model, options).not_repaired.empty()) {
+  if (smooth(mesh, association, model, options, progress).not_repaired.empty()) {
     options.scheme = SmoothScheme::mean_ratio;
     options.iterations = 10;
-    smooth(mesh, association, model, options);
+    smooth(mesh, association, model, options, progress);
   }
   return inverted_hexes(mesh, reach.old_nodes ? 0 : split.n_kept());
 }
@@ -80,7 +81,8 @@ std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
 }
 
 std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association, std::span<const Index> fixed) {
+                                            Association& association, std::span<const Index> fixed,
+                                            const SmoothProgress& progress) {
   std::vector<Disappointment> rows;
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
   const Index first_new = split.lineage.n_old_nodes;
@@ -89,7 +91,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
   // 1. Move nodes in space and along their curves and surfaces.
   for (const Reach reach : reaches) {
     if (bad.empty()) return rows;
-    bad = untangle(split, model, mesh, association, bad, reach, fixed);
+    bad = untangle(split, model, mesh, association, bad, reach, fixed, progress);
   }
   if (bad.empty()) return rows;
 
@@ -102,7 +104,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
       mesh.points[nodes[i]] = halving == max_halvings ? straight[i] : Vec3((mesh.points[nodes[i]] + straight[i]) / 2);
     backed_off.insert(backed_off.end(), nodes.begin(), nodes.end());
     bad = inverted_hexes(mesh, split.n_kept());
-    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed);
+    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed, progress);
   }
   std::ranges::sort(backed_off);
   backed_off.erase(std::ranges::unique(backed_off).begin(), backed_off.end());

@@ -29,8 +29,15 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
     if (next.model && !next.association.empty())
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     stages_.begin("improve", fraction());
-    std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association, request_.fixed),
-                      std::back_inserter(report_.off_nodes));
+    bool stopped = false;
+    const auto keep_going = [&](const char* stage, double) {
+      stopped |= !stages_.report(stage, fraction());
+      return !stopped;
+    };
+    std::ranges::move(
+        repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association, request_.fixed, keep_going),
+        std::back_inserter(report_.off_nodes));
+    if (stopped) throw Cancelled();
   }
   const std::vector<Index>& parent = parts.lineage.parent;
   std::vector<Index> origin(parent.size());

@@ -388,5 +388,66 @@ TEST(Session, AMeshOfAnotherPartIsRefused) {
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 1404);
 }
 
+TEST(Session, CompletionKnowsNamesAndCommands) {
+  using List = std::vector<std::string>;
+  Fixture f;
+  f.session.run(
+      "create brick x 1 interval 2; block 1 name 'steel'; block 2 hex 1 name 'soft rubber'; nodeset 3 node 1");
+  f.session.run("nodeset 3 name 'stop'");
+  EXPECT_EQ(f.session.completions("refine hex in block st"), (List{"steel"}));
+  EXPECT_EQ(f.session.completions("list block s"), (List{"\"soft rubber\"", "steel"}));
+  EXPECT_EQ(f.session.completions("list nodes s"), (List{"stop"}));
+  EXPECT_EQ(f.session.completions("list hex s"), List{});
+  EXPECT_EQ(f.session.completions("help ref"), (List{"refine"}));
+  EXPECT_EQ(f.session.completions("qui"), (List{"quit"}));
+  EXPECT_EQ(f.session.completions("bogus s"), List{});
+  EXPECT_EQ(f.session.completions("list block \"s"), List{}) << "quotes are the caller's";
+}
+
+TEST(Session, WordsOfOtherProgramsAreUnderstood) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; nodeset 1 curve 1; sideset 1 surface 1");
+  const std::string mesh = (folder() / "part.g").string();
+  for (const std::string& line : {
+           std::string("block all element type HEX8"),
+           std::string("block 1 element type hex"),
+           "export genesis '" + mesh + "' dimension 3 block all overwrite",
+           "export mesh '" + mesh + "' block all overwrite",
+           std::string("quality volume all shape global"),
+           std::string("quality volume 1 scaled jacobian global low 0.2"),
+           std::string("list totals"),
+           std::string("list volume 1 geometry"),
+           std::string("list hex 1 position"),
+           std::string("volume 1 smooth scheme condition number beta 2 cpu 10"),
+           std::string("surface all smooth scheme laplacian free"),
+           std::string("smooth volume 1"),
+           std::string("undo off"),
+           std::string("undo on"),
+           std::string("reset genesis"),
+           "import mesh geometry '" + mesh + "' block all feature_angle 135",
+           "import mesh geometry '" + mesh + "' no_geom",
+       })
+    EXPECT_EQ(f.error(line), "no error") << line;
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
+  EXPECT_EQ(f.session.meshed().mesh.side_sets.size(), 1u);
+  EXPECT_EQ(f.notices.back(), "'no_geom' changes nothing here");
+  EXPECT_EQ(f.error("export genesis 'x.g' block 1 overwrite"), "all blocks are read and written together: say 'all'");
+}
+
+TEST(Session, TheFeatureAngleOfAnImportIsThatBetweenFaces) {
+  // A roof whose two slopes turn by 30 degrees: a ridge for 160 (20), none for 135 (45).
+  Mesh mesh = test::grid(2, 1, 1);
+  for (const Index i : {7, 10}) mesh.points[i].z() += 0.27;
+  const auto file = folder() / "roof.e";
+  write_mesh(file, mesh, nullptr);
+  Fixture f;
+  f.session.run("import mesh geometry '" + file.string() + "' feature_angle 135");
+  const int blunt = f.session.meshed().model->count(1);
+  f.session.run("import mesh geometry '" + file.string() + "' feature_angle 160");
+  EXPECT_GT(f.session.meshed().model->count(1), blunt);
+  f.session.run("import mesh '" + file.string() + "'");
+  EXPECT_EQ(f.session.meshed().model->count(1), blunt) << "for that import alone";
+}
+
 }  // namespace
 }  // namespace hextwist

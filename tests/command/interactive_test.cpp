@@ -1,0 +1,115 @@
+// The program at a terminal: prompt, completion, history, the caret of an error, Ctrl-C.
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "command/session_fixture.h"
+
+namespace hextwist {
+
+using test::folder;
+
+namespace {
+
+/// The program in a terminal of its own.
+class Terminal {
+ public:
+  Terminal() {
+    const std::string home = folder().string();
+    child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+    if (child_ == 0) {
+      setenv("XDG_STATE_HOME", home.c_str(), 1);
+      setenv("TERM", "dumb", 1);
+      execl(HEXTWIST_PROGRAM, "hextwist", static_cast<char*>(nullptr));
+      _exit(127);
+    }
+  }
+  ~Terminal() {
+    if (child_ > 0) {
+      kill(child_, SIGKILL);
+      waitpid(child_, nullptr, 0);
+    }
+    close(terminal_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void type(const std::string& text) {
+    seen_.clear();
+    EXPECT_EQ(write(terminal_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+  /// What came since the last type(), up to this text; fails when it does not come.
+  std::string until(const std::string& text) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (seen_.find(text) == std::string::npos && std::chrono::steady_clock::now() < end) {
+      pollfd waiting{terminal_, POLLIN, 0};
+      std::array<char, 4096> buffer;
+      if (poll(&waiting, 1, 100) <= 0) continue;
+      const ssize_t n = read(terminal_, buffer.data(), buffer.size());
+      if (n <= 0) break;
+      seen_.append(buffer.data(), static_cast<std::size_t>(n));
+    }
+    EXPECT_NE(seen_.find(text), std::string::npos) << "no '" << text << "' in:\n" << seen_;
+    return seen_;
+  }
+  std::string answer(const std::string& line) {
+    type(line + "\n");
+    until("\n");
+    return until("hextwist> ");
+  }
+  int end() {
+    int status = -1;
+    waitpid(std::exchange(child_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t child_ = -1;
+  int terminal_ = -1;
+  std::string seen_;
+};
+
+TEST(Interactive, CompletesWordsAndNamesShowsTheCaretAndKeepsHistory) {
+  Terminal terminal;
+  terminal.until("hextwist> ");
+  terminal.answer("create brick x 1 interval 2; block 1 name 'steel'; nodeset 2 node 1 2 name 'soft rubber'");
+  EXPECT_NE(terminal.answer("li\tblock st\t").find("block 1 'steel': 8 hexes"), std::string::npos);
+  EXPECT_NE(terminal.answer("list nodeset \"so\t").find("nodeset 2 'soft rubber': 2 nodes"), std::string::npos);
+  EXPECT_NE(terminal.answer("refine crve 3").find("  refine crve 3\r\n         ^~~~"), std::string::npos);
+  EXPECT_NE(terminal.answer("help smooth").find("smooth volume all"), std::string::npos);
+  terminal.type("quit\n");
+  EXPECT_EQ(terminal.end(), 0);
+  std::ifstream history(folder() / "hextwist" / "history");
+  const std::string lines{std::istreambuf_iterator<char>(history), {}};
+  EXPECT_NE(lines.find("refine crve 3\n"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("list block steel"), std::string::npos) << lines;
+}
+
+TEST(Interactive, ControlCCancelsTheRunningCommandAndLeavesTheSessionAsItWas) {
+  Terminal terminal;
+  terminal.until("hextwist> ");
+  terminal.answer("create sphere radius 1 interval 3; nodeset 1 node 1");
+  const std::string before = terminal.answer("list");
+  terminal.type("refine surface all numsplit 3 depth 1 smooth\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  terminal.type("\x03");
+  terminal.until("error: cancelled");
+  terminal.until("hextwist> ");
+  EXPECT_EQ(terminal.answer("list"), before);
+  // At the prompt it clears the line.
+  terminal.type("refine hex 1\x03");
+  terminal.until("hextwist> ");
+  EXPECT_EQ(terminal.answer("list"), before);
+  terminal.type("quit\n");
+  EXPECT_EQ(terminal.end(), 0);
+}
+
+}  // namespace
+}  // namespace hextwist
