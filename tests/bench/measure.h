@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <string>
 
@@ -24,10 +25,11 @@ void add_rate(const std::string& name, Make make, Items items, int threads = 1) 
   benchmark::RegisterBenchmark(name.c_str(),
                                [=](benchmark::State& state) {
                                  const Threads limit(threads);
-                                 make();
+                                 tbb::task_arena arena(threads);  // the implicit one keeps the size that it began with
+                                 arena.execute(make);
                                  double n = 0;
                                  for ([[maybe_unused]] auto _ : state) {
-                                   auto result = make();
+                                   auto result = arena.execute(make);
                                    benchmark::DoNotOptimize(result);
                                    state.PauseTiming();
                                    n += static_cast<double>(items(result));

@@ -65,8 +65,10 @@ constexpr auto hexes = [](const auto& result) { return n_hexes(result); };
 double same_bytes() {
   const auto run = [](int threads) {
     const Threads limit(threads);
-    return fingerprint(whole(cube_of(side_ball), split_ball(Concave::templates))) ^
-           (fingerprint(whole(cube_of(side8), split8())) << 1);
+    return tbb::task_arena(threads).execute([] {
+      return fingerprint(whole(cube_of(side_ball), split_ball(Concave::templates))) ^
+             (fingerprint(whole(cube_of(side8), split8())) << 1);
+    });
   };
   const auto one = run(1);
   return run(2) == one && run(8) == one;
