@@ -57,24 +57,6 @@ struct Surroundings {
   }
 };
 
-/// Hexes connected by common nodes, by lowest hex.
-std::vector<std::vector<Index>> connected(const Mesh& mesh, std::span<const Index> targets) {
-  std::vector<Index> parent = singletons(mesh.n_nodes());
-  for (const Index h : targets)
-    for (int c = 1; c < n_hex_corners; ++c) join(parent, mesh.hexes[h][0], mesh.hexes[h][c]);
-  std::vector<std::vector<Index>> result;
-  std::vector<Index> number(mesh.points.size(), -1);
-  for (const Index h : targets) {
-    Index& region = number[find_root(parent, mesh.hexes[h][0])];
-    if (region < 0) {
-      region = static_cast<Index>(result.size());
-      result.emplace_back();
-    }
-    result[region].push_back(h);
-  }
-  return result;
-}
-
 /// Sets Surroundings::local.
 RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
   RegionMesh region;
@@ -311,11 +293,28 @@ bool is_box_marking(int mask) {
   return std::popcount(static_cast<unsigned>(mask)) == 1 << std::popcount(static_cast<unsigned>(low ^ high));
 }
 
+std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Index> parent = singletons(mesh.n_nodes());
+  for (const Index h : hexes)
+    for (int c = 1; c < n_hex_corners; ++c) join(parent, mesh.hexes[h][0], mesh.hexes[h][c]);
+  std::vector<std::vector<Index>> result;
+  std::vector<Index> number(mesh.points.size(), -1);
+  for (const Index h : hexes) {
+    Index& region = number[find_root(parent, mesh.hexes[h][0])];
+    if (region < 0) {
+      region = static_cast<Index>(result.size());
+      result.emplace_back();
+    }
+    result[region].push_back(h);
+  }
+  return result;
+}
+
 EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets) {
   EightPlan plan;
   Surroundings all(mesh, targets);
   std::vector<Group> groups;
-  for (std::vector<Index>& hexes : connected(mesh, targets)) {
+  for (std::vector<Index>& hexes : connected_regions(mesh, targets)) {
     EightRegion& found = plan.regions.emplace_back();
     const RegionMesh region = region_mesh(all, std::move(hexes));
     found.first_hex = region.hexes.front();

@@ -1,7 +1,6 @@
 // One into eight: parallel hex sheet operations on whole hexes and layers of them, and what is decided for each region.
 #include <algorithm>
 
-#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/eight.h"
 #include "hextwist/refine/enclose.h"
 #include "hextwist/refine/marks.h"
@@ -56,59 +55,52 @@ struct Remaining {
   EightPlan plan;
   std::vector<Index> targets;  ///< ascending
   std::size_t next_pass = 0;
-
-  void carry(const Pipeline& run, std::span<const Hex> old_hexes) {
-    targets = children(run.lineage(), targets);
-    plan.trisected = children(run.lineage(), plan.trisected);
-    for (std::size_t p = next_pass; p < plan.passes.size(); ++p)
-      carry_marks(run.lineage(), old_hexes, run.current().mesh.n_nodes(), plan.passes[p]);
-  }
-  static std::vector<Index> children(const Lineage& lineage, std::span<const Index> hexes) {
-    std::vector<std::uint8_t> wanted(lineage.n_old_hexes, 0);
-    for (const Index h : hexes) wanted[h] = 1;
-    return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
-  }
 };
 
-void pass(Pipeline& run, Remaining& rest, std::shared_ptr<const SplitTable> table,
-          std::span<const std::uint16_t> codes) {
+void pass(Pipeline& run, Remaining& rest, std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes,
+          const std::function<void()>& after_pass) {
   if (std::ranges::all_of(codes, [](std::uint16_t code) { return code == 0; })) return;
   const std::vector<Hex> old_hexes = run.current().mesh.hexes;  // the pass replaces the mesh
   run.pass(std::move(table), codes);
-  rest.carry(run, old_hexes);
+  rest.targets = children_of(run.lineage(), rest.targets);
+  rest.plan.trisected = children_of(run.lineage(), rest.plan.trisected);
+  for (std::size_t p = rest.next_pass; p < rest.plan.passes.size(); ++p)
+    carry_marks(run.lineage(), old_hexes, run.current().mesh.n_nodes(), rest.plan.passes[p]);
+  if (after_pass) after_pass();
 }
 
-void one_round(Pipeline& run, Remaining& rest) {
+}  // namespace
+
+std::vector<Index> eight_round(Pipeline& run, EightPlan plan, std::vector<Index> targets,
+                               const std::function<void()>& after_pass) {
+  Remaining rest{std::move(plan), std::move(targets)};
   if (!rest.plan.alone.empty()) {
     std::vector<std::uint16_t> codes(run.current().mesh.hexes.size(), 0);
     for (const Index h : rest.plan.alone) codes[h] = 1;
-    pass(run, rest, uniform_table(2), codes);
+    pass(run, rest, uniform_table(2), codes, after_pass);
   }
   while (rest.next_pass < rest.plan.passes.size()) {
     const std::vector<std::uint8_t> marked = std::move(rest.plan.passes[rest.next_pass++]);
-    pass(run, rest, enclose_table(EncloseAt::half), enclose_codes(run.current().mesh.hexes, marked));
+    pass(run, rest, enclose_table(EncloseAt::half), enclose_codes(run.current().mesh.hexes, marked), after_pass);
   }
-  if (rest.plan.trisected.empty() && rest.plan.thirds.empty()) return;
+  if (rest.plan.trisected.empty() && rest.plan.thirds.empty()) return std::move(rest.targets);
   const Mesh& mesh = run.current().mesh;
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
   mark_nodes(mesh.hexes, rest.plan.trisected, marked);
   if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
   std::vector<Index> halved;
   std::ranges::set_difference(rest.targets, rest.plan.trisected, std::back_inserter(halved));
-  pass(run, rest, trisect_table(), thirds_codes(mesh, halved, rest.plan.thirds, marked));
+  pass(run, rest, trisect_table(), thirds_codes(mesh, halved, rest.plan.thirds, marked), after_pass);
+  return std::move(rest.targets);
 }
 
-}  // namespace
-
 void eight_passes(Pipeline& run) {
-  Remaining rest;
-  rest.targets = region_target(run.input(), run.request(), run.report().notices);
+  std::vector<Index> targets = region_target(run.input(), run.request(), run.report().notices);
   for (int round = 0; round < run.request().numsplit; ++round) {
     run.stages().begin("close", run.fraction());
-    rest.plan = plan_eight(run.current().mesh, rest.targets);
-    rest.next_pass = 0;
-    tell(rest.plan, run.current().mesh, round, run.report().notices);
-    one_round(run, rest);
+    EightPlan plan = plan_eight(run.current().mesh, targets);
+    tell(plan, run.current().mesh, round, run.report().notices);
+    targets = eight_round(run, std::move(plan), std::move(targets), {});
   }
 }
 

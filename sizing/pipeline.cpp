@@ -59,6 +59,12 @@ void Pipeline::keep() {
   current_ = &result_.refined;
 }
 
+void Pipeline::adopt(RefineResult result) {
+  ++n_passes_;
+  result_ = std::move(result);
+  current_ = &result_.refined;
+}
+
 std::vector<Index> Pipeline::new_hexes() const {
   // Hexes that were there before have their old ids and come first.
   const Mesh& mesh = current_->mesh;

@@ -1,10 +1,12 @@
 // A mesh on its way through the passes of a request. The techniques are functions over this (refine.cpp chooses one).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "hextwist/refine/eight.h"
 #include "hextwist/refine/split_table.h"
 #include "hextwist/sizing/request.h"
 #include "hextwist/sizing/stages_internal.h"
@@ -14,7 +16,12 @@ namespace hextwist {
 class Pipeline {
  public:
   Pipeline(const MeshedModel& input, const Request& request, Report& report, const Progress& progress)
-      : input_(input), current_(&input), request_(request), report_(report), stages_(report, progress) {}
+      : input_(input),
+        current_(&input),
+        request_(request),
+        report_(report),
+        progress_(progress),
+        stages_(report, progress) {}
 
   const MeshedModel& input() const { return input_; }
   /// The mesh after the passes so far.
@@ -22,6 +29,7 @@ class Pipeline {
   const Request& request() const { return request_; }
   Report& report() { return report_; }
   Stages& stages() { return stages_; }
+  const Progress& progress() const { return progress_; }
   /// Of the last pass.
   const Lineage& lineage() const { return result_.lineage; }
   /// How far the request has come, for the progress callback: nobody knows how many passes there will be.
@@ -35,6 +43,8 @@ class Pipeline {
   std::vector<Index> new_hexes() const;
   /// Smooths these and a few layers around them; without boundary nodes where these are to stay.
   void smooth_band(bool fix_boundary = false);
+  /// Goes on with a result of the same request that was made apart.
+  void adopt(RefineResult result);
   RefineResult take_result() { return std::move(result_); }
 
  private:
@@ -42,6 +52,7 @@ class Pipeline {
   const MeshedModel* current_;
   const Request& request_;
   Report& report_;
+  const Progress& progress_;
   Stages stages_;
   RefineResult result_;
   int n_passes_ = 0;
@@ -51,12 +62,19 @@ class Pipeline {
 void trisect_passes(Pipeline& run);
 /// Hexes and layers of hexes, every edge halved where the region allows it (sections 5.1 to 5.3, eight.h).
 void eight_passes(Pipeline& run);
+/// One round of it as planned for these hexes (ascending) of the current mesh; returns their children. after_pass,
+/// which may be empty, is called after each pass.
+std::vector<Index> eight_round(Pipeline& run, EightPlan plan, std::vector<Index> targets,
+                               const std::function<void()>& after_pass);
 /// Across chosen sheets; through the thickness behind surfaces; in layers along the target.
 void sheet_passes(Pipeline& run);
 void thickness_passes(Pipeline& run);
 void layer_passes(Pipeline& run);
-/// Hexes cut until they have the wished size.
-void size_passes(Pipeline& run);
+/// Hexes cut until they have the wished size: in three, or with `halves` one into eight in regions that come nearer to
+/// the wish by factors of two and where that can be. Returns whether there were such.
+bool size_passes(Pipeline& run, bool halves);
+/// Sizes with Method::automatic: tries both, takes what is better.
+void nearest_sizes(Pipeline& run);
 /// Around nodes, edges and faces: parallel or combination (section 5).
 void sub_element_passes(Pipeline& run, Method method);
 

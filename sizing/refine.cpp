@@ -90,8 +90,8 @@ void check_options(const Request& request) {
   if (request.size && !positive(*request.size)) throw Error("size must be a positive number");
   if (request.numsplit != 1) throw Error("give numsplit or a size, not both");
   if (request.max_passes < 1 || request.max_passes > 30) throw Error("max_passes must be from 1 to 30");
-  if (request.method == Method::parallel || request.method == Method::combination)
-    throw Error(std::string("sizes need whole hexes to be cut: method single, not ") + name(request.method));
+  if (request.method == Method::combination)
+    throw Error("sizes need whole hexes to be cut: method auto, single or parallel, not combination");
   if (request.depth && *request.depth == 0 && !is_solid(request.kind))
     throw Error("sizes need whole hexes to be cut: depth 1 or more");
 }
@@ -118,7 +118,10 @@ RefineResult run_passes(Pipeline& run) {
   } else if (request.layers) {
     layer_passes(run);
   } else if (is_size_driven(request)) {
-    size_passes(run);
+    if (request.method == Method::automatic)
+      nearest_sizes(run);
+    else
+      size_passes(run, request.method == Method::parallel);
   } else if (is_whole_model(run.input(), request) && method == Method::single && !request.radius) {
     const int pieces = request.numsplit + 1;
     run.report().notices.push_back("all volumes: uniform, every edge in " + std::to_string(pieces) + " equal pieces");
@@ -151,7 +154,10 @@ RefineResult run_request(const MeshedModel& input, const Measured* known, const 
   report.hexes_after = result.refined.mesh.n_hexes();
   report.nodes_after = result.refined.mesh.n_nodes();
   report.peak_memory_bytes = peak_memory();
-  if (request.dry_run) result = {};
+  if (request.dry_run) {
+    result = {};
+    report.sizes.reset();
+  }
   result.report = std::move(report);
   return result;
 }

@@ -35,7 +35,8 @@ enum class Concave { templates, fill };
 
 /// Which technique of the paper (table 1).
 enum class Method {
-  automatic,    ///< single for hexes and volumes and for depth >= 1; combination for all else
+  automatic,    ///< single for hexes and volumes and for depth >= 1; combination for all else; with sizes single or
+                ///< parallel, whichever comes nearer to them (docs/commands.md has the rule)
   single,       ///< trisecting: section 4
   parallel,     ///< enclosing at half: section 5.1 to 5.3; hexes, volumes and depth >= 1 one into eight (eight.h)
   combination,  ///< enclosing at a third, then trisecting along the target: section 5.4
@@ -78,8 +79,8 @@ struct Request {
   /// where it is one).
   std::optional<double> radius = std::nullopt;
 
-  /// Instead of numsplit: elements of about this size. Edges are cut in three while they are longer than sqrt(3) times
-  /// the wished size, so that they end within a factor sqrt(3) of it.
+  /// Instead of numsplit: elements of about this size. Edges are cut while they are longer than sqrt(3) times the
+  /// wished size, so that they end within a factor sqrt(3) of it.
   std::optional<double> size = std::nullopt;
   /// With size: 1, the size is wished for at the target only (the hexes that depth or radius choose; by default those
   /// that touch it); above 1, everywhere, growing by bias - 1 per unit of distance from the target entity, so that

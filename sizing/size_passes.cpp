@@ -6,6 +6,7 @@
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
+#include "hextwist/sizing/factors.h"
 #include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/size_field.h"
 #include "hextwist/sizing/size_report.h"
@@ -90,8 +91,8 @@ void mark_wishing_nodes(const Mesh& mesh, std::span<const Index> hexes, const Si
 /// and coarse as the wish does; cutting all of it would put the transition into its neighbours, which are small enough
 /// already. A hex in which nothing would be cut that way is cut whole, and so are all where the wish jumps (size_field.h).
 Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish, std::span<const std::uint8_t> in_zone,
-                 Report& report) {
-  Step step{trisect_table(), {}, too_large_hexes(mesh, wish, in_zone)};
+                 std::vector<Index> too_large, Report& report) {
+  Step step{trisect_table(), {}, std::move(too_large)};
   const std::vector<Index> at_target = target_nodes_too_far_apart(mesh, wish, in_zone);
   if (step.too_large.empty() && at_target.empty()) return step;
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
@@ -110,6 +111,34 @@ Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish
   return step;
 }
 
+/// How far from the wish (as a logarithm of the ratio) twos and threes can bring a size that is so many times the wish.
+double distance_left(double ratio) {
+  for (const int step : plan_factors(ratio)) ratio /= step;
+  return std::abs(std::log(ratio));
+}
+
+/// Regions of too large hexes that come nearer to the wish when they are halved now, and that can be one into eight.
+std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish,
+                                  EightPlan& plan) {
+  std::vector<Index> wanted;
+  for (const std::vector<Index>& region : connected_regions(mesh, too_large)) {
+    const std::vector<double> size = actual_sizes(mesh, region), wished = wished_sizes(mesh, region, wish);
+    double after_two = 0, after_three = 0;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+      after_two += distance_left(size[i] / wished[i] / 2);
+      after_three += distance_left(size[i] / wished[i] / 3);
+    }
+    if (after_two < after_three) wanted.insert(wanted.end(), region.begin(), region.end());
+  }
+  std::ranges::sort(wanted);
+  if (wanted.empty()) return {};
+  plan = plan_eight(mesh, wanted);
+  std::vector<Index> halved;
+  std::ranges::set_difference(wanted, plan.trisected, std::back_inserter(halved));
+  plan.trisected.clear();
+  return halved;
+}
+
 }  // namespace
 
 SizeFieldPtr wish_of(const MeshedModel& input, const Request& request) {
@@ -125,7 +154,7 @@ SizeFieldPtr wish_of(const MeshedModel& input, const Request& request) {
   return smallest_of(std::move(fields));
 }
 
-void size_passes(Pipeline& run) {
+bool size_passes(Pipeline& run, bool halves) {
   const Request& request = run.request();
   const SizeFieldPtr wish = wish_of(run.input(), request);
   const bool everywhere = request.bias > 1 && !request.depth && !request.radius;
@@ -137,11 +166,34 @@ void size_passes(Pipeline& run) {
     std::ranges::fill(in_report, 0);
     for (const Index h : targets) in_report[h] = 1;
   }
+  const auto carry_zones = [&] {
+    const Lineage& lineage = run.lineage();
+    const std::size_t n_kept = lineage.n_old_hexes - lineage.hexes.size();
+    std::vector<std::uint8_t> zone(lineage.parent.size()), reported(lineage.parent.size());
+    for (std::size_t h = 0; h < lineage.parent.size(); ++h) {
+      zone[h] = in_zone[lineage.parent[h]];
+      reported[h] = in_report[lineage.parent[h]] || (everywhere && h >= n_kept);
+    }
+    in_zone = std::move(zone);
+    in_report = std::move(reported);
+  };
   int n_passes = 0;
+  bool has_halved = false;
   std::vector<Index> unmet;
   while (true) {
     run.stages().begin("sizes", run.fraction());
-    Step step = choose_step(run.current().mesh, request, *wish, in_zone, run.report());
+    const Mesh& mesh = run.current().mesh;
+    std::vector<Index> too_large = too_large_hexes(mesh, *wish, in_zone);
+    if (halves && n_passes < request.max_passes) {
+      EightPlan plan;
+      if (std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish, plan); !halved.empty()) {
+        eight_round(run, std::move(plan), std::move(halved), carry_zones);
+        ++n_passes;
+        has_halved = true;
+        continue;
+      }
+    }
+    Step step = choose_step(mesh, request, *wish, in_zone, std::move(too_large), run.report());
     if (step.codes.empty()) break;
     if (n_passes == request.max_passes) {
       unmet = std::move(step.too_large);
@@ -149,22 +201,15 @@ void size_passes(Pipeline& run) {
     }
     run.pass(step.table, step.codes);
     ++n_passes;
-    const auto& parent = run.lineage().parent;
-    std::vector<std::uint8_t> zone(parent.size()), reported(parent.size());
-    for (std::size_t h = 0; h < parent.size(); ++h) {
-      zone[h] = in_zone[parent[h]];
-      reported[h] = in_report[parent[h]] || (everywhere && step.codes[parent[h]]);
-    }
-    in_zone = std::move(zone);
-    in_report = std::move(reported);
+    carry_zones();
   }
   if (n_passes == 0) run.keep();
-  if (request.dry_run) return;
   SizeReport report = size_report(
       run.current().mesh, where(run.current().mesh.n_hexes(), [&](Index h) { return in_report[h] != 0; }), *wish);
   report.n_passes = n_passes;
   report.unmet = std::move(unmet);
   run.report().sizes = std::move(report);
+  return has_halved;
 }
 
 }  // namespace hextwist

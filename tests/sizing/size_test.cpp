@@ -206,7 +206,7 @@ TEST(size, options_that_make_no_sense_together_are_refused) {
   EXPECT_EQ(with([](Request& r) { r.radius = 1, r.method = Method::combination; }),
             "a radius chooses whole hexes, the combination technique refines around nodes, edges and faces");
   EXPECT_EQ(with([](Request& r) { r.size = 1, r.method = Method::combination; }),
-            "sizes need whole hexes to be cut: method single, not combination");
+            "sizes need whole hexes to be cut: method auto, single or parallel, not combination");
   EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0; }), "sizes need whole hexes to be cut: depth 1 or more");
   EXPECT_EQ(with([](Request& r) { r.size = 1, r.max_passes = 0; }), "max_passes must be from 1 to 30");
   EXPECT_EQ(with([](Request& r) { r.radius = 0.1; }),
