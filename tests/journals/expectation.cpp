@@ -17,16 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-/// A number, or [least, most].
-void expect_number(double value, const json& expected, const std::string& what) {
-  if (!expected.is_array()) {
-    EXPECT_EQ(value, expected.get<double>()) << what;
-    return;
-  }
-  EXPECT_GE(value, expected.at(0).get<double>()) << what;
-  EXPECT_LE(value, expected.at(1).get<double>()) << what;
-}
-
 bool occurs(const std::string& text, const std::vector<std::string>& lines) {
   return std::ranges::any_of(lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
@@ -108,20 +98,30 @@ void expect_files(const Mesh& mesh, const json& expected) {
   }
 }
 
-void expect_promises(const MeshedModel& meshed, double off_cad) {
+}  // namespace
+
+void expect_number(double value, const json& expected, const std::string& what) {
+  if (!expected.is_array()) {
+    EXPECT_EQ(value, expected.get<double>()) << what;
+    return;
+  }
+  EXPECT_GE(value, expected.at(0).get<double>()) << what;
+  EXPECT_LE(value, expected.at(1).get<double>()) << what;
+}
+
+void expect_promises(const MeshedModel& meshed, const json& expected) {
+  if (meshed.mesh.n_hexes() == 0) return;
   EXPECT_TRUE(conformal(meshed.mesh, UnusedNodes::allowed));
   EXPECT_TRUE(uninverted(meshed.mesh));
   EXPECT_TRUE(sets_valid(meshed.mesh));
-  EXPECT_TRUE(on_model(meshed.mesh, meshed.association, *meshed.model, off_cad));
+  EXPECT_TRUE(on_model(meshed.mesh, meshed.association, *meshed.model, expected.value("off_cad", 1e-9)));
   EXPECT_TRUE(complete(meshed.mesh, meshed.association, *meshed.model));
 }
-
-}  // namespace
 
 void expect_outcome(const Outcome& outcome, const json& expected) {
   const MeshedModel& meshed = outcome.session.meshed();
   const Mesh& mesh = meshed.mesh;
-  if (mesh.n_hexes() > 0) expect_promises(meshed, expected.value("off_cad", 1e-9));
+  expect_promises(meshed, expected);
   const auto lowest = [&](Metric metric, const json& limit) {
     EXPECT_GE(summarize(quality(metric, mesh)).min, limit.get<double>()) << "smallest " << name(metric);
   };
@@ -130,7 +130,7 @@ void expect_outcome(const Outcome& outcome, const json& expected) {
     EXPECT_EQ(outcome.error, "");
   }
   for (const auto& [key, value] : expected.items()) {
-    if (key == "about" || key == "model" || key == "off_cad") continue;
+    if (key == "about" || key == "model" || key == "off_cad" || key == "after") continue;
     if (key == "hexes") {
       expect_number(mesh.n_hexes(), value, key);
     } else if (key == "nodes") {

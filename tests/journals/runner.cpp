@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <sstream>
 
 #include "expectation.h"
 #include "support/grids.h"
@@ -52,6 +53,31 @@ void link_files(const fs::path& from, const std::vector<std::string>& models, co
   }
 }
 
+/// Looks at the mesh after each line that changed it.
+void run_by_lines(const std::string& text, Outcome& outcome, const json& expected) {
+  std::istringstream stream(text);
+  std::string line, command;
+  int first = 1;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    command += line;
+    if (command.ends_with('\\')) {
+      command += '\n';
+      continue;
+    }
+    const Index before = outcome.session.meshed().mesh.n_hexes();
+    outcome.session.run(command, "journal.jou", first);
+    if (outcome.session.meshed().mesh.n_hexes() != before) {
+      SCOPED_TRACE("after line " + std::to_string(number) + ": " + command);
+      expect_promises(outcome.session.meshed(), expected);
+    }
+    if (const auto after = expected.find("after"); after != expected.end())
+      if (const auto at = after->find(std::to_string(number)); at != after->end())
+        expect_number(outcome.session.meshed().mesh.n_hexes(), *at, "hexes after line " + std::to_string(number));
+    command.clear();
+    first = number + 1;
+  }
+}
+
 class journal : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { before_ = fs::current_path(); }
@@ -79,7 +105,7 @@ TEST_P(journal, does_what_is_expected) {
     const std::regex brings_its_own(R"((^|\n)\s*(import|create|playback)\b)", std::regex::icase);
     if (!models.empty() && !std::regex_search(text, brings_its_own))
       outcome.session.run("import brep \"" + models[0] + ".brep\"; import mesh \"" + models[0] + ".msh\"");
-    outcome.session.run(text, "journal.jou");
+    run_by_lines(text, outcome, expected);
   } catch (const CommandError& error) {
     outcome.error = error.what();
     outcome.error_line = error.line();
