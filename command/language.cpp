@@ -12,8 +12,8 @@ constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ...
 
 // clang-format off
 #define METRICS \
-  "shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number]|=condition_number|skew" \
-  "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal|relative [size]|=relative_size|shear" \
+  "shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number|=no.]|=condition_number|skew" \
+  "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal [=ratio]|relative [size]|=relative_size|shear" \
   "|oddy|distortion|volume|jacobian|dimension"
 
 const std::vector<CommandSpec> table = {
@@ -126,7 +126,7 @@ const std::vector<CommandSpec> table = {
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
     {"quality",
      "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> "
-     "[{" METRICS "|all}] [histogram] [low <lowest>] [high <highest>] [=global|=individual]",
+     "[{" METRICS "|all}] [histogram] [low <lowest>] [high <highest>] [=global|=individual] [=draw =mesh]",
      "print the quality of hexes",
      "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
      "the entities. Without a metric: shape, 1 for a cube, 0 where flat; 'all': every one. The values are those of "
@@ -194,7 +194,7 @@ const std::vector<CommandSpec> table = {
     {"reset", "reset [{block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
-     "|untangle {on|off}}",
+     "|untangle {on|off}|=duplicate block elements {on|off}}",
      "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "

@@ -31,14 +31,17 @@ std::vector<Metric> metrics_after(const Command& command, std::string_view place
   std::string words;
   bool behind = false, all = false;
   for (const Item& item : command.items) {
-    constexpr std::array<std::string_view, 9> options = {"histogram", "low",    "high", "global",   "individual",
-                                                         "from",      "pixels", "to",   "overwrite"};
+    constexpr std::array<std::string_view, 10> options = {"histogram",  "low",  "high",   "global", "draw",
+                                                          "individual", "from", "pixels", "to",     "overwrite"};
     if (behind && item.is_word && std::ranges::find(options, item.name) != options.end()) break;
     if (behind && item.is_word) words += item.name + " ";
     all |= behind && item.is_word && item.name == "all";
     behind |= item.name == place;
   }
   if (all) return {metrics().begin(), metrics().end()};
+  // As other programs call them.
+  if (words.starts_with("diagonal")) words = "diagonal";
+  if (words.starts_with("condition")) words = "condition number";
   return {words.empty() ? Metric::shape : metric(words)};
 }
 

@@ -11,6 +11,7 @@ void do_set(Execution& run) {
   if (const Item* degrees = command.find("degrees")) run.state.feature_angle = degrees->number;
   if (const Item* limit = command.find("limit")) run.state.tolerance = limit->number;
   if (command.has("untangle")) run.state.untangle = command.has("on");
+  if (command.has("duplicate")) run.note("blocks may always overlap: this setting changes nothing here");
   if (command.has("undo")) {
     History& history = run.core.history;
     if (const Item* size = command.find("megabytes")) {

@@ -43,6 +43,11 @@ bool is_kind(std::string_view word) {
   return false;
 }
 
+bool goes_on_with_a_range(std::string_view word) {
+  constexpr std::array words = {"in", "to", "by", "step", "except", "with", "common_to", "expand", "and", "or", "not"};
+  return std::ranges::any_of(words, [&](const char* other) { return same_word(word, other); });
+}
+
 /// Every sentence parses, what is printed is a fixed point, and so are its words cut short.
 void check_fixed_points(int n_per_command) {
   const unsigned seed = new_seed();
@@ -81,7 +86,8 @@ void check_fixed_points(int n_per_command) {
       other.erase(word.offset + 1 + static_cast<std::size_t>(sentences.below(static_cast<int>(word.length))),
                   std::string::npos);
       const std::string cut = other.substr(word.offset);
-      if (is_kind(cut)) continue;  // node is another word than nodeset
+      // node is another word than nodeset, and what goes on with a range can't be the beginning of an option.
+      if (is_kind(cut) || goes_on_with_a_range(cut)) continue;
       other += text.substr(word.offset + word.length);
       try {
         ASSERT_EQ(to_string(parsed(other)), once) << other;
