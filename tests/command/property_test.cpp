@@ -78,7 +78,7 @@ void check_fixed_points(int n_per_command) {
             std::ranges::replace(spelled, ' ', '_');
             return same_word(spelled, word.text);
           });
-      if (!of_grammar || joined) continue;
+      if (!of_grammar || joined || word.text.ends_with('.')) continue;  // 'no.' cut short is 'number'
       std::string other = text;
       for (std::size_t k = 0; k < word.length; ++k)
         other[word.offset + k] = static_cast<char>(std::toupper(static_cast<unsigned char>(other[word.offset + k])));
