@@ -100,6 +100,7 @@ void run_interactive(Session& session, Console& console) {
   rl_completer_quote_characters = "\"'";
   rl_basic_word_break_characters = " \t\n;,\"'";
   rl_signal_event_hook = on_signal;
+  rl_event_hook = on_signal;  // a signal that came while a key was being handled is seen soon after
   session_of_prompt = &session;
   const std::filesystem::path history = history_file();
   stifle_history(history_length);

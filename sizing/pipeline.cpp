@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/mesh/quality.h"
 #include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
@@ -13,6 +14,8 @@ namespace hextwist {
 namespace {
 
 constexpr int smooth_layers = 2;  // around the new hexes
+/// Between passes, new hexes below this shape are smoothed, even if smoothing is not asked for.
+constexpr double least_shape_to_go_on = 0.1;
 
 }  // namespace
 
@@ -86,6 +89,18 @@ void Pipeline::smooth_band(bool fix_boundary) {
   if (smoothed.stopped) throw Cancelled();
   report_.notices.push_back("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " +
                             std::to_string(smoothed.sweeps) + " sweeps");
+}
+
+void Pipeline::smooth_between_passes() {
+  if (request_.dry_run) return;
+  if (!request_.smooth) {
+    const double smallest = summarize(quality(Metric::shape, current_->mesh, new_hexes())).min;
+    if (smallest >= least_shape_to_go_on) return;
+    if (!told_between_)
+      report_.notices.push_back("smoothed between passes, as shapes had come down to " + std::to_string(smallest));
+    told_between_ = true;
+  }
+  smooth_band(!request_.smooth);
 }
 
 }  // namespace hextwist

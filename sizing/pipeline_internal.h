@@ -43,6 +43,9 @@ class Pipeline {
   std::vector<Index> new_hexes() const;
   /// Smooths these and a few layers around them; without boundary nodes where these are to stay.
   void smooth_band(bool fix_boundary = false);
+  /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
+  /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
+  void smooth_between_passes();
   /// Goes on with a result of the same request that was made apart.
   void adopt(RefineResult result);
   RefineResult take_result() { return std::move(result_); }
@@ -56,6 +59,7 @@ class Pipeline {
   Stages stages_;
   RefineResult result_;
   int n_passes_ = 0;
+  bool told_between_ = false;
 };
 
 /// Hexes and layers of hexes, every edge cut in three (section 4).

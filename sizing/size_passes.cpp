@@ -1,6 +1,7 @@
 // Size-driven refinement: cut, look again, until the elements are as small as wished.
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/parallel_internal.h"
@@ -10,6 +11,7 @@
 #include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/size_field.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/target_distance.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -18,8 +20,36 @@ namespace {
 /// An edge is cut while it is longer than this times the wish, so that its pieces are no shorter than one over this.
 constexpr double most_too_long = std::numbers::sqrt3;
 
+/// Where a request's target is, as far as the sizes of its own edges and of the hexes at it are concerned.
+class AtTarget {
+ public:
+  AtTarget(const MeshedModel& input, const Request& request)
+      : is_point_(request.size && (request.kind == TargetKind::node || request.kind == TargetKind::vertex)),
+        close_(1e-6 * box(input.mesh).diagonal()) {
+    if (request.size && !is_solid(request.kind)) distance_.emplace(input, request.kind, request.targets);
+  }
+  /// The target is nodes or vertices, for which a size was named: no edges lie on it, so the hexes that touch it are
+  /// what is to have that size.
+  bool is_point() const { return is_point_; }
+  /// Per point: does it lie on the target? Nothing lies on hexes and volumes, nor where no size was named for it.
+  std::vector<std::uint8_t> on_it(std::span<const Vec3> points) const {
+    std::vector<std::uint8_t> result(points.size(), 0);
+    if (!distance_) return result;
+    std::vector<double> far(points.size());
+    distance_->evaluate(points, far);
+    for (std::size_t i = 0; i < far.size(); ++i) result[i] = far[i] <= close_;
+    return result;
+  }
+
+ private:
+  bool is_point_;
+  double close_;
+  std::optional<TargetDistance> distance_;
+};
+
 /// Hexes of the zone whose size is above the wish by more than that factor.
-std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std::span<const std::uint8_t> in_zone) {
+std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std::span<const std::uint8_t> in_zone,
+                                   const AtTarget& target) {
   const double least = wish.least();
   std::vector<Index> asked = where(mesh.n_hexes(), [&](Index h) { return in_zone[h] != 0; });
   std::vector<double> size = actual_sizes(mesh, asked);
@@ -30,19 +60,29 @@ std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std:
       size[n++] = size[i];
     }
   asked.resize(n);
-  const std::vector<double> wished = wished_sizes(mesh, asked, wish);
+  std::vector<double> wished = wished_sizes(mesh, asked, wish);
+  if (target.is_point()) {
+    // A corner at the target wishes for all of the hex.
+    std::vector<Vec3> corners;
+    for (const Index h : asked)
+      for (const Index node : mesh.hexes[h]) corners.push_back(mesh.points[node]);
+    const std::vector<std::uint8_t> on_it = target.on_it(corners);
+    std::vector<double> there(corners.size());
+    wish.evaluate(corners, there);
+    for (std::size_t i = 0; i < there.size(); ++i)
+      if (on_it[i]) wished[i / n_hex_corners] = std::min(wished[i / n_hex_corners], there[i]);
+  }
   std::vector<Index> result;
   for (std::size_t i = 0; i < n; ++i)
     if (size[i] > most_too_long * wished[i]) result.push_back(asked[i]);
   return result;
 }
 
-/// Nodes of edges that lie on the target (the wish is smallest at both ends) and are longer than it by more than the
-/// factor: there the wish is to be met to the edge, however the rest of their hexes may be.
+/// Nodes of edges on the target that are longer than the wish by more than the factor: there it is to be met to the
+/// edge, however the rest of their hexes may be.
 std::vector<Index> target_nodes_too_far_apart(const Mesh& mesh, const SizeField& wish,
-                                              std::span<const std::uint8_t> in_zone) {
+                                              std::span<const std::uint8_t> in_zone, const AtTarget& target) {
   const double least = wish.least();
-  if (!(least > 0)) return {};
   std::vector<Edge> longer;
   for (Index h = 0; h < mesh.n_hexes(); ++h)
     for (int e = 0; in_zone[h] && e < n_hex_edges; ++e) {
@@ -55,14 +95,30 @@ std::vector<Index> target_nodes_too_far_apart(const Mesh& mesh, const SizeField&
   nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
   std::vector<Vec3> points;
   for (const Index n : nodes) points.push_back(mesh.points[n]);
+  const std::vector<std::uint8_t> on_it = target.on_it(points);
   std::vector<double> wished(nodes.size());
   wish.evaluate(points, wished);
-  std::vector<std::uint8_t> at_target(mesh.points.size(), 0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) at_target[nodes[i]] = wished[i] <= least * (1 + 1e-6);
-  nodes.clear();
-  for (const Edge& edge : longer)
-    if (at_target[edge[0]] && at_target[edge[1]]) nodes.insert(nodes.end(), edge.begin(), edge.end());
-  return nodes;
+  const auto place = [&](Index n) { return std::ranges::lower_bound(nodes, n) - nodes.begin(); };
+  std::vector<Index> result;
+  for (const Edge& edge : longer) {
+    const auto a = place(edge[0]), b = place(edge[1]);
+    const double length = (mesh.points[edge[0]] - mesh.points[edge[1]]).norm();
+    if (on_it[a] && on_it[b] && length > most_too_long * std::max(wished[a], wished[b]))
+      result.insert(result.end(), edge.begin(), edge.end());
+  }
+  return result;
+}
+
+/// Those of the hexes that have a corner at the target.
+std::vector<Index> at_points(const Mesh& mesh, std::span<const Index> hexes, const AtTarget& target) {
+  std::vector<Index> result;
+  if (!target.is_point()) return result;
+  std::vector<Vec3> corners(n_hex_corners);
+  for (const Index h : hexes) {
+    for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh.points[mesh.hexes[h][c]];
+    if (std::ranges::count(target.on_it(corners), 1) > 0) result.push_back(h);
+  }
+  return result;
 }
 
 /// What one pass is to cut.
@@ -89,11 +145,12 @@ void mark_wishing_nodes(const Mesh& mesh, std::span<const Index> hexes, const Si
 /// An edge is cut in three when both its ends are marked: the nodes of too large hexes at which the wish is smaller
 /// than the hex. Where the wish varies within a hex, only its fine side is cut then, and the children lie between fine
 /// and coarse as the wish does; cutting all of it would put the transition into its neighbours, which are small enough
-/// already. A hex in which nothing would be cut that way is cut whole, and so are all where the wish jumps (size_field.h).
-Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish, std::span<const std::uint8_t> in_zone,
-                 std::vector<Index> too_large, Report& report) {
+/// already. A hex in which nothing would be cut that way is cut whole, and so are all where the wish is constant or
+/// jumps (size_field.h).
+Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish, const AtTarget& target,
+                 std::span<const std::uint8_t> in_zone, std::vector<Index> too_large, Report& report) {
   Step step{trisect_table(), {}, std::move(too_large)};
-  const std::vector<Index> at_target = target_nodes_too_far_apart(mesh, wish, in_zone);
+  const std::vector<Index> at_target = target_nodes_too_far_apart(mesh, wish, in_zone, target);
   if (step.too_large.empty() && at_target.empty()) return step;
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
   for (const Index n : at_target) marked[n] = 1;
@@ -103,7 +160,9 @@ Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish
       if (edge_mask_of_corners(corner_mask(mesh.hexes[h], marked)) == 0) hexes.push_back(h);
     return hexes;
   };
-  if (wish.jumps()) mark_nodes(mesh.hexes, step.too_large, marked);
+  mark_nodes(mesh.hexes, at_points(mesh, step.too_large, target), marked);
+  const bool is_constant = request.bias == 1 && !request.size_field;
+  if (is_constant || wish.jumps()) mark_nodes(mesh.hexes, step.too_large, marked);
   mark_wishing_nodes(mesh, missed(), wish, most_too_long, marked);
   mark_nodes(mesh.hexes, missed(), marked);
   if (request.concave == Concave::fill) report.filled_hexes += fill_concave(mesh, marked);
@@ -158,6 +217,7 @@ bool size_passes(Pipeline& run, bool halves) {
   const Request& request = run.request();
   const SizeFieldPtr wish = wish_of(run.input(), request);
   const bool everywhere = request.bias > 1 && !request.depth && !request.radius;
+  const AtTarget target(run.input(), request);
   std::vector<Index> targets = region_target(run.input(), request, run.report().notices);
   std::vector<std::uint8_t> in_zone(run.input().mesh.hexes.size(), everywhere);
   for (const Index h : targets) in_zone[h] = 1;
@@ -183,7 +243,7 @@ bool size_passes(Pipeline& run, bool halves) {
   while (true) {
     run.stages().begin("sizes", run.fraction());
     const Mesh& mesh = run.current().mesh;
-    std::vector<Index> too_large = too_large_hexes(mesh, *wish, in_zone);
+    std::vector<Index> too_large = too_large_hexes(mesh, *wish, in_zone, target);
     if (halves && n_passes < request.max_passes) {
       EightPlan plan;
       if (std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish, plan); !halved.empty()) {
@@ -193,12 +253,13 @@ bool size_passes(Pipeline& run, bool halves) {
         continue;
       }
     }
-    Step step = choose_step(mesh, request, *wish, in_zone, std::move(too_large), run.report());
+    Step step = choose_step(mesh, request, *wish, target, in_zone, std::move(too_large), run.report());
     if (step.codes.empty()) break;
     if (n_passes == request.max_passes) {
       unmet = std::move(step.too_large);
       break;
     }
+    if (n_passes > 0) run.smooth_between_passes();
     run.pass(step.table, step.codes);
     ++n_passes;
     carry_zones();

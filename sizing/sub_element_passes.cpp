@@ -1,7 +1,6 @@
 // Parallel hex sheet operations and the combination: around nodes, edges and faces.
 #include <algorithm>
 
-#include "hextwist/mesh/quality.h"
 #include "hextwist/refine/enclose.h"
 #include "hextwist/refine/trisect.h"
 #include "hextwist/sizing/pipeline_internal.h"
@@ -13,9 +12,6 @@ namespace {
 /// A hex without a template may bring so many nodes along; where it would take more, nodes are enclosed one after the
 /// other instead.
 constexpr Index max_growth = 2;
-
-/// Between rounds, hexes below this shape are smoothed even if smoothing is not asked for.
-constexpr double least_shape_to_go_on = 0.1;
 
 /// What the enclosing of one round did, over all rounds.
 struct Enclosed {
@@ -45,20 +41,6 @@ void enclose(Pipeline& run, EncloseAt at, CombinationTarget& target, std::vector
   }
 }
 
-/// Before the next round cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
-/// asked for, nodes inside volumes alone move.
-void smooth_between_rounds(Pipeline& run) {
-  if (run.request().dry_run) return;
-  if (!run.request().smooth) {
-    const std::vector<Index> fresh = run.new_hexes();
-    const double smallest = summarize(quality(Metric::shape, run.current().mesh, fresh)).min;
-    if (smallest >= least_shape_to_go_on) return;
-    run.report().notices.push_back("smoothed between two rounds, as shapes had come down to " +
-                                   std::to_string(smallest));
-  }
-  run.smooth_band(!run.request().smooth);
-}
-
 void say(const Enclosed& done, std::vector<std::string>& notices) {
   const auto nodes = [](Index n) { return std::to_string(n) + (n == 1 ? " node" : " nodes"); };
   if (done.n_first > 0) notices.push_back(nodes(done.n_first) + " where targets meet enclosed before the others");
@@ -72,7 +54,7 @@ void sub_element_passes(Pipeline& run, Method method) {
   const EncloseAt at = method == Method::parallel ? EncloseAt::half : EncloseAt::third;
   Enclosed done;
   for (int i = 0; i < run.request().numsplit; ++i) {
-    if (i > 0) smooth_between_rounds(run);
+    if (i > 0) run.smooth_between_passes();
     std::vector<Edge> uncut = target_edges(target);
     enclose(run, at, target, uncut, done);
     if (method == Method::parallel || uncut.empty()) continue;

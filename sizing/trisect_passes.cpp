@@ -9,6 +9,7 @@ namespace hextwist {
 void trisect_passes(Pipeline& run) {
   std::vector<Index> targets = region_target(run.input(), run.request(), run.report().notices);
   for (int i = 0; i < run.request().numsplit; ++i) {
+    if (i > 0) run.smooth_between_passes();
     run.stages().begin("close", run.fraction());
     const Mesh& mesh = run.current().mesh;
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);

@@ -98,6 +98,7 @@ TEST(Interactive, ControlCCancelsTheRunningCommandAndLeavesTheSessionAsItWas) {
   terminal.answer("create sphere radius 1 interval 3; nodeset 1 node 1");
   const std::string before = terminal.answer("list");
   terminal.type("refine surface all numsplit 3 depth 1 smooth\n");
+  terminal.until("smooth\r\n");  // the line has been read: now it runs
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   terminal.type("\x03");
   terminal.until("error: cancelled");

@@ -165,7 +165,7 @@ TEST(junctions, thin_hexes_at_a_curved_surface_are_smoothed_between_two_rounds) 
   input.mesh = std::move(file.mesh);
   const RefineResult result = checked(input, {.kind = TargetKind::surface, .targets = {10}, .numsplit = 2});
   EXPECT_TRUE(std::ranges::any_of(result.report.notices, [](const std::string& notice) {
-    return notice.starts_with("smoothed between two rounds");
+    return notice.starts_with("smoothed between passes");
   }));
 }
 
