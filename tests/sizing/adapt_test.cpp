@@ -9,15 +9,12 @@
 #include "hextwist/geom/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
 
-MeshedModel brick(int a, int b, int c) {
-  MeshedModel result{test::grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
-  return result;
-}
+using test::brick;
 
 Vec3 centroid(const Mesh& mesh, Index hex) {
   Vec3 sum = Vec3::Zero();

@@ -10,23 +10,13 @@
 #include "hextwist/sizing/request.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
 
-MeshedModel brick(int a, int b, int c) {
-  MeshedModel result{test::grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
-  return result;
-}
-
-MeshedModel shipped(const std::string& name) {
-  const auto models = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models";
-  MeshFile file = read_mesh(models / (name + ".msh"));
-  MeshedModel input{std::move(file.mesh), read_cad(models / (name + ".brep")).model, {}};
-  input.association = associate(input.mesh, *input.model, &file.tags).association;
-  return input;
-}
+using test::brick;
+using test::shipped;
 
 Mesh checked(const MeshedModel& input, const Request& request) {
   const RefineResult result = refine(input, request);

@@ -11,25 +11,13 @@
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
 
-MeshedModel brick(int a, int b, int c) {
-  MeshedModel result{test::grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
-  return result;
-}
-
-MeshedModel shipped(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models";
-  MeshFile file = read_mesh(folder / (name + ".msh"));
-  MeshedModel result;
-  result.model = read_cad(folder / (name + ".brep"), {}).model;
-  result.association = associate(file.mesh, *result.model, &file.tags).association;
-  result.mesh = std::move(file.mesh);
-  return result;
-}
+using test::brick;
+using test::shipped;
 
 std::vector<Index> all(const MeshedModel& input, int dim) {
   std::vector<Index> ids;
@@ -164,9 +152,8 @@ TEST(junctions, thin_hexes_at_a_curved_surface_are_smoothed_between_two_rounds) 
   input.association = associate(file.mesh, *input.model, &file.tags).association;
   input.mesh = std::move(file.mesh);
   const RefineResult result = checked(input, {.kind = TargetKind::surface, .targets = {10}, .numsplit = 2});
-  EXPECT_TRUE(std::ranges::any_of(result.report.notices, [](const std::string& notice) {
-    return notice.starts_with("smoothed between passes");
-  }));
+  EXPECT_TRUE(std::ranges::any_of(
+      result.report.notices, [](const std::string& notice) { return notice.starts_with("smoothed between passes"); }));
 }
 
 // On refined models of our own both the smallest shape and the average rise, and the smallest never falls.

@@ -7,15 +7,12 @@
 #include "hextwist/sizing/request.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
 
-MeshedModel brick(int a, int b, int c) {
-  MeshedModel result{test::grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
-  return result;
-}
+using test::brick;
 
 RefineResult checked(const MeshedModel& input, const Request& request) {
   RefineResult result = refine(input, request);

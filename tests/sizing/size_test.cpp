@@ -11,17 +11,15 @@
 #include "hextwist/sizing/size_field.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
 
-constexpr double root3 = std::numbers::sqrt3;
+using test::brick;
+using test::shipped;
 
-MeshedModel brick(int a, int b, int c) {
-  MeshedModel result{test::grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
-  return result;
-}
+constexpr double root3 = std::numbers::sqrt3;
 
 RefineResult checked(const MeshedModel& input, const Request& request) {
   RefineResult result = refine(input, request);
@@ -222,14 +220,6 @@ struct Part {
 
 void PrintTo(const Part& part, std::ostream* out) {
   *out << part.name << " curve " << part.curve << " size " << part.size;
-}
-
-MeshedModel shipped(const char* part) {
-  const auto models = std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models";
-  MeshFile file = read_mesh(models / (std::string(part) + ".msh"));
-  MeshedModel input{std::move(file.mesh), read_cad(models / (std::string(part) + ".brep")).model, {}};
-  input.association = associate(input.mesh, *input.model, &file.tags).association;
-  return input;
 }
 
 TEST(size, is_met_by_the_hexes_at_every_curve_of_the_plate_and_the_bracket) {
