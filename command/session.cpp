@@ -1,7 +1,5 @@
 #include "hextwist/command/session.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -10,6 +8,7 @@
 
 #include "hextwist/command/braces.h"
 #include "hextwist/command/session_internal.h"
+#include "hextwist/sizing/stages_internal.h"
 
 namespace hextwist {
 namespace {
@@ -28,12 +27,6 @@ Function function_of(std::string_view command) {
       {"sizing", do_sizing},     {"surface", do_scheme}, {"undo", do_undo},       {"volume", do_scheme},
   };
   return functions.at(command);
-}
-
-std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 /// Calls f and turns whatever it throws into an error of the command.

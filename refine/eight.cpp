@@ -8,6 +8,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/union_find_internal.h"
 #include "hextwist/refine/eight_internal.h"
+#include "hextwist/refine/enclose.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/trisect.h"
@@ -281,17 +282,6 @@ std::optional<std::vector<Index>> halve(Surroundings& all, const RegionMesh& reg
 }
 
 }  // namespace
-
-bool is_box_marking(int mask) {
-  if (mask == 0) return true;
-  int low = 7, high = 0;
-  for (int c = 0; c < n_hex_corners; ++c)
-    if (mask >> c & 1) {
-      low &= c;
-      high |= c;
-    }
-  return std::popcount(static_cast<unsigned>(mask)) == 1 << std::popcount(static_cast<unsigned>(low ^ high));
-}
 
 std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes) {
   std::vector<Index> parent = singletons(mesh.n_nodes());

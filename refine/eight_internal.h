@@ -33,9 +33,4 @@ SheetPasses sheet_passes(const RegionMesh& region, const std::vector<std::pair<I
 /// Edges inside the region with another number of hexes around than four.
 Index count_irregular_edges(const RegionMesh& region);
 
-/// Corners that make a box (1, 2, 4 or all 8), or none: the markings that the passes of plan_eight() use. When a hex is
-/// split by one, carried marks of another make such markings again on all its children: that is what the guarantee
-/// stands on (a test tries all). It is not so for the complements, 6 or 7 corners, that the enclosing pass has too.
-bool is_box_marking(int corner_mask);
-
 }  // namespace hextwist

@@ -15,28 +15,16 @@
 namespace hextwist {
 namespace {
 
-/// A set of corners that is a box: for each axis the side it keeps to (0 or 1), or -1 where it reaches across.
-struct CornerBox {
-  bool valid = false;
+/// Per axis the side that the marked corners keep to (0 or 1), or -1 where they reach across.
+std::array<int, 3> sides_kept(int mask) {
   std::array<int, 3> side = {-1, -1, -1};
-};
-
-CornerBox corner_box(int mask) {
-  CornerBox box;
-  int expected = 0;
   for (int axis = 0; axis < 3; ++axis)
-    for (int side = 0; side < 2; ++side) {
+    for (int at = 0; at < 2; ++at) {
       bool only = true;
-      for (int c = 0; c < 8; ++c) only &= !(mask >> c & 1) || (c >> axis & 1) == side;
-      if (only) box.side[axis] = side;
+      for (int c = 0; c < 8; ++c) only &= !(mask >> c & 1) || (c >> axis & 1) == at;
+      if (only) side[axis] = at;
     }
-  for (int c = 0; c < 8; ++c) {
-    bool inside = true;
-    for (int axis = 0; axis < 3; ++axis) inside &= box.side[axis] < 0 || (c >> axis & 1) == box.side[axis];
-    expected |= inside << c;
-  }
-  box.valid = mask != 0 && expected == mask;
-  return box;
+  return side;
 }
 
 /// Optimised places of the new nodes. Printed by optimize_enclosing (refine/optimize_enclosing.cpp).
@@ -48,8 +36,9 @@ constexpr EnclosePlaces places_at_third =
     ;
 
 /// Templates (a), (b), (c): a small hex at the box and one more across each direction in which the box keeps to a side.
-CubeMesh box_template(const CornerBox& box, const Reach& reach) {
-  const auto is_far = [&](int c, int axis) { return box.side[axis] >= 0 && (c >> axis & 1) != box.side[axis]; };
+CubeMesh box_template(int mask, const Reach& reach) {
+  const std::array<int, 3> side = sides_kept(mask);
+  const auto is_far = [&](int c, int axis) { return side[axis] >= 0 && (c >> axis & 1) != side[axis]; };
   const auto near_place = [&](int c) {
     const int n_far = is_far(c, 0) + is_far(c, 1) + is_far(c, 2);
     const double distance = n_far == 1 ? reach.edge : n_far == 2 ? reach.face : reach.inside;
@@ -65,7 +54,7 @@ CubeMesh box_template(const CornerBox& box, const Reach& reach) {
   for (int c = 0; c < 8; ++c) corners[c] = near_place(c);
   mesh.add_hex(corners);
   for (int axis = 0; axis < 3; ++axis) {
-    if (box.side[axis] < 0) continue;
+    if (side[axis] < 0) continue;
     for (int c = 0; c < 8; ++c) {
       const int flipped = c ^ 1 << axis;
       corners[c] = is_far(c, axis) ? unit_corners()[c] : near_place(flipped);
@@ -93,10 +82,10 @@ HexTemplate make_enclose_template(const SplitTable& table, int mask, const Enclo
   CubeMesh mesh;
   if (mask == 0 || mask == 255)
     mesh.add_hex(unit_corners());
-  else if (const CornerBox box = corner_box(mask); box.valid)
-    mesh = box_template(box, reach.marked);
-  else if (const CornerBox rest = corner_box(255 & ~mask); rest.valid)
-    mesh = box_template(rest, reach.unmarked);
+  else if (is_box_marking(mask))
+    mesh = box_template(mask, reach.marked);
+  else if (is_box_marking(255 & ~mask))
+    mesh = box_template(255 & ~mask, reach.unmarked);
   else
     throw std::logic_error("no enclosing template for this marking");
   return make_template(table, edge_code, face_code, mesh.points, mesh.hexes);
@@ -120,8 +109,19 @@ FacePattern make_face_pattern(int code, const EnclosePlaces& reach) {
 
 }  // namespace
 
+bool is_box_marking(int mask) {
+  if (mask == 0) return true;
+  int low = 7, high = 0;
+  for (int c = 0; c < n_hex_corners; ++c)
+    if (mask >> c & 1) {
+      low &= c;
+      high |= c;
+    }
+  return std::popcount(static_cast<unsigned>(mask)) == 1 << std::popcount(static_cast<unsigned>(low ^ high));
+}
+
 bool has_enclosing_template(int mask) {
-  return mask == 0 || mask == 255 || corner_box(mask).valid || corner_box(255 & ~mask).valid;
+  return is_box_marking(mask) || is_box_marking(255 & ~mask);
 }
 
 std::shared_ptr<const SplitTable> make_enclose_table(const EnclosePlaces& reach) {

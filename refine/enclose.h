@@ -27,7 +27,12 @@ std::shared_ptr<const SplitTable> enclose_table(EncloseAt at);
 /// Cut edges at any fraction of their length from the marked node, 0.01 .. 0.99: layers of a chosen thickness.
 std::shared_ptr<const SplitTable> enclose_table(double from_marked);
 
-/// A marking of the corners that has a template.
+/// Corners that make a box (1, 2, 4 or all 8), or none. When a hex is split by one such marking, carried marks of
+/// another make such markings again on all its children (a test tries all), which is what plan_eight() stands on. It is
+/// not so for the complements, 6 or 7 corners.
+bool is_box_marking(int corner_mask);
+
+/// A marking of the corners that has a template: a box, or all but a box.
 bool has_enclosing_template(int corner_mask);
 
 /// Codes from node marks. Hexes with all or no corner marked get 0.

@@ -1,6 +1,4 @@
 // The pipeline: targets, close, split, carry, place, repair, verify.
-#include <sys/resource.h>
-
 #include <cmath>
 
 #include "hextwist/refine/uniform.h"
@@ -12,12 +10,6 @@ namespace hextwist {
 namespace {
 
 constexpr int max_numsplit = 8;
-
-std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 /// The technique, with automatic decided. Throws Error for one that does not fit the target.
 Method technique(const Request& request) {

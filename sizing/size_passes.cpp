@@ -47,6 +47,15 @@ class AtTarget {
   std::optional<TargetDistance> distance_;
 };
 
+/// Eight for each hex.
+std::vector<Vec3> corners_of(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Vec3> corners;
+  corners.reserve(hexes.size() * n_hex_corners);
+  for (const Index h : hexes)
+    for (const Index n : mesh.hexes[h]) corners.push_back(mesh.points[n]);
+  return corners;
+}
+
 /// Hexes of the zone whose size is above the wish by more than that factor.
 std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std::span<const std::uint8_t> in_zone,
                                    const AtTarget& target) {
@@ -63,9 +72,7 @@ std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std:
   std::vector<double> wished = wished_sizes(mesh, asked, wish);
   if (target.is_point()) {
     // A corner at the target wishes for all of the hex.
-    std::vector<Vec3> corners;
-    for (const Index h : asked)
-      for (const Index node : mesh.hexes[h]) corners.push_back(mesh.points[node]);
+    const std::vector<Vec3> corners = corners_of(mesh, asked);
     const std::vector<std::uint8_t> on_it = target.on_it(corners);
     std::vector<double> there(corners.size());
     wish.evaluate(corners, there);
@@ -113,11 +120,10 @@ std::vector<Index> target_nodes_too_far_apart(const Mesh& mesh, const SizeField&
 std::vector<Index> at_points(const Mesh& mesh, std::span<const Index> hexes, const AtTarget& target) {
   std::vector<Index> result;
   if (!target.is_point()) return result;
-  std::vector<Vec3> corners(n_hex_corners);
-  for (const Index h : hexes) {
-    for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh.points[mesh.hexes[h][c]];
-    if (std::ranges::count(target.on_it(corners), 1) > 0) result.push_back(h);
-  }
+  const std::vector<std::uint8_t> on_it = target.on_it(corners_of(mesh, hexes));
+  for (std::size_t i = 0; i < hexes.size(); ++i)
+    if (std::ranges::count(std::span(on_it).subspan(i * n_hex_corners, n_hex_corners), 1) > 0)
+      result.push_back(hexes[i]);
   return result;
 }
 
@@ -132,9 +138,7 @@ struct Step {
 void mark_wishing_nodes(const Mesh& mesh, std::span<const Index> hexes, const SizeField& wish, double factor,
                         std::span<std::uint8_t> marked) {
   const std::vector<double> size = actual_sizes(mesh, hexes);
-  std::vector<Vec3> corners;
-  for (const Index h : hexes)
-    for (const Index n : mesh.hexes[h]) corners.push_back(mesh.points[n]);
+  const std::vector<Vec3> corners = corners_of(mesh, hexes);
   std::vector<double> wished(corners.size());
   wish.evaluate(corners, wished);
   for (std::size_t i = 0; i < corners.size(); ++i)

@@ -1,12 +1,21 @@
 // Times the stages of a request and lets the caller stop it.
 #pragma once
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {
+
+/// Bytes, of the process so far.
+inline std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
 
 /// Times stages, passes them to the progress callback and stops the run when that says so.
 class Stages {

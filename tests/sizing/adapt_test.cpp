@@ -15,12 +15,7 @@ namespace hextwist {
 namespace {
 
 using test::brick;
-
-Vec3 centroid(const Mesh& mesh, Index hex) {
-  Vec3 sum = Vec3::Zero();
-  for (const Index n : mesh.hexes[hex]) sum += mesh.points[n];
-  return sum / 8;
-}
+using test::centroid;
 
 /// Hexes that share a node differ by at most one level; names the first that don't.
 testing::AssertionResult graded(const Mesh& mesh) {

@@ -16,26 +16,14 @@ namespace hextwist {
 namespace {
 
 using test::brick;
+using test::refusal;
 using test::shipped;
 
 Mesh checked(const MeshedModel& input, const Request& request) {
   const RefineResult result = refine(input, request);
   const MeshedModel& fine = result.refined;
-  EXPECT_TRUE(test::conformal(fine.mesh));
-  EXPECT_TRUE(test::uninverted(fine.mesh));
-  EXPECT_TRUE(result.report.violations.empty());
-  const auto broken = check_association(fine.mesh, fine.association, *fine.model);
-  EXPECT_TRUE(broken.empty()) << broken.front();
+  test::expect_sound(result);
   return fine.mesh;
-}
-
-std::string refusal(const MeshedModel& input, const Request& request) {
-  try {
-    refine(input, request);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
 }
 
 Index edge_between(const Mesh& mesh, const Vec3& p, const Vec3& q) {

@@ -15,16 +15,13 @@ namespace hextwist {
 namespace {
 
 using test::brick;
+using test::refusal;
 
 RefineResult checked(const MeshedModel& input, const Request& request) {
   RefineResult result = refine(input, request);
   const MeshedModel& fine = result.refined;
-  EXPECT_TRUE(test::conformal(fine.mesh));
-  EXPECT_TRUE(test::uninverted(fine.mesh));
-  EXPECT_TRUE(result.report.violations.empty());
+  test::expect_sound(result);
   EXPECT_NEAR(volume(fine.mesh), volume(input.mesh), 1e-9 * volume(input.mesh));
-  const auto broken = check_association(fine.mesh, fine.association, *fine.model);
-  EXPECT_TRUE(broken.empty()) << broken.front();
   EXPECT_EQ(result.report.hexes_after, fine.mesh.n_hexes());
   EXPECT_EQ(result.report.nodes_after, fine.mesh.n_nodes());
   return result;
@@ -32,15 +29,6 @@ RefineResult checked(const MeshedModel& input, const Request& request) {
 
 Index growth(const MeshedModel& input, const Request& request) {
   return checked(input, request).refined.mesh.n_hexes() - input.mesh.n_hexes();
-}
-
-std::string refusal(const MeshedModel& input, const Request& request) {
-  try {
-    refine(input, request);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
 }
 
 TEST(request, depth_counts_layers_of_hexes) {

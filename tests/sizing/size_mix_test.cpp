@@ -16,11 +16,7 @@ using test::brick;
 
 RefineResult checked(const MeshedModel& input, const Request& request) {
   RefineResult result = refine(input, request);
-  EXPECT_TRUE(test::conformal(result.refined.mesh));
-  EXPECT_TRUE(test::uninverted(result.refined.mesh));
-  EXPECT_TRUE(result.report.violations.empty());
-  const auto broken = check_association(result.refined.mesh, result.refined.association, *result.refined.model);
-  EXPECT_TRUE(broken.empty()) << broken.front();
+  test::expect_sound(result);
   return result;
 }
 

@@ -17,35 +17,17 @@ namespace hextwist {
 namespace {
 
 using test::brick;
+using test::centroid;
+using test::refusal;
 using test::shipped;
 
 constexpr double root3 = std::numbers::sqrt3;
 
 RefineResult checked(const MeshedModel& input, const Request& request) {
   RefineResult result = refine(input, request);
-  const MeshedModel& fine = result.refined;
-  EXPECT_TRUE(test::conformal(fine.mesh));
-  EXPECT_TRUE(test::uninverted(fine.mesh));
-  EXPECT_TRUE(result.report.violations.empty());
-  const auto broken = check_association(fine.mesh, fine.association, *fine.model);
-  EXPECT_TRUE(broken.empty()) << broken.front();
+  test::expect_sound(result);
   EXPECT_TRUE(result.report.sizes);
   return result;
-}
-
-std::string refusal(const MeshedModel& input, const Request& request) {
-  try {
-    refine(input, request);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
-Vec3 centroid(const Mesh& mesh, Index hex) {
-  Vec3 sum = Vec3::Zero();
-  for (const Index n : mesh.hexes[hex]) sum += mesh.points[n];
-  return sum / 8;
 }
 
 double size_of(const Mesh& mesh, Index hex) {

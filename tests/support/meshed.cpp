@@ -5,6 +5,7 @@
 #include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/occ_model.h"
 #include "hextwist/mesh/io.h"
+#include "support/checkers.h"
 #include "support/grids.h"
 
 namespace hextwist::test {
@@ -21,6 +22,30 @@ MeshedModel shipped(const std::string& name) {
   MeshedModel result{std::move(file.mesh), read_cad(models / (name + ".brep")).model, {}};
   result.association = associate(result.mesh, *result.model, &file.tags).association;
   return result;
+}
+
+void expect_sound(const RefineResult& result) {
+  const MeshedModel& fine = result.refined;
+  EXPECT_TRUE(conformal(fine.mesh));
+  EXPECT_TRUE(uninverted(fine.mesh));
+  EXPECT_TRUE(result.report.violations.empty());
+  const auto broken = check_association(fine.mesh, fine.association, *fine.model);
+  EXPECT_TRUE(broken.empty()) << broken.front();
+}
+
+std::string refusal(const MeshedModel& input, const Request& request) {
+  try {
+    refine(input, request);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+Vec3 centroid(const Mesh& mesh, Index hex) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index n : mesh.hexes[hex]) sum += mesh.points[n];
+  return sum / 8;
 }
 
 }  // namespace hextwist::test
