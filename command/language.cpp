@@ -14,12 +14,12 @@ constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ...
 #define METRICS \
   "shape|scaled [jacobian]|=scaled_jacobian|mean [ratio]|=mean_ratio|condition [number|=no.]|=condition_number|skew" \
   "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal [=ratio]|relative [size]|=relative_size|shear" \
-  "|oddy|distortion|volume|jacobian|dimension"
+  "|oddy|distortion|volume|=element volume|jacobian|dimension"
 
 const std::vector<CommandSpec> table = {
     {"block",
-     "block {<id>|all} {{hex|volume|group} <range> [name <text>]|add {hex|volume|group} <range> [name <text>]"
-     "|remove {hex|volume|group} <range>|name <text>|element type <type>}",
+     "block {<id>|all} {{hex|volume|group} <range> ... [name <text>]|add {hex|volume|group} <range> ... [name <text>]"
+     "|remove {hex|volume|group} <range> ...|name <text>|element type <type>}",
      "define a block of hexes",
      "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block that "
      "nothing is left of goes. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
@@ -28,7 +28,7 @@ const std::vector<CommandSpec> table = {
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"},
       {"type", Kind::word, 0, 0, false, "hex8, which every element is"}},
-     {"block 1 volume 2 name \"steel\"", "block 1 add hex 1 to 10", "block 1 remove hex 3", "block 1 name \"iron\""}},
+     {"block 1 volume 2 name \"steel\"", "block 1 add hex 1 to 10", "block 1 add volume 1 hex 5 to 9", "block 1 remove hex 3", "block 1 name \"iron\""}},
     {"check", "check", "verify the mesh: conformity, orientation, ownership, distance from the CAD, volume",
      "Prints what was checked and fails when the mesh breaks a promise, naming ids.", {},
      {"check"}},
@@ -81,7 +81,7 @@ const std::vector<CommandSpec> table = {
       {"dimension", Kind::integer, 3, 3, false, ""}},
      {"export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
     {"group",
-     "group {<name>|<word>|<id>} {add|equals|remove|xor} {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range>",
+     "group {<name>|<word>|<id>} {add|equals|remove|xor} {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> ...",
      "collect entities under a name",
      "For ranges: 'curve in group 1', 'refine curve in fillets'. 'add' makes the group if there is none of that name, 'equals' "
      "leaves nothing else in it, 'xor' adds those that are not in it and takes out the others. Members that a later command "
@@ -90,7 +90,7 @@ const std::vector<CommandSpec> table = {
       {"word", Kind::word, 0, 0, false, "the same without quotes"},
       {"id", Kind::integer, 1, max_group_id, false, "number of a group that is there"},
       {"range", Kind::range, 0, 0, false, range_help}},
-     {"group \"fillets\" add curve with radius > 0", "group \"fillets\" remove curve 3"}},
+     {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3"}},
     {"help", "help [<command>]", "list the commands, or show one",
      "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
     {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|geometry|step|brep|iges} <file> [=heal|=noheal|=no_heal] "
@@ -112,31 +112,34 @@ const std::vector<CommandSpec> table = {
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"node in surface 3 position fixed", "node all position free"}},
     {"nodeset",
-     "nodeset <id> {{node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> [name <text>]|add {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> [name <text>]"
-     "|remove {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range>|name <text>}",
+     "nodeset <id> {{node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ... [name <text>]|add {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ... [name <text>]"
+     "|remove {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ...|name <text>}",
      "define a node set",
      "Adds the nodes of the entities to the set, those on their rim too, or takes them out of it. A new node belongs to "
      "a set when all nodes of the edge, face or hex that it splits do.",
      {{"id", Kind::integer, 1, max_group_id, false, "number of the set"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},
-     {"nodeset 3 curve 4", "nodeset 3 add node 7 9 name \"rim\"", "nodeset 3 remove node in vertex all", "nodeset 3 name \"edge\""}},
+     {"nodeset 3 curve 4", "nodeset 3 add node 7 9 name \"rim\"", "nodeset 2 curve 1 to 4 vertex 3 node 8", "nodeset 3 remove node in vertex all", "nodeset 3 name \"edge\""}},
     {"playback", "playback <file>", "run the commands in a journal file",
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
     {"quality",
-     "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> "
-     "[{" METRICS "|all}] [histogram] [low <lowest>] [high <highest>] [=global|=individual] [=draw =mesh]",
+     "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
+     "[{" METRICS "|all|=allmetrics|=allmetric}] [histogram] [low <lowest>] [high <highest>] [top <n>] [bottom <n>] [list] "
+     "[=global|=individual] [=draw] [=mesh] [=monochrome] [=add] [=detail] [=id] [=summary]",
      "print the quality of hexes",
      "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
      "the entities. Without a metric: shape, 1 for a cube, 0 where flat; 'all': every one. The values are those of "
-     "Verdict, so of VTK and ParaView. 'low' and 'high' leave out hexes with smaller or larger values; 'histogram' shows "
+     "Verdict, so of VTK and ParaView. 'low' and 'high' leave out hexes with smaller or larger values; 'top' and 'bottom' "
+     "keep the n largest or smallest values of those; 'list' prints the ids of the hexes that are left, 'histogram' shows "
      "how the values are spread. Where 'in' comes before it, write edge_ratio in one word, and volume after another option.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"lowest", Kind::number, -1e300, 1e300, false, "only hexes with at least this value"},
-      {"highest", Kind::number, -1e300, 1e300, false, "only hexes with at most this value"}},
+      {"highest", Kind::number, -1e300, 1e300, false, "only hexes with at most this value"},
+      {"n", Kind::integer, 1, 1e9, false, "how many hexes"}},
      {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all",
-      "quality volume all condition number histogram", "quality volume 1 skew low 0.5"}},
+      "quality volume all condition number histogram", "quality volume 1 skew low 0.5", "quality volume all bottom 10 list"}},
     {"quit", "quit", "end the session", "", {}, {"quit"}},
     {"record", "record {stop|<file> [{overwrite|append}]}", "write the commands that succeed to a journal",
      "One line for each, as it was typed; of a journal that is played back, its commands. An existing file is kept unless "
@@ -207,9 +210,9 @@ const std::vector<CommandSpec> table = {
       {"megabytes", Kind::number, 0, 1e9, false, "memory for undo, in MB"}},
      {"set glue on", "set undo limit 200", "set feature_angle 20"}},
     {"sideset",
-     "sideset <id> {{face|surface|group} <range> [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
-     "|add {face|surface|group} <range> [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
-     "|remove {face|surface|group} <range>|name <text>}",
+     "sideset <id> {{face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
+     "|add {face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
+     "|remove {face|surface|group} <range> ...|name <text>}",
      "define a side set",
      "Adds the sides of hexes at the faces, or takes them out of the set. A face between two hexes has two sides: "
      "'forward' (the default) is that of the volume with the lower id (within a volume, of the hex with the lower id), "
@@ -218,7 +221,7 @@ const std::vector<CommandSpec> table = {
       {"range", Kind::range, 0, 0, false, range_help},
       {"which", Kind::range, 0, 0, false, "whose side of the faces"},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},
-     {"sideset 5 surface 6", "sideset 5 face in surface 6 name \"wall\"", "sideset 7 surface 4 wrt volume 2", "sideset 5 remove face 3"}},
+     {"sideset 5 surface 6", "sideset 5 face in surface 6 name \"wall\"", "sideset 7 surface 4 wrt volume 2", "sideset 3 surface 1 2 face 7", "sideset 5 remove face 3"}},
     {"sizing",
      "sizing {function <name> {constant <size>|<expression>|field <field> [file <file>]"
      "|curvature <per_radian> [{curve|surface} <range>] [growth <growth>]|interval <n> curve <range> [growth <growth>]"

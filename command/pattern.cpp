@@ -49,6 +49,12 @@ Pattern sequence(Cursor& cursor) {
         result.back().choices.push_back(std::move(node.choices.front()));
       else
         result.push_back(std::move(node));
+    } else if (c == '.') {
+      assert(cursor.text.substr(cursor.at).starts_with("...") && result.size() >= 2);
+      Pattern once(result.end() - 2, result.end());
+      result.resize(result.size() - 2);
+      result.push_back({PatternNode::Kind::repeated, "", false, false, {std::move(once)}});
+      cursor.at += 3;
     } else {
       const bool planned = c == '~';
       const bool hidden = c == '=';
@@ -80,6 +86,8 @@ std::optional<std::string> shown(const Pattern& pattern) {
       if (node.kind == PatternNode::Kind::options) {
         if (nested) text = text->substr(1, text->size() - 2);
         piece += (piece.empty() ? "[" : " [") + *text + "]";
+      } else if (node.kind == PatternNode::Kind::repeated) {
+        piece = *text + " ...";
       } else {
         piece += (piece.empty() ? "{" : "|") + *text;
       }

@@ -8,12 +8,12 @@
 namespace hextwist {
 
 struct PatternNode {
-  enum class Kind { word, argument, one_of, options };
+  enum class Kind { word, argument, one_of, options, repeated };
   Kind kind = Kind::word;
   std::string name;                               ///< of a word or argument
   bool planned = false;                           ///< of a word: an error of its own
   bool hidden = false;                            ///< of a word: an old spelling, understood in full only
-  std::vector<std::vector<PatternNode>> choices;  ///< of one_of and options: sequences
+  std::vector<std::vector<PatternNode>> choices;  ///< of one_of and options: sequences; of repeated: one
 };
 using Pattern = std::vector<PatternNode>;
 

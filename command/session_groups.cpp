@@ -49,25 +49,28 @@ std::string members_text(const Selector& selector, const Group& group) {
 
 void do_named_group(Execution& run) {
   const Command& command = run.command;
-  const Item& range = *command.find("range");
   std::vector<Group> groups = run.state.groups ? *run.state.groups : std::vector<Group>();
   const Selector selector = run.core.selector();
-  Members given;
-  for (const Index i : run.chosen(range)) given.push_back(member_of(selector, range.kind, i));
-  std::ranges::sort(given);
+  std::array<Members, n_entity_kinds> given;
+  for (const Item* range : command.find_all("range"))
+    for (const Index i : run.chosen(*range))
+      given[static_cast<int>(range->kind)].push_back(member_of(selector, range->kind, i));
   Group& group = wanted_group(run, groups);
-  Members& own = group.members[static_cast<int>(range.kind)];
-  Members result;
-  if (command.has("remove")) {
-    std::ranges::set_difference(own, given, std::back_inserter(result));
-  } else if (command.has("xor")) {
-    std::ranges::set_symmetric_difference(own, given, std::back_inserter(result));
-  } else {
-    if (command.has("equals"))
-      for (Members& other : group.members) other.clear();
-    std::ranges::set_union(own, given, std::back_inserter(result));
+  for (int kind = 0; kind < n_entity_kinds; ++kind) {
+    Members& own = group.members[kind];
+    Members& said = given[kind];
+    std::ranges::sort(said);
+    said.erase(std::ranges::unique(said).begin(), said.end());
+    if (command.has("equals")) own.clear();
+    Members result;
+    if (command.has("remove"))
+      std::ranges::set_difference(own, said, std::back_inserter(result));
+    else if (command.has("xor"))
+      std::ranges::set_symmetric_difference(own, said, std::back_inserter(result));
+    else
+      std::ranges::set_union(own, said, std::back_inserter(result));
+    own = std::move(result);
   }
-  own = std::move(result);
   run.say("group " + std::to_string(group.id) + " '" + printable(group.name) + "': " + members_text(selector, group));
   run.state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
 }

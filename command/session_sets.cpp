@@ -84,6 +84,22 @@ auto members(const Execution& run, const Item& range, const std::vector<SideSet>
   return sides_of(run, related(run.core.selector(), range.kind, run.chosen(range), EntityKind::face));
 }
 
+/// What all ranges of the command give, ascending, each once. Each must give something.
+template <class Groups>
+auto all_members(const Execution& run, EntityKind kind, const Groups& groups) {
+  decltype(members(run, Item{}, groups)) result;
+  for (const Item* range : run.command.find_all("range")) {
+    const auto given = members(run, *range, groups);
+    if (given.empty())
+      throw error_at(run.command.statement, range->range.token,
+                     "there is nothing for a " + std::string(name(kind)) + " there");
+    result.insert(result.end(), given.begin(), given.end());
+  }
+  std::ranges::sort(result);
+  result.erase(std::ranges::unique(result).begin(), result.end());
+  return result;
+}
+
 template <class Group, class Items>
 void note_overlaps(const Execution& run, const std::vector<Group>& groups, Items items, const Group& changed) {
   for (const Group& other : groups) {
@@ -99,15 +115,11 @@ void note_overlaps(const Execution& run, const std::vector<Group>& groups, Items
 
 std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, int id) {
   const Command& command = run.command;
-  const Item& range = *command.find("range");
   return with_groups(lists, kind, [&](auto& groups, auto items) {
-    const auto given = members(run, range, groups);
+    const auto given = all_members(run, kind, groups);
     auto group = std::ranges::find(groups, id, [](const auto& g) { return g.id; });
     const bool remove = command.has("remove");
     const std::string named = command.spec->name.data() + (" " + std::to_string(id));
-    if (given.empty())
-      throw error_at(command.statement, range.range.token,
-                     "there is nothing for a " + std::string(name(kind)) + " there");
     if (remove && group == groups.end())
       throw error_at(command.statement, command.find("id")->token, "there is no " + named);
     if (group == groups.end()) {

@@ -121,7 +121,23 @@ class Matcher {
       }
       case PatternNode::Kind::options:
         return options(node);
+      case PatternNode::Kind::repeated:
+        do sequence(node.choices.front());
+        while (goes_on(node.choices.front()));
     }
+  }
+
+  /// Whether one more kind follows a range. It may be cut to three letters, fewer could be meant for an option; behind
+  /// `in` all that are written out have been read, and others would be printed as if they belonged there too.
+  bool goes_on(const Pattern& once) {
+    const auto& filters = out_.items.back().range.filters;
+    const bool open = !filters.empty() && (filters.back().kind == RangeFilter::Kind::in ||
+                                           filters.back().kind == RangeFilter::Kind::common_to);
+    std::vector<Keyword> words;
+    std::vector<std::size_t> ignored;
+    first_words(once, 0, words, ignored);
+    for (Keyword& word : words) word.may_be_short = !open && reader_.peek().text.size() >= 3;
+    return reader_.match(words).has_value();
   }
 
   void word(const PatternNode& node) {
@@ -218,6 +234,13 @@ const Item* Command::find(std::string_view argument) const {
   const auto found =
       std::ranges::find_if(items, [&](const Item& item) { return !item.is_word && item.name == argument; });
   return found == items.end() ? nullptr : &*found;
+}
+
+std::vector<const Item*> Command::find_all(std::string_view argument) const {
+  std::vector<const Item*> result;
+  for (const Item& item : items)
+    if (!item.is_word && item.name == argument) result.push_back(&item);
+  return result;
 }
 
 Command parse(const Statement& statement) {

@@ -4,6 +4,7 @@
 //   word                must stand there (case ignored, may be cut short)
 //   {a|b ...|c}         one of
 //   [a ...] [b ...]     each may stand there, in any order, once
+//   {a|b} <range> ...   the two before the dots, once or more: further kinds of entities
 //   <name>              a value: see the command's arguments; <range> takes ids of the kind named before it
 //   ~word               known, but not supported yet: an error of its own; never shown
 //   =word               another spelling: understood when written out; never shown
@@ -63,6 +64,8 @@ struct Command {
   bool has(std::string_view word) const;
   /// The value of that name, null where there was none.
   const Item* find(std::string_view argument) const;
+  /// All values of that name: of several kinds of entities each a range.
+  std::vector<const Item*> find_all(std::string_view argument) const;
 };
 
 /// The table of all commands, alphabetical.

@@ -64,6 +64,12 @@ TEST(Grammar, WordsMayBeShortAndInAnyCase) {
            {"nodes 3 cur 4", "nodeset 3 curve 4"},
            {"block 1 vol 2 name 'a'", "block 1 volume 2 name \"a\""},
            {"sideset 5 face in surface 6 wrt volume 1", "sideset 5 face in surface 6 wrt volume 1"},
+           {"block 1 vol 1 2 hex 5 to 9 volume 4", "block 1 volume 1 2 hex 5 to 9 volume 4"},
+           {"sides 3 sur 1 2 fac 7 n 'w'", "sideset 3 surface 1 2 face 7 name \"w\""},
+           {"nodeset 2 curve all except 4 vertex 3 curve in surface 1 face 2 name 'n'",
+            "nodeset 2 curve all except 4 vertex 3 curve in surface 1 face 2 name \"n\""},
+           {"block 1 hex with x_min > 1 vol 2 hex in block 2", "block 1 hex with x_min > 1 volume 2 hex in block 2"},
+           {"group \"g\" add surf 1 cur 2 surf 4", "group \"g\" add surface 1 curve 2 surface 4"},
            {"vol 1 smooth scheme mean", "volume 1 smooth scheme mean"},
            {"smo vol 1 sch cond num", "smooth volume 1 scheme condition number"},
            {"block all element type HEX8", "block all element type HEX8"},
@@ -100,7 +106,8 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
            {"foo", 1, "expected block, check, create, curve, delete"},
            {"refine crve 3", 8,
-            "expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you mean 'curve'?)"},
+            "expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you mean "
+            "'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
            {"refine curve", 13,
             "expected an id, a name, all, except, in, common_to or with, found the end of the command"},
@@ -180,6 +187,14 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
            {"redo all", 6, "expected a whole number or the end of the command"},
            {"block volume 1", 7, "expected all or a whole number, found 'volume'"},
            {"block 1 surface 2", 9, "expected hex, volume, group, add, remove, name or element, found 'surface'"},
+           {"block 1 volume 2 hax 3", 18, "hex, volume, group, name or the end of the command, found 'hax'"},
+           {"block 1 volume 2 v 3", 18, "hex, volume, group, name or the end of the command, found 'v'"},
+           {"block 1 volume 2 hex", 21, "expected an id"},
+           {"block 1 hex in volume 2 vol 3", 25, "found 'vol'"},
+           {"block 1 volume 2 name 'a' hex 3", 27, "expected the end of the command, found 'hex'"},
+           {"nodeset 1 curve 1 nod 3", 19, "'nod' is short for node or nodeset"},
+           {"sideset 1 surface 2 curve 3", 21, "expected"},
+           {"group g add curve 1 crve 2", 21, "(did you mean 'curve'?)"},
            {"block 0 hex 1", 7, "block must be a whole number"},
            {"nodeset 1 node", 15, "expected an id"},
            {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
@@ -211,9 +226,10 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
 }
 
 TEST(Grammar, TheCaretStandsUnderTheWord) {
-  EXPECT_STREQ(error_of("reset\nrefine crve 3\n", "part.jou").what(),
-               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
-               "mean 'curve'?)\n  refine crve 3\n         ^~~~");
+  EXPECT_STREQ(
+      error_of("reset\nrefine crve 3\n", "part.jou").what(),
+      "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
+      "mean 'curve'?)\n  refine crve 3\n         ^~~~");
   EXPECT_STREQ(error_of("import\tmésh 3").what(),
                "expected mesh, exodus, gmsh, abaqus, vtk, medit, geometry, step, brep or iges, found 'mésh'"
                "\n  import mésh 3\n         ^~~~");
@@ -245,6 +261,9 @@ TEST(Grammar, CompletionOffersWhatCouldStandThere) {
   EXPECT_EQ(completions("refine curve 3 concave "), (List{"fill", "template"}));
   EXPECT_EQ(completions("refine curve 3 numsplit "), List{});
   EXPECT_EQ(completions("refine bogus 3 "), List{});
+  EXPECT_EQ(completions("block 1 volume 2 "),
+            (List{"common_to", "except", "group", "hex", "in", "name", "to", "volume", "with"}));
+  EXPECT_EQ(completions("sideset 1 surface 2 fac"), (List{"face"}));
   EXPECT_EQ(completions("").size(), completions("  ").size());
   EXPECT_GT(completions("").size(), 10u);
   EXPECT_EQ(completions("import mesh \"a"), List{});

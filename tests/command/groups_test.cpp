@@ -27,6 +27,21 @@ TEST(Groups, CollectEntitiesUnderAName) {
   EXPECT_EQ(f.error("list curve in rim"), "nothing is named 'rim'; there are 'brick', 'other'");
 }
 
+TEST(Groups, TakeSeveralKindsInOneCommand) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3; group g add surface 1 curve 2 surface 1 3; list group g");
+  EXPECT_EQ(f.output.back(), "group 1 'g': 1 curve, 2 surfaces");
+  f.session.run("group g xor curve 2 3 surface 4");
+  EXPECT_EQ(f.output.back(), "group 1 'g': 1 curve, 3 surfaces");
+  f.session.run("group g remove curve 3 surface 1 vertex 2");
+  EXPECT_EQ(f.output.back(), "group 1 'g': 2 surfaces");
+  f.session.run("group g equals hex 1 node 5 hex 3");
+  EXPECT_EQ(f.output.back(), "group 1 'g': 1 node, 2 hexes");
+  EXPECT_EQ(f.error("group g add curve 1 vertex 99"), "vertex 99 does not exist; vertices are 1 to 8");
+  f.session.run("list group g");
+  EXPECT_EQ(f.output.back(), "group 1 'g': 1 node, 2 hexes");
+}
+
 TEST(Groups, AreUndoneAndForgottenWithTheirModel) {
   Fixture f;
   f.session.run("create brick x 3 interval 3; group a add curve 1; group a add curve 2; undo; list group 1");

@@ -5,6 +5,7 @@
 
 #include "hextwist/command/braces.h"
 #include "hextwist/command/command_error.h"
+#include "hextwist/command/pattern_internal.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/mesh/association.h"
 #include "hextwist/mesh/quality.h"
@@ -48,6 +49,13 @@ bool goes_on_with_a_range(std::string_view word) {
   return std::ranges::any_of(words, [&](const char* other) { return same_word(word, other); });
 }
 
+bool in_full_only(const Pattern& pattern, std::string_view word) {
+  return std::ranges::any_of(pattern, [&](const PatternNode& node) {
+    return (node.hidden && same_word(node.name, word)) ||
+           std::ranges::any_of(node.choices, [&](const Pattern& choice) { return in_full_only(choice, word); });
+  });
+}
+
 /// Every sentence parses, what is printed is a fixed point, and so are its words cut short.
 void check_fixed_points(int n_per_command) {
   const unsigned seed = new_seed();
@@ -70,15 +78,8 @@ void check_fixed_points(int n_per_command) {
       const Command command = parse(statement);
       const bool of_grammar = std::ranges::any_of(
           command.items, [&](const Item& item) { return item.is_word && item.token.offset == word.offset; });
-      // Within ranges any word can be a name. scaled_jacobian is understood in full only, its beginning is another
-      // word.
-      const bool joined =
-          word.text.find('_') != std::string::npos && std::ranges::any_of(metrics(), [&](Metric metric) {
-            std::string spelled = name(metric);
-            std::ranges::replace(spelled, ' ', '_');
-            return same_word(spelled, word.text);
-          });
-      if (!of_grammar || joined || word.text.ends_with('.')) continue;  // 'no.' cut short is 'number'
+      // Within ranges any word can be a name. Words that are understood in full only begin like others.
+      if (!of_grammar || in_full_only(compile_pattern(spec->syntax), word.text)) continue;
       std::string other = text;
       for (std::size_t k = 0; k < word.length; ++k)
         other[word.offset + k] = static_cast<char>(std::toupper(static_cast<unsigned char>(other[word.offset + k])));

@@ -61,7 +61,16 @@ void Sentences::node(const PatternNode& node, std::string& text) {
       std::ranges::shuffle(choices, random_);
       for (const Pattern* choice : choices)
         if (one_in(3) && usable(*choice)) sequence(*choice, text);
+      break;
     }
+    case PatternNode::Kind::repeated:
+      do {
+        after_range_ = false;
+        const std::size_t from = text.size();
+        sequence(node.choices.front(), text);
+        // Kinds behind `in` would belong there.
+        if (text.find(" in ", from) != std::string::npos || text.find(" common_to ", from) != std::string::npos) break;
+      } while (one_in(3));
   }
 }
 

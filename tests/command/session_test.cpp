@@ -280,6 +280,51 @@ TEST(Session, QualityCanBeLimitedAndShownAsAHistogram) {
   EXPECT_TRUE(f.output[1].ends_with(" 0")) << f.output[1];
 }
 
+TEST(Session, QualityKeepsTheEndsAndListsThem) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 4; refine hex 1");
+  const Mesh& mesh = f.session.meshed().mesh;
+  auto volumes = quality(Metric::volume, mesh);
+  const auto said = [&](const std::string& text) {
+    f.output.clear();
+    f.session.run("quality volume 1 element volume " + text);
+    EXPECT_EQ(f.output.size(), 3u) << text;
+    return f.output.back();
+  };
+  const std::string smallest = said("bottom 27 list");
+  f.output.clear();
+  // What is printed is a range: the children of the hex that was cut in all directions, which are the smallest.
+  f.session.run("quality" + smallest.substr(1) + " volume");
+  EXPECT_NE(f.output.back().find(" 27 "), std::string::npos) << f.output.back();
+  std::ranges::sort(volumes);
+  double count = 0, average = 0, deviation = 0, min = 0, hex = 0, max = 0;
+  std::istringstream(f.output.back().substr(6)) >> count >> average >> deviation >> min >> hex >> max;
+  EXPECT_NEAR(max, volumes[26], 1e-6);
+  f.session.run("quality volume 1 volume low 0.01 top 4 bottom 3");
+  EXPECT_NE(f.output.back().find(" 7 "), std::string::npos) << f.output.back();
+  f.session.run("quality volume 1 volume top 1000");
+  EXPECT_NE(f.output.back().find(" 138 "), std::string::npos) << f.output.back();
+  EXPECT_NE(f.error("quality volume 1 shape top 0").find("top must be a whole number"), std::string::npos);
+}
+
+TEST(Session, QualityUnderstandsTheWordsOfJournals) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 2");
+  const auto table = [&](const std::string& text) {
+    f.output.clear();
+    f.session.run(text);
+    return f.output;
+  };
+  const auto all = table("quality volume 1 all");
+  EXPECT_EQ(table("Quality Volume 1 AllMetrics"), all);
+  EXPECT_EQ(table("quality volume 1 allmetric global draw mesh monochrome add"), all);
+  EXPECT_EQ(table("quality volume 1 shape draw histogram"), table("quality volume 1 shape histogram"));
+  EXPECT_EQ(table("quality volume 1 list detail id"), table("quality volume 1 list"));
+  EXPECT_EQ(table("group all add volume 1; quality group all").back(), table("quality volume 1").back());
+  EXPECT_NE(f.error("quality volume 1 shape and size").find("found 'and'"), std::string::npos);
+  EXPECT_NE(f.error("quality volume 1 timestep").find("found 'timestep'"), std::string::npos);
+}
+
 TEST(Session, FilesComeBackAsTheyWentOut) {
   const auto file = folder() / "brick.msh";
   Fixture f;

@@ -95,6 +95,39 @@ TEST(Sets, GrowShrinkGetNamesAndGo) {
   EXPECT_TRUE(f.session.meshed().mesh.node_sets.empty());
 }
 
+TEST(Sets, SeveralKindsInOneCommandAreOne) {
+  Fixture f;
+  f.session.run(
+      "create brick x 3 interval 3; reset block; group few add hex 2 curve 1 hex 4;"
+      "block 1 add hex 5 to 9 group few hex 20; block 2 hex 5 to 9; block 2 hex 2 4; block 2 hex 20;"
+      "sideset 3 surface 1 2 face 7 surface 3; sideset 4 surface 1 to 3; sideset 4 face 7;"
+      "nodeset 2 curve 1 to 4 vertex 3 node 8 9 vert 8 name 'n'");
+  const Mesh& mesh = f.session.meshed().mesh;
+  EXPECT_EQ(mesh.blocks.at(0).hexes, mesh.blocks.at(1).hexes);
+  EXPECT_EQ(mesh.blocks[0].hexes, (std::vector<Index>{1, 3, 4, 5, 6, 7, 8, 19}));
+  EXPECT_EQ(mesh.side_sets.at(0).sides, mesh.side_sets.at(1).sides);
+  f.session.run("nodeset 5 curve 1 to 4; nodeset 5 vertex 3; nodeset 5 node 8; nodeset 5 node 9; nodeset 5 vertex 8");
+  EXPECT_EQ(mesh.node_sets.at(0).nodes, mesh.node_sets.at(1).nodes);
+  EXPECT_EQ(mesh.node_sets[0].name, "n");
+  f.session.run("sideset 3 remove surface 2 3 face 7; sideset 4 remove face 7; sideset 4 remove surface 2 to 3");
+  EXPECT_EQ(mesh.side_sets[0].sides, mesh.side_sets[1].sides);
+  EXPECT_TRUE(test::sets_valid(mesh));
+}
+
+TEST(Sets, SeveralKindsAreUndoneTogetherAndAllOrNothing) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 volume 1; undo");
+  EXPECT_TRUE(f.session.meshed().mesh.blocks.empty());
+  EXPECT_EQ(f.error("block 1 hex 1 volume 7"), "volume 7 does not exist; the only one is 1");
+  EXPECT_EQ(f.last().column, 22);
+  EXPECT_EQ(f.error("nodeset 1 curve 1 node 99"), "node 99 does not exist; nodes are 1 to 27");
+  EXPECT_EQ(f.error("sideset 1 surface 1 face 5 reverse"), "there is nothing for a sideset there");
+  EXPECT_EQ(f.last().column, 19);
+  EXPECT_EQ(f.error("sideset 1 surface 1 both surface 2"), "expected wrt, name or the end of the command, found 'surface'");
+  EXPECT_TRUE(f.session.meshed().mesh.blocks.empty());
+  EXPECT_TRUE(f.session.meshed().mesh.side_sets.empty());
+}
+
 TEST(Sets, MistakesArePointedAt) {
   Fixture f;
   EXPECT_EQ(f.error("block 1 volume 1"), "there is no mesh");
