@@ -230,7 +230,7 @@ const std::vector<CommandSpec> table = {
      "define a sizing function for 'refine ... sizing_function'",
      "constant: the same everywhere. An expression in x, y and z in quotes. field: the values of a nodal or element "
      "field of the mesh as it is now, or of a mesh file, interpolated. curvature: so many elements per radian on curved "
-     "curves and surfaces (of the whole CAD or those named). interval: so many elements along each curve. linear: a size "
+     "curves and surfaces (of the whole CAD or those named; of a mesh without CAD estimated from its faces). interval: so many elements along each curve. linear: a size "
      "at entities. From curves, surfaces and sources sizes grow by 'growth' (default 1.5) from element to element. minimum: "
      "the smallest of functions defined before. 'sizing field' makes a function of the field's name. 'sizing list' lists them.",
      {{"name", Kind::word, 0, 0, false, "what to call it"},

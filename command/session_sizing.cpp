@@ -38,7 +38,7 @@ SizeFieldPtr from_field(const Execution& run) {
 SizeFieldPtr from_curvature(const Execution& run) {
   const Command& command = run.command;
   const MeshedModel& meshed = *run.state.meshed;
-  if (!meshed.model || !run.state.has_cad) throw Error("there is no CAD whose curvature could be asked for");
+  if (!meshed.model) throw Error("there is no CAD or mesh whose curvature could be asked for");
   std::vector<Owner> entities;
   if (const Item* range = command.find("range"))
     for (const Index id : targets_of(run, *range)) entities.push_back({dimension(range->kind), id});

@@ -10,8 +10,11 @@
 #include <boost/property_map/property_map.hpp>
 #include <cassert>
 #include <cmath>
+#include <mutex>
 
 #include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/curvature.h"
+#include "hextwist/geom/facet_curvature_internal.h"
 #include "hextwist/geom/incidence.h"
 #include "hextwist/geom/skin.h"
 
@@ -180,6 +183,7 @@ class ItemTree {
 
 struct FacetSurface {
   std::vector<BilinearPatch> patches;
+  std::vector<FacetNodes> quads;  ///< the nodes of the patches
   std::unique_ptr<const ItemTree<BilinearPatch>> tree;
   std::array<int, 2> volumes;
   Box box;
@@ -208,7 +212,7 @@ struct FacetCurve {
   }
 };
 
-class FacetModel final : public Model {
+class FacetModel final : public Model, public KnowsCurvature {
  public:
   FacetModel(std::span<const Vec3> points, const SkinFeatures& skin);
   using Model::project;
@@ -243,6 +247,9 @@ class FacetModel final : public Model {
   void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
                std::span<Projection> out) const override;
   bool contains(int volume, const Vec3& p) const override;
+  double curvature(Owner entity, Parameters at) const override;
+  bool in_pieces() const override { return true; }
+  std::vector<Bend> bends(Owner entity) const override;
   std::vector<int> near(int dim, const Vec3& p, double distance) const override;
 
  private:
@@ -256,12 +263,18 @@ class FacetModel final : public Model {
   Parameters closest_on_curve(const FacetCurve& curve, const Vec3& p, Parameters seed) const;
   Parameters closest_on_surface(int surface, const Vec3& p, Parameters seed) const;
 
+  /// Estimated when first asked for: most sessions never do.
+  const std::vector<double>& curvatures(Owner entity) const;
+
   std::vector<Vec3> vertices_;
   std::vector<FacetCurve> curves_;
   std::vector<FacetSurface> surfaces_;
   std::vector<double> volumes_;  ///< measures
   Incidence incidence_;
   Box box_;
+  std::vector<FacetEdge> features_;  ///< ascending
+  mutable std::once_flag curvatures_known_;
+  mutable std::array<std::vector<std::vector<double>>, 3> curvatures_;  ///< [dim][id - 1], per segment or facet
   double on_it2_ = 0;  ///< squared distance below which a point is on the seed's facet or segment: rounding only
 };
 
@@ -270,7 +283,8 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
       surfaces_(skin.n_surfaces),
       volumes_(skin.n_volumes, 0),
       incidence_({static_cast<int>(skin.classification.vertex_nodes.size()), static_cast<int>(skin.curve_nodes.size()),
-                  skin.n_surfaces, skin.n_volumes}) {
+                  skin.n_surfaces, skin.n_volumes}),
+      features_(skin.classification.edges) {
   std::vector<int> vertex_at(points.size(), 0);
   for (const std::int32_t node : skin.classification.vertex_nodes) {
     vertices_.push_back(points[node]);
@@ -303,6 +317,7 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
       if (vertex_at[skin.quads[q][c]]) incidence_.add({2, id}, {0, vertex_at[skin.quads[q][c]]});
     }
     surface.patches.push_back(patch);
+    surface.quads.push_back(skin.quads[q]);
   }
   for (const auto& [surface, curve] : skin.surface_curves) incidence_.add({2, surface}, {1, curve});
   for (const FacetSurface& surface : surfaces_) box_.add(surface.box);
@@ -397,6 +412,44 @@ void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<c
   } else {
     tbb::parallel_for(std::size_t{0}, points.size(), one);
   }
+}
+
+const std::vector<double>& FacetModel::curvatures(Owner entity) const {
+  // Without threads: one that waits for others' work inside could be given work that asks for this.
+  std::call_once(curvatures_known_, [&] {
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      const FacetCurve& curve = curves_[c];
+      const bool corner = !incidence_.adjacent({1, static_cast<int>(c) + 1}, 0).empty();  // where a closed one starts
+      std::vector<Vec3> points;
+      for (const Segment& segment : curve.segments) points.push_back(segment[0]);
+      points.push_back(curve.segments.back()[1]);
+      curvatures_[1].push_back(segment_curvatures(points, curve.closed && !corner));
+    }
+    for (const FacetSurface& surface : surfaces_)
+      curvatures_[2].push_back(facet_curvatures(surface.patches, surface.quads, features_));
+  });
+  return curvatures_[entity.dim][entity.id - 1];
+}
+
+double FacetModel::curvature(Owner entity, Parameters at) const {
+  if (entity.dim == 1) return curvatures(entity)[curves_[entity.id - 1].locate(at.u).first];
+  return entity.dim == 2 ? curvatures(entity)[facet_of(entity.id, at)] : 0;
+}
+
+std::vector<Bend> FacetModel::bends(Owner entity) const {
+  std::vector<Bend> result;
+  if (entity.dim != 1 && entity.dim != 2) return result;
+  const std::vector<double>& known = curvatures(entity);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] == 0) continue;
+    if (entity.dim == 2) {
+      result.push_back({surfaces_[entity.id - 1].patches[i], known[i]});
+    } else {
+      const auto& [from, to] = curves_[entity.id - 1].segments[i];
+      result.push_back({{from, to, to, from}, known[i]});
+    }
+  }
+  return result;
 }
 
 std::vector<int> FacetModel::near(int dim, const Vec3& p, double distance) const {

@@ -1,7 +1,9 @@
 // Sizes from the CAD: its curvature, and counts of elements along curves.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "hextwist/geom/box_tree.h"
 #include "hextwist/geom/curvature.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/sizing/size_field.h"
@@ -47,6 +49,48 @@ class Curvature final : public SizeField {
   double per_radian_, slope_;
 };
 
+/// The same where curvature comes in pieces: a fillet and the flat face it runs out into are one surface of a skin, so
+/// that the nearest place of the surface says nothing about what is bent beside it.
+class CurvatureInPieces final : public SizeField {
+ public:
+  CurvatureInPieces(std::vector<Bend> bends, double elements_per_radian, double growth)
+      : bends_(std::move(bends)), slope_(growth - 1) {
+    std::vector<Box> boxes;
+    for (const Bend& bend : bends_) {
+      sizes_.push_back(1 / (bend.curvature * elements_per_radian));
+      Box& box = boxes.emplace_back();
+      for (const Vec3& p : bend.piece) box.add(p);
+    }
+    least_ = std::ranges::min(sizes_);
+    tree_ = BoxTree(boxes);
+  }
+
+  void evaluate(std::span<const Vec3> points, std::span<double> out) const override {
+    parallel_ranges(
+        static_cast<Index>(points.size()),
+        [&](Index begin, Index end) {
+          for (Index i = begin; i < end; ++i) out[i] = slope_ > 0 ? wish(points[i]) : least_;
+        },
+        512);
+  }
+  double least() const override { return least_; }
+
+ private:
+  /// The least of size + slope x distance: the nearest piece, if each is farther by size / slope than it is.
+  double wish(const Vec3& p) const {
+    const NearItem near = tree_.nearest(p, [&](std::int32_t i) {
+      const double farther = std::sqrt(closest(bends_[i].piece, p).distance2) + (sizes_[i] - least_) / slope_;
+      return farther * farther;
+    });
+    return least_ + slope_ * std::sqrt(near.distance2);
+  }
+
+  std::vector<Bend> bends_;
+  std::vector<double> sizes_;
+  BoxTree tree_;
+  double slope_, least_ = 0;
+};
+
 bool is_curved(const std::string& type) {
   return type != "line" && type != "plane" && type != "degenerate" && type != "vertex" && type != "volume";
 }
@@ -63,11 +107,16 @@ SizeFieldPtr curvature_size(std::shared_ptr<const Model> model, std::span<const 
   if (!(elements_per_radian > 0) || !std::isfinite(elements_per_radian))
     throw Error("elements per radian must be a positive number");
   if (!model) throw Error("there is no CAD whose curvature could be asked for");
-  if (!curvature_of(*model)) throw Error("the skin of a mesh has no curvature: import the CAD that the mesh lies on");
+  const KnowsCurvature* knows = curvature_of(*model);
+  if (!knows) throw Error("this model does not know its curvature");
   std::vector<Owner> curved;
-  for (const Owner entity : entities)
+  std::vector<Bend> bends;
+  for (const Owner entity : entities) {
     if (is_curved(model->type(entity))) curved.push_back(entity);
-  if (curved.empty()) throw Error("none of these curves and surfaces is curved");
+    if (knows->in_pieces()) std::ranges::move(knows->bends(entity), std::back_inserter(bends));
+  }
+  if (knows->in_pieces() ? bends.empty() : curved.empty()) throw Error("none of these curves and surfaces is curved");
+  if (knows->in_pieces()) return std::make_shared<CurvatureInPieces>(std::move(bends), elements_per_radian, growth);
   return std::make_shared<Curvature>(std::move(model), std::move(curved), elements_per_radian, growth);
 }
 

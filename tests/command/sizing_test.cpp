@@ -134,7 +134,7 @@ TEST(Sizing, EveryKindOfFunctionCanBeDefinedAndListed) {
             "there is no sizing function 'zz'; there are: fa, fb, fc, fd, fe, fm");
   f.session.run("reset; sizing list");
   EXPECT_EQ(f.output.back(), "no sizing functions");
-  EXPECT_EQ(f.error("sizing function fc curvature 4"), "there is no CAD whose curvature could be asked for");
+  EXPECT_EQ(f.error("sizing function fc curvature 4"), "there is no CAD or mesh whose curvature could be asked for");
   EXPECT_EQ(f.error("sizing field \"h\""), "there is no mesh to take a field from");
 }
 

@@ -5,9 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <random>
 
 #include "hextwist/geom/analytic_model.h"
+#include "hextwist/geom/facet_curvature_internal.h"
 #include "hextwist/geom/occ_model.h"
+#include "support/grids.h"
+#include "support/skins.h"
 
 namespace hextwist {
 namespace {
@@ -55,6 +59,49 @@ TEST(curvature, of_curves_is_how_fast_their_tangent_turns) {
       }
     }
   }
+}
+
+TEST(curvature, of_a_polyline_on_a_circle_is_one_over_its_radius_however_uneven_the_points) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> step(0.01, 0.3);
+  for (const bool closed : {false, true}) {
+    std::vector<Vec3> points;
+    double angle = 0;
+    for (int i = 0; i < 20; ++i, angle += step(random))
+      points.emplace_back(3 * std::cos(angle), 3 * std::sin(angle), 1);
+    if (closed) points.push_back(points.front());
+    for (const double bend : segment_curvatures(points, closed)) EXPECT_NEAR(bend, 1.0 / 3, 1e-9);
+  }
+  const std::vector<Vec3> straight = {{0, 0, 0}, {1, 0, 0}, {3, 0, 1e-4}, {4, 0, 0}};
+  EXPECT_EQ(segment_curvatures(straight, false), std::vector<double>(3, 0.0)) << "noise is no bend";
+  EXPECT_EQ(segment_curvatures(std::span(straight).first(2), false), std::vector<double>(1, 0.0));
+}
+
+TEST(curvature, of_a_skin_is_that_of_the_surface_it_was_made_on) {
+  // A round rod: even facets around, of different lengths along; and the ends of it are flat.
+  const Mesh rod = test::round_grid(6, 5, 3);
+  const auto model = test::facet_model_of(rod).model;
+  int n_round = 0;
+  for (int s = 1; s <= model->count(2); ++s) {
+    const Projection foot = model->project({2, s}, Vec3(1, 0.2, 1.4));
+    const double bend = curvature_of(*model)->curvature({2, s}, foot.parameters);
+    const bool flat = std::abs(std::abs(model->normal(s, foot.parameters).z()) - 1) < 1e-9;
+    EXPECT_EQ(curvature_of(*model)->bends({2, s}).empty(), flat);
+    if (flat)
+      EXPECT_EQ(bend, 0);
+    else
+      EXPECT_NEAR(bend, 1, 0.1);
+    n_round += !flat;
+  }
+  EXPECT_GE(n_round, 1);
+  for (int c = 1; c <= model->count(1); ++c) EXPECT_NEAR(curvature_of(*model)->curvature({1, c}, {0.1, 0}), 1, 1e-6);
+  // What is cornered is no bend.
+  const auto box = test::facet_model_of(test::grid(3, 3, 3)).model;
+  for (int dim = 0; dim <= 3; ++dim)
+    for (int id = 1; id <= box->count(dim); ++id) {
+      EXPECT_TRUE(curvature_of(*box)->bends({dim, id}).empty());
+      EXPECT_EQ(curvature_of(*box)->curvature({dim, id}, {0.5, 0.5}), 0);
+    }
 }
 
 TEST(curvature, of_a_spline_surface_is_how_fast_its_normal_turns_at_most) {

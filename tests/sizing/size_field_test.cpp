@@ -12,7 +12,9 @@
 #include "hextwist/geom/facet_model.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/sizing/gradation.h"
+#include "hextwist/sizing/targets.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
@@ -198,11 +200,74 @@ TEST(size_field, curvature_gives_so_many_elements_per_radian) {
             "none of these curves and surfaces is curved");
   EXPECT_EQ(refusal([&] { curvature_size(cylinder, all, 0, 1.5); }), "elements per radian must be a positive number");
   EXPECT_EQ(refusal([&] { curvature_size(cylinder, all, 3, 0.5); }), "growth must be a number of at least 1");
-  const Mesh grid = test::grid(2, 2, 2);
   EXPECT_EQ(refusal([&] {
-              curvature_size(associate_with_own_skin(grid).model, std::array{Owner{2, 1}}, 4, 1.5);
+              curvature_size(associate_with_own_skin(test::grid(2, 2, 2)).model, std::array{Owner{2, 1}}, 4, 1.5);
             }),
-            "the skin of a mesh has no curvature: import the CAD that the mesh lies on");
+            "none of these curves and surfaces is curved");
+}
+
+/// A shipped model twice: the mesh on its CAD, and on the model of its own skin.
+struct WithAndWithoutCad {
+  MeshedModel cad, skin;
+  explicit WithAndWithoutCad(const std::string& name) : cad(test::shipped(name)) {
+    FacetResult own = associate_with_own_skin(cad.mesh);
+    skin = {cad.mesh, own.model, own.association};
+  }
+  static SizeFieldPtr bend(const MeshedModel& on, double per_radian, double growth) {
+    std::vector<Owner> entities;
+    for (int dim = 1; dim <= 2; ++dim)
+      for (int id = 1; id <= on.model->count(dim); ++id) entities.push_back({dim, id});
+    return curvature_size(on.model, entities, per_radian, growth);
+  }
+};
+
+TEST(size_field, curvature_without_cad_is_that_of_the_cad_within_a_few_percent) {
+  struct Row {
+    const char* model;
+    double within;  // of the wish, at every hex
+  };
+  // On faces that bend unevenly the CAD is asked at the nearest place only, so that the skin knows more than it.
+  for (const auto& [name, within] : {Row{"cylinder", 0.01},
+                                     {"plate_hole", 0.01},
+                                     {"bent_bar", 0.01},
+                                     {"bracket_fillet", 0.01},
+                                     {"sphere", 0.1},
+                                     {"pipe_tee", 0.1},
+                                     {"ring_twist", 0.15}}) {
+    const WithAndWithoutCad both(name);
+    const auto at_cad = both.bend(both.cad, 4, 1.2), at_skin = both.bend(both.skin, 4, 1.2);
+    for (const Vec3& p : centroids(both.cad.mesh)) {
+      const double wish = at_cad->at(p);
+      ASSERT_NEAR(at_skin->at(p), wish, within * wish) << name;
+    }
+  }
+}
+
+TEST(size_field, curvature_without_cad_refines_as_the_cad_does) {
+  for (const auto& [name, per_radian] : {std::pair{"cylinder", 12.0}, {"sphere", 16.0}, {"bracket_fillet", 16.0}}) {
+    const WithAndWithoutCad both(name);
+    std::array<RefineResult, 2> results;
+    for (int i = 0; i < 2; ++i) {
+      const MeshedModel& on = i == 0 ? both.cad : both.skin;
+      Request request;
+      request.kind = TargetKind::volume;
+      request.targets = {1};
+      request.size_field = both.bend(on, per_radian, 1.5);
+      results[i] = refine(on, request);
+      test::expect_sound(results[i]);
+    }
+    const auto n = [&](int i) { return static_cast<double>(results[i].refined.mesh.n_hexes()); };
+    EXPECT_GT(n(0), 1.2 * static_cast<double>(both.cad.mesh.n_hexes())) << "nothing to compare";
+    EXPECT_NEAR(n(1) / n(0), 1, 0.2) << name << ": a layer of a regular mesh is cut as a whole or not at all";
+  }
+}
+
+TEST(size_field, curvature_of_a_skin_without_growth_is_the_least_size_everywhere) {
+  const WithAndWithoutCad both("cylinder");
+  const auto field = both.bend(both.skin, 4, 1);
+  const double least = field->least();
+  EXPECT_GT(least, 0);
+  for (const Vec3& p : centroids(both.skin.mesh)) EXPECT_EQ(field->at(p), least);
 }
 
 TEST(size_field, intervals_divide_the_length_of_a_curve) {
