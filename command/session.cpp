@@ -101,25 +101,6 @@ int Session::playback(const std::filesystem::path& file) {
                                         core_->records.end(), [](const CommandRecord& record) { return !record.ok; }));
 }
 
-void Session::take(Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
-  const SessionState before = core_->state;
-  const Command command = made_command("import", "mesh", "");
-  CommandRecord record;
-  Execution run(*core_, command, record);
-  try {
-    forget_members(core_->state, true);
-    core_->state.has_cad = model != nullptr;
-    core_->state.cad_file.clear();
-    core_->state.meshed = std::make_shared<MeshedModel>(MeshedModel{{}, std::move(model), {}});
-    load_mesh(run, std::move(mesh), tags, "mesh");
-    core_->state.tags = tags ? std::make_shared<const Association>(*tags) : nullptr;
-    remember(*core_, "taking a mesh", before);
-  } catch (...) {
-    core_->state = before;
-    throw;
-  }
-}
-
 Selector Session::Core::selector() {
   if (topology_of != state.meshed) {
     topology_of = state.meshed;

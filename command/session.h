@@ -16,12 +16,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hextwist/command/command_error.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/adapt.h"
 
 namespace hextwist {
 
@@ -76,6 +77,12 @@ struct CommandRecord {
   std::size_t peak_memory_bytes = 0;  ///< of the process so far
 };
 
+/// What Session::adapt() did.
+struct AdaptOutcome {
+  std::vector<Index> origin;  ///< per hex of the new mesh: the hex of the old one that it lies in
+  Report report;
+};
+
 struct SessionCallbacks {
   /// Lines of text that a command prints, without their line end.
   std::function<void(const std::string&)> output;
@@ -113,12 +120,27 @@ class Session {
   /// Takes a mesh as it is: repaired, checked and associated (with a model of its own skin if model is null; starting
   /// from tags if not null) as by import. Throws Error.
   void take(Mesh mesh, std::shared_ptr<const Model> model, const Association* tags = nullptr);
+  /// The same on the CAD that the session has (glued if need be), or the mesh's own skin where it has none.
+  void take_mesh(Mesh mesh, const Association* tags = nullptr);
+
+  /// adapt() on the mesh of the session, which becomes the result, as by a command: it can be undone, and a failure
+  /// leaves the session as it was. flags, sizes: one per hex. Throws CommandError.
+  AdaptOutcome adapt(std::span<const std::uint8_t> flags, const AdaptOptions& options = {});
+  AdaptOutcome adapt(std::span<const double> sizes, const AdaptOptions& options = {});
+
+  /// Ids of the entities of a kind ("hex", "curve", ... as in commands) that a range means: ids("node", "in curve 3").
+  /// Ascending. Throws CommandError for a kind or range that is wrong or names what does not exist.
+  std::vector<std::int64_t> ids(std::string_view kind, std::string_view range = "all") const;
 
   /// Words and names that could stand at the end of this beginning of a command and start like its last word (all of
   /// them after a blank). Sorted; names with blanks in quotes.
   std::vector<std::string> completions(std::string_view line) const;
 
   const MeshedModel& meshed() const;
+  /// The same, to keep: it stays as it is whatever the session does afterwards.
+  std::shared_ptr<const MeshedModel> share() const;
+  /// Did the model come from CAD? False: there is none, or it is the skin of the mesh.
+  bool has_cad() const;
   /// One per command run so far.
   const std::vector<CommandRecord>& records() const;
   /// Was `quit` run?

@@ -34,8 +34,11 @@ struct Session::Core {
   std::shared_ptr<DerivedTopology> topology;
   std::shared_ptr<void> thread_limit;
   History history;
-  std::shared_ptr<Recording> recording;  ///< null: none
+  std::shared_ptr<Recording> recording;                ///< null: none
+  std::vector<std::weak_ptr<const MeshedModel>> lent;  ///< what share() gave away; each has a count of its own
 
+  /// The same mesh as the session's, where somebody outside holds it; else null.
+  std::shared_ptr<const MeshedModel> lent_mesh() const;
   /// Ranges are evaluated against this; the topology is kept while the mesh stays the same.
   Selector selector();
   void say(const std::string& line) const;
@@ -74,6 +77,8 @@ struct Execution {
 
 /// The mesh and model of a state changed: checks nothing, measures everything that the records want.
 void take_meshed(SessionState& state, MeshedModel meshed);
+/// The result of a refinement becomes the mesh of the session, unless it is no good: then throws Error.
+void accept_refined(Execution& run, MeshedModel refined, const Report& report);
 /// Repairs, checks and associates a mesh with the CAD of the state or its own skin.
 void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::string& what);
 /// The inverted hexes of these violations if untangling them could make the mesh right; else nothing.

@@ -184,6 +184,28 @@ std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
 
 }  // namespace
 
+void accept_refined(Execution& run, MeshedModel refined, const Report& report) {
+  SessionState& state = run.state;
+  const Mesh& mesh = refined.mesh;
+  const std::string wrong = record_violations(run.record, mesh, report.violations);
+  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
+  if (!report.off_nodes.empty()) {
+    const auto worst = std::ranges::max_element(report.off_nodes, {}, &Disappointment::distance);
+    run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +
+             " could not be put where they belong; the worst is node " + std::to_string(node_id(mesh, worst->node)) +
+             ", " + short_number(worst->distance) + " from " + to_string(worst->owner));
+  }
+  // The engine measured the result already.
+  state.mesh_state.hexes = mesh.n_hexes();
+  state.mesh_state.nodes = mesh.n_nodes();
+  state.mesh_state.shape = quality_row(mesh, report.shape_after);
+  state.mesh_state.scaled_jacobian = quality_row(mesh, report.scaled_jacobian_after);
+  state.mesh_state.volume = report.volume_after;
+  state.off_cad = report.off_cad;
+  state.tags = nullptr;
+  state.meshed = std::make_shared<MeshedModel>(std::move(refined));
+}
+
 void do_refine(Execution& run) {
   SessionState& state = run.state;
   if (state.meshed->mesh.n_hexes() == 0)
@@ -206,24 +228,7 @@ void do_refine(Execution& run) {
     return run.say(line);
   }
 
-  const Mesh& mesh = result.refined.mesh;
-  const std::string wrong = record_violations(run.record, mesh, report.violations);
-  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
-  if (!report.off_nodes.empty()) {
-    const auto worst = std::ranges::max_element(report.off_nodes, {}, &Disappointment::distance);
-    run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +
-             " could not be put where they belong; the worst is node " + std::to_string(node_id(mesh, worst->node)) +
-             ", " + short_number(worst->distance) + " from " + to_string(worst->owner));
-  }
-  // The engine measured the result already.
-  state.mesh_state.hexes = mesh.n_hexes();
-  state.mesh_state.nodes = mesh.n_nodes();
-  state.mesh_state.shape = quality_row(mesh, report.shape_after);
-  state.mesh_state.scaled_jacobian = quality_row(mesh, report.scaled_jacobian_after);
-  state.mesh_state.volume = report.volume_after;
-  state.off_cad = report.off_cad;
-  state.tags = nullptr;
-  state.meshed = std::make_shared<MeshedModel>(std::move(result.refined));
+  accept_refined(run, std::move(result.refined), report);
   run.say(line);
   if (!report.sizes) return;
   run.record.sizes = sizes_row(state.meshed->mesh, *report.sizes);

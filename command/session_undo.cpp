@@ -89,7 +89,9 @@ void remember(Session::Core& core, const std::string& command, const ModelState&
 }
 
 void Execution::change_sets(Mesh lists) {
-  // Built as const by nobody: see take_meshed() and do_refine().
+  // Somebody outside may look at the mesh: then a copy changes.
+  if (core.lent_mesh()) state.meshed = std::make_shared<MeshedModel>(*state.meshed);
+  // Built as const by nobody: see take_meshed() and accept_refined().
   Mesh& mesh = const_cast<Mesh&>(state.meshed->mesh);
   step.emplace(text_of(command.statement), state, sets_delta(lists, mesh));
   mesh.blocks.swap(lists.blocks);

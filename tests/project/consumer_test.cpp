@@ -51,6 +51,32 @@ TEST_F(SlowConsumer, builds_the_example_through_find_package) {
   expect_refines(folder / "minimal");
 }
 
+TEST_F(SlowConsumer, builds_the_C_example_through_find_package) {
+  const auto folder = output_folder() / "build";
+  const Outcome built = run(
+      "cmake -S " + quoted(source_folder() / "examples/c") + " -B " + quoted(folder) +
+      " -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER=" HEXTWIST_CXX_COMPILER " -DCMAKE_CXX_FLAGS=" +
+      quoted(HEXTWIST_CXX_FLAGS) + " -DCMAKE_PREFIX_PATH=" + quoted(prefix) + " && cmake --build " + quoted(folder));
+  ASSERT_EQ(built.status, 0) << built.output;
+  const auto out = folder / "adapted.msh";
+  const Outcome adapted = run(quoted(folder / "adapt") + " " + quoted(models / "bracket.brep") + " " +
+                              quoted(models / "bracket.msh") + " " + quoted(out));
+  ASSERT_EQ(adapted.status, 0) << adapted.output;
+  EXPECT_TRUE(conformal(read_mesh(out).mesh));
+}
+
+TEST_F(SlowConsumer, imports_the_installed_Python_package) {
+  const Outcome found = run("cd " + quoted(prefix) + " && find \"$PWD\" -path '*/hextwist/__init__.py'");
+  if (found.output.empty()) GTEST_SKIP() << "the Python module is not built";
+  const auto package = std::filesystem::path(found.output.substr(0, found.output.find('\n'))).parent_path();
+  const Outcome ran = run("PYTHONPATH=" + quoted(package.parent_path()) + " " HEXTWIST_PYTHON " -c " +
+                          quoted("import hextwist; s = hextwist.Session(); "
+                                 "s.cmd('create brick x 1 y 1 z 1 interval 2 2 2; refine hex 1'); "
+                                 "print(hextwist.__file__, s.mesh.n_hexes)"));
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_NE(ran.output.find(package.string()), std::string::npos) << ran.output;
+}
+
 TEST_F(SlowConsumer, builds_the_example_through_pkg_config) {
   const Outcome found = run("cd " + quoted(prefix) + " && dirname \"$(find \"$PWD\" -name hextwist.pc)\"");
   const std::string folder = found.output.substr(0, found.output.find('\n'));

@@ -52,6 +52,19 @@ TEST(Readme, shell_commands_work_in_the_order_shown) {
   EXPECT_GE(n_run, 3) << "the README shows no commands";
 }
 
+TEST(Readme, python_works) {
+  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/python/hextwist"))
+    GTEST_SKIP() << "the Python module is not built";
+  const auto folder = output_folder();
+  std::filesystem::create_directory_symlink(source_folder() / "models", folder / "models");
+  ASSERT_FALSE(blocks("python").empty());
+  for (const std::string& block : blocks("python")) {
+    const Outcome outcome = run("cd " + quoted(folder) + "; PYTHONPATH=" + quoted(HEXTWIST_BINARY_DIR "/python") +
+                                " " HEXTWIST_PYTHON " -c " + quoted(block));
+    EXPECT_EQ(outcome.status, 0) << block << outcome.output;
+  }
+}
+
 TEST(Readme, embedding_example_is_part_of_the_one_that_is_compiled) {
   const std::string example = content(source_folder() / "examples/minimal/main.cpp");
   const auto shown = blocks("cpp");
@@ -98,7 +111,8 @@ TEST(Readme, table_of_files_says_what_is_read_and_written) {
 }
 
 TEST(Readme, links_lead_to_files_that_exist) {
-  for (const std::string document : {"README.md", "CONTRIBUTING.md", "docs/design.md", "CHANGELOG.md"}) {
+  for (const std::string document :
+       {"README.md", "CONTRIBUTING.md", "docs/design.md", "docs/embedding.md", "CHANGELOG.md"}) {
     const auto file = source_folder() / document;
     const std::string text = content(file);
     for (std::size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {

@@ -1,0 +1,386 @@
+// The Python module. One source, since what is expensive to compile is pybind11 itself.
+#include <pybind11/stl/filesystem.h>
+
+#include "hextwist/embed/python/mesh_internal.h"
+#include "hextwist/embed/python/records_internal.h"
+#include "hextwist/embed/python/session_internal.h"
+#include "hextwist/mesh/quality.h"
+
+namespace hextwist::python {
+namespace {
+
+using namespace py::literals;
+using View = std::shared_ptr<MeshView>;
+
+/// self as what it is in Python, to be kept by arrays.
+const MeshView& of(const py::object& self) {
+  return *self.cast<View>();
+}
+
+template <class Groups, class F>
+py::dict groups(const Groups& list, F members) {
+  py::dict result;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    result[py::int_(list[i].id)] = PyGroup{list[i].id, text(list[i].name), members(i)};
+  return result;
+}
+
+py::dict fields(const py::object& self, Field::On on) {
+  py::dict result;
+  for (const Field& field : of(self).mesh().fields) {
+    if (field.on != on) continue;
+    const auto width = static_cast<std::size_t>(field.components);
+    result[text(field.name)] =
+        view(field.values.data(), field.values.size() / width, field.components == 1 ? 0 : width, self);
+  }
+  return result;
+}
+
+py::dict entity(const MeshView& mesh, const std::string& kind, int id) {
+  const Owner owner = entity_of(mesh, kind, id);
+  const Model& model = model_of(mesh);
+  const Box box = model.box(owner);
+  py::dict result("kind"_a = kind, "id"_a = id, "name"_a = text(model.name(owner)), "type"_a = model.type(owner),
+                  "measure"_a = model.measure(owner));
+  result["box"] = py::make_tuple(py::make_tuple(box.min.x(), box.min.y(), box.min.z()),
+                                 py::make_tuple(box.max.x(), box.max.y(), box.max.z()));
+  py::dict adjacent;
+  for (int dim = 0; dim < 4; ++dim)
+    if (dim != owner.dim) adjacent[dimension_name(dim)] = model.adjacent(owner, dim);
+  result["adjacent"] = adjacent;
+  return result;
+}
+
+py::tuple closest(const MeshView& mesh, const std::string& kind, int id, const py::object& given) {
+  const Owner owner = entity_of(mesh, kind, id);
+  if (owner.dim == 3) throw py::value_error("closest points are those of vertices, curves and surfaces");
+  const std::vector<double> flat = doubles(given, "points", 3);
+  std::vector<Vec3> points(flat.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = Vec3(flat.data() + 3 * i);
+  std::vector<Projection> found(points.size());
+  {
+    const py::gil_scoped_release release;
+    model_of(mesh).project(owner, points, {}, found);
+  }
+  const auto n = static_cast<py::ssize_t>(points.size());
+  py::array_t<double> at({n, py::ssize_t{3}}), parameters({n, py::ssize_t{2}}), distances(n);
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const Projection& one = found[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 3; ++k) at.mutable_at(i, k) = one.point[k];
+    parameters.mutable_at(i, 0) = one.parameters.u;
+    parameters.mutable_at(i, 1) = one.parameters.v;
+    distances.mutable_at(i) = one.distance;
+  }
+  return py::make_tuple(at, parameters, distances);
+}
+
+void bind_mesh(py::module_& m) {
+  py::class_<PyGroup>(m, "Group", "A block, node set or side set.")
+      .def_readonly("id", &PyGroup::id)
+      .def_readonly("name", &PyGroup::name)
+      .def_readonly("members", &PyGroup::members,
+                    "Positions from 0: hexes of a block, (n,); nodes of a node set, (n,); nodes of the sides of a "
+                    "side set, (n, 4), counter-clockwise seen from outside.")
+      .def("__repr__", [](const PyGroup& group) {
+        return "<hextwist.Group " + std::to_string(group.id) + ", " + std::to_string(py::len(group.members)) +
+               " members>";
+      });
+
+  py::class_<MeshView, View> mesh(m, "Mesh",
+                                  "The mesh of a session at one moment, as read-only numpy arrays. It stays as it is "
+                                  "whatever the session does; arrays keep it alive.");
+  const auto array = [&](const char* name, auto get, const char* doc) {
+    mesh.def_property_readonly(
+        name, [get](const py::object& self) { return get(of(self), self); }, doc);
+  };
+  array(
+      "points", [](const MeshView& v, const py::object& self) { return rows<double>(v.mesh().points, self); },
+      "(n_nodes, 3) float64, model units.");
+  array(
+      "hexes", [](const MeshView& v, const py::object& self) { return rows<Index>(v.file_hexes(), self); },
+      "(n_hexes, 8) int32: nodes, in the order of VTK, Exodus, Abaqus and Gmsh. Made when first asked for.");
+  array(
+      "bit_hexes", [](const MeshView& v, const py::object& self) { return rows<Index>(v.mesh().hexes, self); },
+      "(n_hexes, 8) int32: the same, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube.");
+  array(
+      "node_ids", [](const MeshView& v, const py::object& self) { return rows<std::int64_t>(v.node_ids(), self); },
+      "(n_nodes,) int64: ids as commands know them, ascending.");
+  array(
+      "hex_ids", [](const MeshView& v, const py::object& self) { return rows<std::int64_t>(v.hex_ids(), self); },
+      "(n_hexes,) int64: ids as commands know them, ascending.");
+  array(
+      "node_owners",
+      [](const MeshView& v, const py::object& self) {
+        return rows<std::int32_t>(v.meshed().association.node_owner, self);
+      },
+      "(n_nodes, 2) int32: dimension (0 vertex .. 3 volume, -1 nobody) and id of the CAD entity of each node.");
+  array(
+      "node_parameters",
+      [](const MeshView& v, const py::object& self) {
+        return rows<double>(v.meshed().association.node_parameters, self);
+      },
+      "(n_nodes, 2) float64: (u, v) on a surface, (t, nan) on a curve, else nan.");
+  array(
+      "hex_volumes",
+      [](const MeshView& v, const py::object& self) {
+        return rows<std::int32_t>(v.meshed().association.hex_volume, self);
+      },
+      "(n_hexes,) int32: id of the volume of each hex.");
+  array(
+      "curve_edges",
+      [](const MeshView& v, const py::object& self) { return rows<Index>(v.meshed().association.curve_edges, self); },
+      "(n, 2) int32: nodes of the mesh edges that lie on curves.");
+  array(
+      "edge_curves",
+      [](const MeshView& v, const py::object& self) {
+        return rows<std::int32_t>(v.meshed().association.edge_curve, self);
+      },
+      "(n,) int32: curve of each row of curve_edges.");
+  array(
+      "surface_quads", [](const MeshView& v, const py::object& self) { return rows<Index>(v.surface_quads(), self); },
+      "(n, 4) int32: nodes of the sides that lie on surfaces, counter-clockwise seen from outside of their hex; a "
+      "side between two volumes once. Made when first asked for.");
+  array(
+      "surface_sides",
+      [](const MeshView& v, const py::object& self) {
+        return rows<std::int32_t>(v.meshed().association.surface_faces, self);
+      },
+      "(n, 2) int32: the hex of each row of surface_quads, and which face of it (2 * axis + side, in bit_hexes).");
+  array(
+      "quad_surfaces",
+      [](const MeshView& v, const py::object& self) {
+        return rows<std::int32_t>(v.meshed().association.face_surface, self);
+      },
+      "(n,) int32: surface of each row of surface_quads.");
+
+  mesh.def_property_readonly("n_nodes", [](const MeshView& v) { return v.mesh().n_nodes(); })
+      .def_property_readonly("n_hexes", [](const MeshView& v) { return v.mesh().n_hexes(); })
+      .def_property_readonly(
+          "blocks",
+          [](const py::object& self) {
+            const auto& list = of(self).mesh().blocks;
+            return groups(list, [&](std::size_t i) { return rows<Index>(list[i].hexes, self); });
+          },
+          "{id: Group} of hexes.")
+      .def_property_readonly(
+          "node_sets",
+          [](const py::object& self) {
+            const auto& list = of(self).mesh().node_sets;
+            return groups(list, [&](std::size_t i) { return rows<Index>(list[i].nodes, self); });
+          },
+          "{id: Group} of nodes.")
+      .def_property_readonly(
+          "side_sets",
+          [](const py::object& self) {
+            const auto& list = of(self).mesh().side_sets;
+            return groups(list, [&](std::size_t i) { return rows<Index>(of(self).set_quads(i), self); });
+          },
+          "{id: Group} of sides, as quads.")
+      .def_property_readonly(
+          "node_fields", [](const py::object& self) { return fields(self, Field::On::node); },
+          "{name: (n_nodes,) or (n_nodes, components) float64}.")
+      .def_property_readonly(
+          "hex_fields", [](const py::object& self) { return fields(self, Field::On::hex); },
+          "{name: (n_hexes,) or (n_hexes, components) float64}.")
+      .def(
+          "quality",
+          [](const MeshView& v, const std::string& name) {
+            const Metric which = metric(name);
+            std::vector<double> values;
+            {
+              const py::gil_scoped_release release;
+              values = quality(which, v.mesh());
+            }
+            return array_of(std::move(values));
+          },
+          "metric"_a = "shape", "(n_hexes,) float64: a quality metric by its usual name.")
+      .def(
+          "n_entities",
+          [](const MeshView& v, const std::string& kind) {
+            const int dim = dimension_of(kind);
+            return v.meshed().model ? v.meshed().model->count(dim) : 0;
+          },
+          "kind"_a, "How many vertices, curves, surfaces or volumes the CAD (or the skin of the mesh) has.")
+      .def("entity", &entity, "kind"_a, "id"_a,
+           "A CAD entity: kind, id, name, type, measure (length, area, volume), box, adjacent ({kind: ids}).")
+      .def("closest", &closest, "kind"_a, "id"_a, "points"_a,
+           "Closest points on a vertex, curve or surface to (n, 3) points: (n, 3) points, (n, 2) parameters, (n,) "
+           "distances.")
+      .def("__repr__",
+           [](const MeshView& v) { return "<hextwist.Mesh of " + std::to_string(v.mesh().n_hexes()) + " hexes>"; });
+}
+
+py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::object& sizes, bool gradation,
+                         double bias, const std::string& concave, bool smooth) {
+  if (flags.is_none() == sizes.is_none()) throw py::value_error("give flags or sizes");
+  if (concave != "template" && concave != "fill") throw py::value_error("concave is 'template' or 'fill'");
+  const AdaptOptions options{.keep_gradation = gradation,
+                             .bias = bias,
+                             .concave = concave == "fill" ? Concave::fill : Concave::templates,
+                             .smooth = smooth};
+  if (flags.is_none()) {
+    const std::vector<double> values = doubles(sizes, "sizes", 0);
+    return array_of(session.run([&](Session& s) { return s.adapt(values, options).origin; }));
+  }
+  const std::vector<std::int64_t> given = integers<std::int64_t>(flags, "flags", 0);
+  std::vector<std::uint8_t> values;
+  for (const std::int64_t flag : given) values.push_back(flag != 0);
+  return array_of(session.run([&](Session& s) { return s.adapt(values, options).origin; }));
+}
+
+void take(PySession& session, const py::object& points, const py::object& hexes, const py::object& node_ids,
+          const py::object& hex_ids, const py::dict& blocks, const py::dict& node_sets, const py::dict& side_sets,
+          const py::dict& node_fields, const py::dict& hex_fields, const py::object& node_owners,
+          const py::object& hex_volumes, const py::object& curve_edges, const py::object& edge_curves,
+          const py::object& surface_quads, const py::object& quad_surfaces) {
+  PyArrays in;
+  in.mesh(points, hexes);
+  in.ids(node_ids, hex_ids);
+  in.groups(blocks, node_sets, side_sets);
+  in.fields(node_fields, hex_fields);
+  in.owners(node_owners, hex_volumes, curve_edges, edge_curves, surface_quads, quad_surfaces);
+  session.run([&](Session& s) {
+    MeshFile file = mesh_from_arrays(in.arrays);
+    s.take_mesh(std::move(file.mesh), file.tags.empty() ? nullptr : &file.tags);
+    return true;
+  });
+}
+
+py::array_t<std::int64_t> ids(PySession& session, const std::string& kind, const std::string& range) {
+  return array_of(session.run([&](Session& s) { return s.ids(kind, range); }));
+}
+
+void bind_session(py::module_& m) {
+  py::class_<PySession>(m, "Session",
+                        "A mesh on its model, changed by commands. Callbacks (any may be None): output(line) what "
+                        "commands print, notice(line) remarks, progress(stage, fraction) now and then; returning "
+                        "False cancels. Ctrl-C cancels too. One call at a time; other Python threads run meanwhile.")
+      .def(py::init<py::object, py::object, py::object>(), "output"_a = py::none(), "notice"_a = py::none(),
+           "progress"_a = py::none())
+      .def(
+          "cmd",
+          [](PySession& session, const std::string& commands) {
+            return session.run([&](Session& s) { return s.run(commands) == 0; });
+          },
+          "commands"_a,
+          "Runs commands (docs/commands.md), one per line or separated by ';', up to the first that fails. True, or "
+          "raises Error; a command that fails leaves the session as it was.")
+      .def(
+          "import_cad",
+          [](PySession& session, const std::filesystem::path& file) {
+            return session.run([&](Session& s) { return s.import_cad(file), true; });
+          },
+          "file"_a)
+      .def(
+          "import_mesh",
+          [](PySession& session, const std::filesystem::path& file) {
+            return session.run([&](Session& s) { return s.import_mesh(file), true; });
+          },
+          "file"_a)
+      .def(
+          "export_mesh",
+          [](PySession& session, const std::filesystem::path& file) {
+            return session.run([&](Session& s) { return s.export_mesh(file), true; });
+          },
+          "file"_a, "Overwrites.")
+      .def(
+          "playback",
+          [](PySession& session, const std::filesystem::path& file) {
+            return session.run([&](Session& s) { return s.playback(file) == 0; });
+          },
+          "file"_a, "Runs the commands of a journal.")
+      .def("take", &take, "points"_a, "hexes"_a, py::kw_only(), "node_ids"_a = py::none(), "hex_ids"_a = py::none(),
+           "blocks"_a = py::dict(), "node_sets"_a = py::dict(), "side_sets"_a = py::dict(),
+           "node_fields"_a = py::dict(), "hex_fields"_a = py::dict(), "node_owners"_a = py::none(),
+           "hex_volumes"_a = py::none(), "curve_edges"_a = py::none(), "edge_curves"_a = py::none(),
+           "surface_quads"_a = py::none(), "quad_surfaces"_a = py::none(),
+           "Makes copies of these arrays (shapes as in Mesh) the mesh of the session, on its CAD if it has some. "
+           "Groups: {id: members}, {id: (name, members)} or {id: Group}. What the arrays say of owners is checked "
+           "against the CAD.")
+      .def("adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
+           "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
+           "Cuts the hexes with a flag, (n_hexes,), into 27 each, or all until they have their sizes, (n_hexes,) in "
+           "model units, inf: no wish. gradation: cuts more, so that neighbours stay within one level. Returns per "
+           "new hex the old one that it lies in.")
+      .def("ids", &ids, "kind"_a, "range"_a = "all",
+           "(n,) int64: ids of the entities that a range means: ids('hex', 'in volume 2').")
+      .def(
+          "nodes_of",
+          [](PySession& session, const std::string& kind, std::int64_t id) {
+            return ids(session, "node", "in " + kind + " " + std::to_string(id));
+          },
+          "kind"_a, "id"_a, "(n,) int64: ids of the nodes of an entity, those on its rim too.")
+      .def_property_readonly(
+          "mesh",
+          [](PySession& session) {
+            return session.look([](Session& s) { return std::make_shared<MeshView>(s.share()); });
+          },
+          "The mesh as it is now. Costs nothing; it stays as it is whatever the session does.")
+      .def_property_readonly(
+          "has_cad", [](PySession& session) { return session.look([](Session& s) { return s.has_cad(); }); },
+          "False: the model is the skin of the mesh, or there is none.")
+      .def_property_readonly(
+          "finished", [](PySession& session) { return session.look([](Session& s) { return s.finished(); }); },
+          "Was 'quit' run?")
+      .def_property_readonly(
+          "records",
+          [](PySession& session) {
+            return session.look([](Session& s) {
+              py::list result;
+              for (const CommandRecord& record : s.records()) result.append(record_dict(record));
+              return result;
+            });
+          },
+          "What each command did, as dictionaries by the names of the program's JSON report.")
+      .def_property_readonly(
+          "record",
+          [](PySession& session) {
+            return session.look([](Session& s) {
+              return s.records().empty() ? py::object(py::none()) : py::object(record_dict(s.records().back()));
+            });
+          },
+          "What the last command did; None before the first.");
+}
+
+/// hextwist.Error, and hextwist.Cancelled of it.
+void bind_errors(py::module_& m) {
+  static py::handle error, cancelled;
+  const auto made = [&](const char* name, const py::handle& base, const char* doc) {
+    const std::string whole = std::string("hextwist.") + name;
+    PyObject* type = PyErr_NewExceptionWithDoc(whole.c_str(), doc, base.ptr(), nullptr);
+    if (!type) throw py::error_already_set();
+    m.add_object(name, type);
+    return py::handle(type);
+  };
+  error = made("Error", PyExc_Exception,
+               "What is wrong, as the program prints it. message: one line, without the place; line, column: of the "
+               "wrong word in the commands, from 1, 0: none.");
+  cancelled = made("Cancelled", error, "The progress callback returned False.");
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    const auto raise = [](py::handle type, const std::string& whole, const std::string& message, int line, int column) {
+      const py::object value = type(text(whole));
+      value.attr("message") = text(message);
+      value.attr("line") = line;
+      value.attr("column") = column;
+      PyErr_SetObject(type.ptr(), value.ptr());
+    };
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const CommandError& e) {
+      const bool stopped = e.message() == Cancelled().what();
+      raise(stopped ? cancelled : error, e.what(), e.message(), e.line(), e.column());
+    } catch (const Error& e) {
+      raise(error, e.what(), e.what(), 0, 0);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace hextwist::python
+
+PYBIND11_MODULE(_core, m) {
+  m.attr("__version__") = HEXTWIST_VERSION;
+  hextwist::python::bind_errors(m);
+  hextwist::python::bind_mesh(m);
+  hextwist::python::bind_session(m);
+}
