@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <ranges>
+#include <utility>
 
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/quality.h"
@@ -46,7 +48,8 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
   std::vector<Index> origin(parent.size());
   parallel_each(parent.size(),
                 [&](std::size_t h) { origin[h] = result_.origin.empty() ? parent[h] : result_.origin[parent[h]]; });
-  result_.origin = std::move(origin);
+  origin_before_ = std::exchange(result_.origin, std::move(origin));
+  n_kept_before_ = n_kept(from.mesh);
   result_.lineage = std::move(parts.lineage);
   result_.refined = std::move(next);
   current_ = &result_.refined;
@@ -68,12 +71,17 @@ void Pipeline::adopt(RefineResult result) {
   current_ = &result_.refined;
 }
 
-std::vector<Index> Pipeline::new_hexes() const {
+Index Pipeline::n_kept(const Mesh& mesh) const {
   // Hexes that were there before have their old ids and come first.
-  const Mesh& mesh = current_->mesh;
   const std::int64_t last_old = hex_id(input_.mesh, input_.mesh.n_hexes() - 1);
+  const auto all = std::views::iota(Index{0}, mesh.n_hexes());
+  return static_cast<Index>(std::ranges::partition_point(all, [&](Index h) { return hex_id(mesh, h) <= last_old; }) -
+                            all.begin());
+}
+
+std::vector<Index> Pipeline::new_hexes() const {
   std::vector<Index> fresh;
-  for (Index h = mesh.n_hexes() - 1; h >= 0 && hex_id(mesh, h) > last_old; --h) fresh.push_back(h);
+  for (Index h = current_->mesh.n_hexes() - 1, first = n_kept(current_->mesh); h >= first; --h) fresh.push_back(h);
   return fresh;
 }
 

@@ -46,11 +46,18 @@ class Pipeline {
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();
+  /// Before the last pass: per hex the hex of the input that it lay in (empty: itself); the first so many were those of
+  /// the input that had not been cut.
+  const std::vector<Index>& origin_before() const { return origin_before_; }
+  Index n_kept_before() const { return n_kept_before_; }
   /// Goes on with a result of the same request that was made apart.
   void adopt(RefineResult result);
   RefineResult take_result() { return std::move(result_); }
 
  private:
+  /// Hexes of the input that a mesh made of it still has.
+  Index n_kept(const Mesh& mesh) const;
+
   const MeshedModel& input_;
   const MeshedModel* current_;
   const Request& request_;
@@ -58,9 +65,16 @@ class Pipeline {
   const Progress& progress_;
   Stages stages_;
   RefineResult result_;
+  std::vector<Index> origin_before_;
+  Index n_kept_before_ = 0;
   int n_passes_ = 0;
   bool told_between_ = false;
 };
+
+/// The technique that the request asks for. Throws Error for one that does not fit the target.
+Method technique(const Request& request);
+/// Its passes, everything but the last check.
+RefineResult run_passes(Pipeline& run);
 
 /// Hexes and layers of hexes, every edge cut in three (section 4).
 void trisect_passes(Pipeline& run);

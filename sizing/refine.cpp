@@ -2,37 +2,15 @@
 #include <cmath>
 
 #include "hextwist/refine/uniform.h"
+#include "hextwist/sizing/patch_refine_internal.h"
 #include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/targets.h"
-#include "hextwist/sizing/verify.h"
+#include "hextwist/sizing/verify_internal.h"
 
 namespace hextwist {
 namespace {
 
 constexpr int max_numsplit = 8;
-
-/// The technique, with automatic decided. Throws Error for one that does not fit the target.
-Method technique(const Request& request) {
-  const bool solid = is_solid(request.kind);
-  const bool has_depth = request.radius || request.depth.value_or(0) > 0;
-  switch (request.method) {
-    case Method::single:
-      if (!solid && request.depth && !has_depth)
-        throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
-      return Method::single;
-    case Method::combination:
-      if (solid)
-        throw Error(std::string("the combination technique refines around nodes, edges and faces, not a ") +
-                    name(request.kind));
-      if (request.depth && has_depth) throw Error("the combination technique has depth 0");
-      return Method::combination;
-    case Method::parallel:
-      return Method::parallel;
-    case Method::automatic:
-      break;
-  }
-  return solid || has_depth ? Method::single : Method::combination;
-}
 
 bool is_directional(const Request& request) {
   return request.through_thickness || request.layers || request.sheets;
@@ -98,7 +76,82 @@ void check(const MeshedModel& input, const Request& request) {
   if (request.numsplit > limit) throw Error("numsplit must be at most " + std::to_string(limit) + " here");
 }
 
-/// Everything but the last check.
+/// The result of a patch put into a copy of the mesh.
+RefineResult whole_result(PatchResult made, const MeshedModel& input, const Measured& known, const Request& request) {
+  Report report = std::move(made.result.report);
+  RefineResult result;
+  if (!request.dry_run) {
+    const Progress none;
+    Stages stages(report, none);
+    stages.begin("splice", 0.9);
+    result.refined = spliced(input, *made.splice);
+    result.lineage = whole_lineage(made, input);
+    result.origin = whole_origin(made, input);
+    stages.begin("verify", 0.9);
+    if (!made.is_verified) verify_all(result.refined, known, report);
+  }
+  report.hexes_after = made.splice->n_hexes(true);
+  report.nodes_after = made.splice->n_nodes(true);
+  result.report = std::move(report);
+  return result;
+}
+
+/// The passes over the whole mesh.
+RefineResult refine_whole(const MeshedModel& input, const Measured* known, const Request& request,
+                          const Progress& progress) {
+  Report report;
+  RefineResult result;
+  {
+    Pipeline run(input, request, report, progress);
+    result = run_passes(run);
+    if (!request.dry_run) verify(input, known, result.refined, report);
+  }
+  report.hexes_after = result.refined.mesh.n_hexes();
+  report.nodes_after = result.refined.mesh.n_nodes();
+  if (request.dry_run) {
+    result = {};
+    report.sizes.reset();
+  }
+  result.report = std::move(report);
+  return result;
+}
+
+RefineResult run_request(const MeshedModel& input, const Measured* known, const Request& request,
+                         const Progress& progress) {
+  check(input, request);
+  std::optional<PatchResult> made = known ? refine_patch(input, *known, request, progress) : std::nullopt;
+  RefineResult result =
+      made ? whole_result(std::move(*made), input, *known, request) : refine_whole(input, known, request, progress);
+  result.report.hexes_before = input.mesh.n_hexes();
+  result.report.nodes_before = input.mesh.n_nodes();
+  result.report.peak_memory_bytes = peak_memory();
+  return result;
+}
+
+}  // namespace
+
+Method technique(const Request& request) {
+  const bool solid = is_solid(request.kind);
+  const bool has_depth = request.radius || request.depth.value_or(0) > 0;
+  switch (request.method) {
+    case Method::single:
+      if (!solid && request.depth && !has_depth)
+        throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
+      return Method::single;
+    case Method::combination:
+      if (solid)
+        throw Error(std::string("the combination technique refines around nodes, edges and faces, not a ") +
+                    name(request.kind));
+      if (request.depth && has_depth) throw Error("the combination technique has depth 0");
+      return Method::combination;
+    case Method::parallel:
+      return Method::parallel;
+    case Method::automatic:
+      break;
+  }
+  return solid || has_depth ? Method::single : Method::combination;
+}
+
 RefineResult run_passes(Pipeline& run) {
   run.stages().begin("targets", 0);
   const Request& request = run.request();
@@ -130,31 +183,6 @@ RefineResult run_passes(Pipeline& run) {
   run.stages().begin("verify", 0.9);
   return run.take_result();
 }
-
-RefineResult run_request(const MeshedModel& input, const Measured* known, const Request& request,
-                         const Progress& progress) {
-  check(input, request);
-  Report report;
-  report.hexes_before = input.mesh.n_hexes();
-  report.nodes_before = input.mesh.n_nodes();
-  RefineResult result;
-  {
-    Pipeline run(input, request, report, progress);
-    result = run_passes(run);
-    if (!request.dry_run) verify(input, known, result.refined, report);
-  }
-  report.hexes_after = result.refined.mesh.n_hexes();
-  report.nodes_after = result.refined.mesh.n_nodes();
-  report.peak_memory_bytes = peak_memory();
-  if (request.dry_run) {
-    result = {};
-    report.sizes.reset();
-  }
-  result.report = std::move(report);
-  return result;
-}
-
-}  // namespace
 
 const char* name(TargetKind kind) {
   constexpr const char* names[] = {"node", "edge", "face", "hex", "vertex", "curve", "surface", "volume"};

@@ -10,34 +10,31 @@
 #include "hextwist/mesh/off_model_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/topology.h"
+#include "hextwist/sizing/gaps_internal.h"
+#include "hextwist/sizing/verify_internal.h"
 
 namespace hextwist {
 namespace {
-
-/// How a refined mesh differs from its input, all lists ascending.
-struct Change {
-  Index n_kept = 0;            ///< refined hexes 0 .. n_kept - 1 are hexes of the input
-  std::vector<Index> gone;     ///< input hexes that were cut
-  std::vector<Index> moved;    ///< old nodes that lie elsewhere now
-  std::vector<Index> touched;  ///< kept hexes, in refined numbers, with a node that moved
-};
 
 /// Index in the input of a refined hex that was kept: ids tell.
 Index old_index(const Mesh& input, const Mesh& refined, Index kept) {
   return find_hex(input, hex_id(refined, kept));
 }
 
-/// Kept hexes follow each other as before with gaps where hexes are gone; each gap is found by bisection.
-void find_gone(const Mesh& input, const Mesh& refined, Change& change) {
-  for (Index i = 0, n_gone = 0; i < change.n_kept || n_gone < input.n_hexes() - change.n_kept;) {
-    const auto rest = std::views::iota(i, change.n_kept);
+/// Input hexes that were cut. Kept hexes follow each other as before with gaps where hexes are gone; each gap is found
+/// by bisection.
+std::vector<Index> find_gone(const Mesh& input, const Mesh& refined, Index n_kept) {
+  std::vector<Index> gone;
+  for (Index i = 0, n_gone = 0; i < n_kept || n_gone < input.n_hexes() - n_kept;) {
+    const auto rest = std::views::iota(i, n_kept);
     const auto next =
         std::ranges::partition_point(rest, [&](Index k) { return old_index(input, refined, k) - k == n_gone; });
     i += static_cast<Index>(next - rest.begin());
-    const Index gap_end = i < change.n_kept ? old_index(input, refined, i) : input.n_hexes();
-    for (Index h = i + n_gone; h < gap_end; ++h) change.gone.push_back(h);
+    const Index gap_end = i < n_kept ? old_index(input, refined, i) : input.n_hexes();
+    for (Index h = i + n_gone; h < gap_end; ++h) gone.push_back(h);
     n_gone = gap_end - i;
   }
+  return gone;
 }
 
 std::vector<Index> moved_nodes(const Mesh& input, const Mesh& refined) {
@@ -54,29 +51,40 @@ std::vector<Index> moved_nodes(const Mesh& input, const Mesh& refined) {
   return moved;
 }
 
-Change find_change(const Mesh& input, const Mesh& refined) {
-  Change change;
-  const std::int64_t last_old = hex_id(input, input.n_hexes() - 1);
-  const auto all = std::views::iota(Index{0}, refined.n_hexes());
+/// The whole mesh as the part that changed.
+ChangedPart find_change(const MeshedModel& input, const MeshedModel& refined) {
+  ChangedPart change{input, input, refined};
+  const std::int64_t last_old = hex_id(input.mesh, input.mesh.n_hexes() - 1);
+  const auto all = std::views::iota(Index{0}, refined.mesh.n_hexes());
   change.n_kept = static_cast<Index>(
-      std::ranges::partition_point(all, [&](Index h) { return hex_id(refined, h) <= last_old; }) - all.begin());
-  find_gone(input, refined, change);
-  change.moved = moved_nodes(input, refined);
-  if (change.moved.empty()) return change;
-  std::vector<char> moved(refined.points.size(), 0);
-  for (const Index n : change.moved) moved[n] = 1;
-  change.touched = where(change.n_kept, [&](Index h) {
-    return std::ranges::any_of(refined.hexes[h], [&](Index n) { return moved[n] != 0; });
-  });
+      std::ranges::partition_point(all, [&](Index h) { return hex_id(refined.mesh, h) <= last_old; }) - all.begin());
+  change.gone = find_gone(input.mesh, refined.mesh, change.n_kept);
+  change.moved = moved_nodes(input.mesh, refined.mesh);
+  change.touched = touched_hexes(refined.mesh, change.n_kept, change.moved);
   return change;
 }
 
-/// What two meshes have in common, and where they differ, for summaries.
+/// What the whole had and has, where it changed, for summaries.
 struct Difference {
-  const MeshedModel& input;
-  const MeshedModel& refined;
-  std::vector<Index> taken;  ///< input hexes that were cut or have a node that moved, ascending
-  std::vector<Index> added;  ///< refined hexes likewise, ascending
+  const ChangedPart& change;
+  std::vector<Index> taken;                    ///< hexes of the part that were cut or have a node that moved, ascending
+  std::vector<Index> added;                    ///< hexes of the changed part likewise, ascending
+  std::vector<Index> whole_taken, whole_gone;  ///< in the whole
+  Index n_whole = 0;                           ///< hexes of the whole afterwards
+
+  explicit Difference(const ChangedPart& part) : change(part), taken(part.gone), added(part.touched) {
+    for (const Index h : part.touched) taken.push_back(before_gaps(part.gone, h));
+    std::ranges::sort(taken);
+    for (Index h = part.n_kept; h < part.after.mesh.n_hexes(); ++h) added.push_back(h);
+    for (const Index h : taken) whole_taken.push_back(part.whole_hex(h));
+    for (const Index h : part.gone) whole_gone.push_back(part.whole_hex(h));
+    n_whole = part.input.mesh.n_hexes() + part.after.mesh.n_hexes() - part.before.mesh.n_hexes();
+  }
+  /// Of a hex of the changed part.
+  Index whole_after(Index hex) const {
+    if (hex < change.n_kept) return after_gaps(whole_gone, change.whole_hex(before_gaps(change.gone, hex)));
+    return hex - change.n_kept + change.input.mesh.n_hexes() - static_cast<Index>(change.gone.size());
+  }
 };
 
 /// A hex with its value; the lowest hex of those with the best value.
@@ -90,23 +98,24 @@ struct Extreme {
   }
 };
 
-/// Smallest or largest value of the hexes that both meshes have. Only if the one known is gone they are searched, until
-/// one is as good; none is better.
+/// Smallest or largest value of the hexes that the mesh had and still has, by its new number. Only if the one known is
+/// gone they are searched, until one is as good; none is better.
 Extreme common_extreme(Extreme known, bool largest, Metric metric, const Difference& difference) {
-  const Mesh& mesh = difference.refined.mesh;
-  if (!std::ranges::binary_search(difference.taken, known.hex))
-    return {known.value, find_hex(mesh, hex_id(difference.input.mesh, known.hex))};
+  if (!std::ranges::binary_search(difference.whole_taken, known.hex))
+    return {known.value, after_gaps(difference.whole_gone, known.hex)};
+  const Mesh& mesh = difference.change.input.mesh;
   constexpr Index block = 4096;
   Extreme best{known.value, -1};
   std::vector<Index> hexes;
   for (Index begin = 0; begin < mesh.n_hexes(); begin += block) {
     const auto all = std::views::iota(begin, std::min(mesh.n_hexes(), begin + block));
     hexes.clear();
-    std::ranges::set_difference(all, difference.added, std::back_inserter(hexes));
+    std::ranges::set_difference(all, difference.whole_taken, std::back_inserter(hexes));
     const std::vector<double> values = quality(metric, mesh, hexes);
     for (std::size_t i = 0; i < hexes.size(); ++i) best.offer(values[i], hexes[i], largest);
     if (best.hex >= 0 && best.value == known.value) break;
   }
+  if (best.hex >= 0) best.hex = after_gaps(difference.whole_gone, best.hex);
   return best;
 }
 
@@ -116,18 +125,18 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
   Extreme largest = common_extreme({before.max, before.max_hex}, true, metric, difference);
   // Deviations from the old average keep sums small.
   double sum = 0, squares = before.std_dev * before.std_dev * before.count;
-  for (const double value : quality(metric, difference.input.mesh, difference.taken)) {
+  for (const double value : quality(metric, difference.change.before.mesh, difference.taken)) {
     sum -= value - before.average;
     squares -= (value - before.average) * (value - before.average);
   }
-  const std::vector<double> values = quality(metric, difference.refined.mesh, difference.added);
+  const std::vector<double> values = quality(metric, difference.change.after.mesh, difference.added);
   for (std::size_t i = 0; i < values.size(); ++i) {
     sum += values[i] - before.average;
     squares += (values[i] - before.average) * (values[i] - before.average);
-    smallest.offer(values[i], difference.added[i], false);
-    largest.offer(values[i], difference.added[i], true);
+    smallest.offer(values[i], difference.whole_after(difference.added[i]), false);
+    largest.offer(values[i], difference.whole_after(difference.added[i]), true);
   }
-  const Index n = difference.refined.mesh.n_hexes();
+  const Index n = difference.n_whole;
   const double shift = sum / n;
   return {.count = n,
           .average = before.average + shift,
@@ -148,101 +157,105 @@ bool overlap(const Box& a, const Box& b, double margin) {
          (b.min.array() <= a.max.array() + margin).all();
 }
 
-/// The hexes that are validated: changed ones, all that share a node with them, and others near the new boundary.
-std::vector<Index> hexes_to_validate(const MeshedModel& refined, const Change& change) {
-  const Mesh& mesh = refined.mesh;
-  const Association& association = refined.association;
+/// Changed hexes of the part, and all that share a node with them; ascending.
+std::vector<Index> hexes_around(const ChangedPart& change) {
+  const Mesh& mesh = change.after.mesh;
   std::vector<char> near(mesh.points.size(), 0);
   for (const Index h : change.touched)
     for (const Index n : mesh.hexes[h]) near[n] = 1;
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h)
     for (const Index n : mesh.hexes[h]) near[n] = 1;
-  std::vector<Index> part = where(change.n_kept, [&](Index h) {
+  std::vector<Index> around = where(change.n_kept, [&](Index h) {
     return std::ranges::any_of(mesh.hexes[h], [&](Index n) { return near[n] != 0; });
   });
+  for (Index h = change.n_kept; h < mesh.n_hexes(); ++h) around.push_back(h);
+  return around;
+}
+
+/// Hexes of the input that were kept and have a side on the CAD near new ones, wherever in the mesh; ascending.
+std::vector<Index> hexes_near_new_boundary(const ChangedPart& change) {
   Box fresh;
   double longest = 0;
-  for (const Side side : association.surface_faces)
+  for (const Side side : change.after.association.surface_faces)
     if (side.hex >= change.n_kept) {
-      const Box face = box_of(mesh, face_nodes(mesh.hexes[side.hex], side.face));
+      const Box face = box_of(change.after.mesh, face_nodes(change.after.mesh.hexes[side.hex], side.face));
       longest = std::max(longest, face.diagonal());
       fresh.add(face);
     }
-  for (const Side side : association.surface_faces)
-    if (side.hex < change.n_kept && overlap(fresh, box_of(mesh, face_nodes(mesh.hexes[side.hex], side.face)), longest))
-      part.push_back(side.hex);
-  for (Index h = change.n_kept; h < mesh.n_hexes(); ++h) part.push_back(h);
-  std::ranges::sort(part);
-  part.erase(std::ranges::unique(part).begin(), part.end());
-  return part;
+  std::vector<Index> near;
+  if (fresh.empty()) return near;
+  const Mesh& mesh = change.input.mesh;
+  for (const Side side : change.input.association.surface_faces)
+    if (overlap(fresh, box_of(mesh, face_nodes(mesh.hexes[side.hex], side.face)), longest)) near.push_back(side.hex);
+  near.erase(std::ranges::unique(near).begin(), near.end());
+  std::erase_if(near, [gone = Difference(change).whole_gone](Index h) { return std::ranges::binary_search(gone, h); });
+  return near;
 }
 
-/// Some hexes as a mesh of their own.
-Mesh part_of(const Mesh& mesh, std::span<const Index> hexes) {
-  Mesh part;
-  std::vector<Index> nodes;
-  for (const Index h : hexes) nodes.insert(nodes.end(), mesh.hexes[h].begin(), mesh.hexes[h].end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  for (const Index n : nodes) part.points.push_back(mesh.points[n]);
-  for (const Index h : hexes) {
-    Hex& hex = part.hexes.emplace_back();
-    for (int c = 0; c < 8; ++c)
-      hex[c] = static_cast<Index>(std::ranges::lower_bound(nodes, mesh.hexes[h][c]) - nodes.begin());
+/// The hexes that are validated as a mesh of their own: those of the part, then others of the input.
+Mesh mesh_to_validate(const ChangedPart& change, std::span<const Index> of_part, std::span<const Index> others) {
+  struct Node {
+    Index number;
+    Vec3 point;
+  };
+  Mesh mesh;
+  std::vector<Node> nodes;
+  for (const Index h : of_part) {
+    Hex& hex = mesh.hexes.emplace_back(change.after.mesh.hexes[h]);
+    for (Index& n : hex) {
+      nodes.push_back({change.whole_node(n), change.after.mesh.points[n]});
+      n = nodes.back().number;
+    }
   }
-  return part;
+  for (const Index h : others)
+    for (const Index n : mesh.hexes.emplace_back(change.input.mesh.hexes[h]))
+      nodes.push_back({n, change.input.mesh.points[n]});
+  std::ranges::sort(nodes, {}, &Node::number);
+  nodes.erase(std::ranges::unique(nodes, {}, &Node::number).begin(), nodes.end());
+  for (const Node& node : nodes) mesh.points.push_back(node.point);
+  for (Hex& hex : mesh.hexes)
+    for (Index& n : hex) n = static_cast<Index>(std::ranges::lower_bound(nodes, n, {}, &Node::number) - nodes.begin());
+  return mesh;
 }
 
-bool is_sound(const MeshedModel& refined, const Change& change) {
-  const std::vector<Index> hexes = hexes_to_validate(refined, change);
-  const Mesh part = part_of(refined.mesh, hexes);
-  for (const Violation& violation : validate(part))
+bool is_sound(const ChangedPart& change) {
+  const std::vector<Index> of_part = hexes_around(change);
+  std::vector<Index> known;  // of these, the kept ones in numbers of the input
+  for (const Index h : of_part)
+    if (h < change.n_kept) known.push_back(change.whole_hex(before_gaps(change.gone, h)));
+  std::vector<Index> others;
+  std::ranges::set_difference(hexes_near_new_boundary(change), known, std::back_inserter(others));
+  const Mesh mesh = mesh_to_validate(change, of_part, others);
+  for (const Violation& violation : validate(mesh))
     if (!is_warning(violation.kind) || violation.kind == ViolationKind::touching_part) return false;
-  return std::ranges::all_of(boundary_sides(faces(part)), [&](Side side) {
-    side.hex = hexes[side.hex];
-    return side.hex < change.n_kept || std::ranges::binary_search(refined.association.surface_faces, side);
+  return std::ranges::all_of(boundary_sides(faces(mesh)), [&](Side side) {
+    if (side.hex >= static_cast<Index>(of_part.size())) return true;
+    side.hex = of_part[side.hex];
+    return side.hex < change.n_kept || std::ranges::binary_search(change.after.association.surface_faces, side);
   });
 }
 
-OffModel off_after(const OffModel& before, const MeshedModel& input, const MeshedModel& refined, const Change& change) {
+OffModel off_after(const OffModel& before, const ChangedPart& change) {
   std::vector<Index> nodes = change.moved;
-  for (Index n = input.mesh.n_nodes(); n < refined.mesh.n_nodes(); ++n) nodes.push_back(n);
-  const OffModel fresh = detail::off_model(refined.mesh, refined.association, *refined.model, nodes);
-  return fresh.node >= 0 && (before.node < 0 || fresh.max > before.max) ? fresh : before;
+  for (Index n = change.before.mesh.n_nodes(); n < change.after.mesh.n_nodes(); ++n) nodes.push_back(n);
+  OffModel fresh = detail::off_model(change.after.mesh, change.after.association, *change.after.model, nodes);
+  if (fresh.node < 0 || (before.node >= 0 && !(fresh.max > before.max))) return before;
+  fresh.node = change.whole_node(fresh.node);
+  return fresh;
 }
 
-/// False when only doing everything from scratch will do; the report is then as it was.
-bool verify_change(const MeshedModel& input, const Measured& known, const MeshedModel& refined, Report& report) {
-  if (!refined.model || refined.association.empty()) return false;  // the boundary is known from it
-  const Change change = find_change(input.mesh, refined.mesh);
-  const Index n_new = refined.mesh.n_hexes() - change.n_kept;
-  constexpr Index small_part = 8;
-  if ((n_new + std::ssize(change.gone) + std::ssize(change.touched)) > refined.mesh.n_hexes() / small_part)
-    return false;
-  if (std::ranges::binary_search(change.moved, known.off_cad.node)) return false;
-
-  if (!is_sound(refined, change)) return false;
-
-  Difference difference{input, refined, change.gone, change.touched};
-  for (const Index h : change.touched) difference.taken.push_back(old_index(input.mesh, refined.mesh, h));
-  std::ranges::sort(difference.taken);
-  for (Index h = change.n_kept; h < refined.mesh.n_hexes(); ++h) difference.added.push_back(h);
-  report.shape_after = updated(known.shape, Metric::shape, difference);
-  report.scaled_jacobian_after = updated(known.scaled_jacobian, Metric::scaled_jacobian, difference);
-  report.volume_after = report.volume_before;
-  for (const double v : quality(Metric::volume, input.mesh, difference.taken)) report.volume_after -= v;
-  for (const double v : quality(Metric::volume, refined.mesh, difference.added)) report.volume_after += v;
-  report.off_cad = off_after(known.off_cad, input, refined, change);
-  return true;
+Measured measured_without_cad(const Mesh& mesh) {
+  Measured result;
+  result.shape = summarize(quality(Metric::shape, mesh));
+  result.scaled_jacobian = summarize(quality(Metric::scaled_jacobian, mesh));
+  result.volume = volume(mesh);
+  return result;
 }
 
 }  // namespace
 
 Measured measured(const MeshedModel& meshed) {
-  Measured result;
-  result.shape = summarize(quality(Metric::shape, meshed.mesh));
-  result.scaled_jacobian = summarize(quality(Metric::scaled_jacobian, meshed.mesh));
-  result.volume = volume(meshed.mesh);
+  Measured result = measured_without_cad(meshed.mesh);
   if (meshed.model && !meshed.association.empty())
     result.off_cad = off_model(meshed.mesh, meshed.association, *meshed.model);
   return result;
@@ -252,12 +265,46 @@ Measured measured_after(const Report& report) {
   return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad};
 }
 
-void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, Report& report) {
-  report.shape_before = known ? known->shape : summarize(quality(Metric::shape, input.mesh));
-  report.scaled_jacobian_before =
-      known ? known->scaled_jacobian : summarize(quality(Metric::scaled_jacobian, input.mesh));
-  report.volume_before = known ? known->volume : volume(input.mesh);
-  if (known && verify_change(input, *known, refined, report)) return;
+Index ChangedPart::whole_node(Index node) const {
+  if (nodes.empty()) return node;
+  const auto n_part = static_cast<Index>(nodes.size());
+  return node < n_part ? nodes[node] : node - n_part + input.mesh.n_nodes();
+}
+
+std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<const Index> moved) {
+  if (moved.empty()) return {};
+  std::vector<char> has_moved(after.points.size(), 0);
+  for (const Index n : moved) has_moved[n] = 1;
+  return where(
+      n_kept, [&](Index h) { return std::ranges::any_of(after.hexes[h], [&](Index n) { return has_moved[n] != 0; }); });
+}
+
+bool verify_change(const ChangedPart& change, const Measured& known, Report& report) {
+  if (!change.after.model || change.after.association.empty()) return false;  // the boundary is known from it
+  const Index n_new = change.after.mesh.n_hexes() - change.n_kept;
+  const Difference difference(change);
+  constexpr Index small_part = 8;
+  if ((n_new + std::ssize(change.gone) + std::ssize(change.touched)) > difference.n_whole / small_part) return false;
+  if (std::ranges::any_of(change.moved, [&](Index n) { return change.whole_node(n) == known.off_cad.node; }))
+    return false;
+  if (!is_sound(change)) return false;
+
+  report.shape_before = known.shape;
+  report.scaled_jacobian_before = known.scaled_jacobian;
+  report.volume_before = known.volume;
+  report.shape_after = updated(known.shape, Metric::shape, difference);
+  report.scaled_jacobian_after = updated(known.scaled_jacobian, Metric::scaled_jacobian, difference);
+  report.volume_after = report.volume_before;
+  for (const double v : quality(Metric::volume, change.before.mesh, difference.taken)) report.volume_after -= v;
+  for (const double v : quality(Metric::volume, change.after.mesh, difference.added)) report.volume_after += v;
+  report.off_cad = off_after(known.off_cad, change);
+  return true;
+}
+
+void verify_all(const MeshedModel& refined, const Measured& before, Report& report) {
+  report.shape_before = before.shape;
+  report.scaled_jacobian_before = before.scaled_jacobian;
+  report.volume_before = before.volume;
   const Measured after = measured(refined);
   report.shape_after = after.shape;
   report.scaled_jacobian_after = after.scaled_jacobian;
@@ -265,6 +312,11 @@ void verify(const MeshedModel& input, const Measured* known, const MeshedModel& 
   report.off_cad = after.off_cad;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));
+}
+
+void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, Report& report) {
+  if (known && verify_change(find_change(input, refined), *known, report)) return;
+  verify_all(refined, known ? *known : measured_without_cad(input.mesh), report);
 }
 
 }  // namespace hextwist

@@ -1,0 +1,106 @@
+// Cuts a patch out of a mesh, with all that is known of it.
+#include <algorithm>
+
+#include "hextwist/sizing/patch_internal.h"
+
+namespace hextwist {
+namespace {
+
+std::vector<Index> nodes_of(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Index> nodes;
+  nodes.reserve(8 * hexes.size());
+  for (const Index h : hexes) nodes.insert(nodes.end(), mesh.hexes[h].begin(), mesh.hexes[h].end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  return nodes;
+}
+
+/// Some items of an array with so many values for each.
+template <class T>
+std::vector<T> taken(const std::vector<T>& from, std::span<const Index> items, std::size_t width = 1) {
+  std::vector<T> result;
+  result.reserve(items.size() * width);
+  for (const Index i : items)
+    for (std::size_t c = 0; c < width; ++c) result.push_back(from[static_cast<std::size_t>(i) * width + c]);
+  return result;
+}
+
+/// Positions in `wanted` of the items that both lists have. Cheap where `wanted` is short.
+std::vector<Index> common(const std::vector<Index>& list, std::span<const Index> wanted) {
+  std::vector<Index> result;
+  auto at = list.begin();
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    at = std::lower_bound(at, list.end(), wanted[i]);
+    if (at == list.end()) break;
+    if (*at == wanted[i]) result.push_back(static_cast<Index>(i));
+  }
+  return result;
+}
+
+/// Calls use(place in the list, the side with its hex as a position in `hexes`) for the sides of these hexes.
+template <class Use>
+void for_each_side(const std::vector<Side>& sides, std::span<const Index> hexes, const Use& use) {
+  auto at = sides.begin();
+  for (std::size_t i = 0; i < hexes.size(); ++i) {
+    at = std::lower_bound(at, sides.end(), Side{hexes[i], 0});
+    for (; at != sides.end() && at->hex == hexes[i]; ++at)
+      use(static_cast<std::size_t>(at - sides.begin()), Side{static_cast<Index>(i), at->face});
+  }
+}
+
+Association association_of(const Association& whole, const Patch& patch) {
+  Association part;
+  if (whole.empty()) return part;
+  part.node_owner = taken(whole.node_owner, patch.nodes);
+  part.node_parameters = taken(whole.node_parameters, patch.nodes);
+  part.hex_volume = taken(whole.hex_volume, patch.hexes);
+  auto at = whole.curve_edges.begin();
+  for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
+    at = std::lower_bound(at, whole.curve_edges.end(), Edge{patch.nodes[i], 0});
+    for (; at != whole.curve_edges.end() && (*at)[0] == patch.nodes[i]; ++at)
+      if (const Index other = patch.local_node((*at)[1]); other >= 0) {
+        part.curve_edges.push_back({static_cast<Index>(i), other});
+        part.edge_curve.push_back(whole.edge_curve[static_cast<std::size_t>(at - whole.curve_edges.begin())]);
+      }
+  }
+  for_each_side(whole.surface_faces, patch.hexes, [&](std::size_t place, Side side) {
+    part.surface_faces.push_back(side);
+    part.face_surface.push_back(whole.face_surface[place]);
+  });
+  return part;
+}
+
+}  // namespace
+
+Index Patch::local_node(Index node) const {
+  const auto found = std::ranges::lower_bound(nodes, node);
+  return found != nodes.end() && *found == node ? static_cast<Index>(found - nodes.begin()) : -1;
+}
+
+Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
+  Patch patch;
+  patch.hexes = std::move(hexes);
+  patch.nodes = nodes_of(whole.mesh, patch.hexes);
+  Mesh& mesh = patch.meshed.mesh;
+  mesh.points = taken(whole.mesh.points, patch.nodes);
+  mesh.hexes = taken(whole.mesh.hexes, patch.hexes);
+  for (Hex& hex : mesh.hexes)
+    for (Index& n : hex) n = patch.local_node(n);
+  for (const Block& block : whole.mesh.blocks)
+    mesh.blocks.push_back({block.id, block.name, common(block.hexes, patch.hexes)});
+  for (const NodeSet& set : whole.mesh.node_sets)
+    mesh.node_sets.push_back({set.id, set.name, common(set.nodes, patch.nodes)});
+  for (const SideSet& set : whole.mesh.side_sets) {
+    SideSet& part = mesh.side_sets.emplace_back(SideSet{set.id, set.name, {}});
+    for_each_side(set.sides, patch.hexes, [&](std::size_t, Side side) { part.sides.push_back(side); });
+  }
+  for (const Field& field : whole.mesh.fields)
+    mesh.fields.push_back({field.name, field.on, field.components,
+                           taken(field.values, field.on == Field::On::node ? patch.nodes : patch.hexes,
+                                 static_cast<std::size_t>(field.components))});
+  patch.meshed.model = whole.model;
+  patch.meshed.association = association_of(whole.association, patch);
+  return patch;
+}
+
+}  // namespace hextwist

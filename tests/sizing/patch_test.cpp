@@ -1,0 +1,299 @@
+// A request run in a patch gives what it gives over the whole mesh, to the bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "hextwist/geom/occ_model.h"
+#include "hextwist/mesh/io.h"
+#include "hextwist/mesh/validate.h"
+#include "hextwist/sizing/patch_refine_internal.h"
+#include "hextwist/sizing/verify.h"
+#include "same_meshed.h"
+#include "support/grids.h"
+#include "support/meshed.h"
+
+namespace hextwist::test {
+namespace {
+
+/// While it lives.
+struct Rule {
+  Rule(Index least_mesh, Index part) { patch_rule = {least_mesh, part}; }
+  ~Rule() { patch_rule = before; }
+  const PatchRule before = patch_rule;
+};
+constexpr Index never = std::numeric_limits<Index>::max();
+
+void expect_same(const Summary& a, const Summary& b) {
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_EQ(a.average, b.average);
+  EXPECT_EQ(a.std_dev, b.std_dev);
+  EXPECT_EQ(a.min, b.min);
+  EXPECT_EQ(a.max, b.max);
+  EXPECT_EQ(a.min_hex, b.min_hex);
+  EXPECT_EQ(a.max_hex, b.max_hex);
+}
+
+void expect_same(const Report& a, const Report& b) {
+  EXPECT_EQ(a.hexes_before, b.hexes_before);
+  EXPECT_EQ(a.hexes_after, b.hexes_after);
+  EXPECT_EQ(a.nodes_before, b.nodes_before);
+  EXPECT_EQ(a.nodes_after, b.nodes_after);
+  EXPECT_EQ(a.filled_hexes, b.filled_hexes);
+  expect_same(a.shape_before, b.shape_before);
+  expect_same(a.shape_after, b.shape_after);
+  expect_same(a.scaled_jacobian_before, b.scaled_jacobian_before);
+  expect_same(a.scaled_jacobian_after, b.scaled_jacobian_after);
+  EXPECT_EQ(a.off_cad.max, b.off_cad.max);
+  EXPECT_EQ(a.off_cad.node, b.off_cad.node);
+  EXPECT_EQ(a.off_cad.owner, b.off_cad.owner);
+  EXPECT_EQ(a.volume_before, b.volume_before);
+  EXPECT_EQ(a.volume_after, b.volume_after);
+  ASSERT_EQ(a.off_nodes.size(), b.off_nodes.size());
+  for (std::size_t i = 0; i < a.off_nodes.size(); ++i) {
+    EXPECT_EQ(a.off_nodes[i].node, b.off_nodes[i].node);
+    EXPECT_EQ(a.off_nodes[i].owner, b.off_nodes[i].owner);
+    EXPECT_EQ(a.off_nodes[i].distance, b.off_nodes[i].distance);
+  }
+  EXPECT_EQ(a.violations.size(), b.violations.size());
+  EXPECT_EQ(a.notices, b.notices);
+}
+
+void expect_same(const Lineage& a, const Lineage& b) {
+  EXPECT_EQ(a.n_old_nodes, b.n_old_nodes);
+  EXPECT_EQ(a.n_old_hexes, b.n_old_hexes);
+  EXPECT_EQ(a.table, b.table);
+  EXPECT_EQ(a.parent, b.parent);
+  ASSERT_EQ(a.edges.size(), b.edges.size());
+  ASSERT_EQ(a.faces.size(), b.faces.size());
+  ASSERT_EQ(a.hexes.size(), b.hexes.size());
+  const auto edge = [](const CutEdge& e) { return std::tuple(e.a, e.b, e.first_node, e.hex, e.code); };
+  const auto face = [](const CutFace& f) { return std::tuple(f.side, f.corners, f.first_node, f.code); };
+  const auto hex = [](const CutHex& h) { return std::tuple(h.hex, h.first_child, h.first_node, h.code); };
+  EXPECT_TRUE(std::ranges::equal(a.edges, b.edges, {}, edge, edge));
+  EXPECT_TRUE(std::ranges::equal(a.faces, b.faces, {}, face, face));
+  EXPECT_TRUE(std::ranges::equal(a.hexes, b.hexes, {}, hex, hex));
+}
+
+/// Ids with gaps, overlapping blocks, sets and fields, by chance.
+void decorate(MeshedModel& meshed, std::mt19937& random) {
+  Mesh& mesh = meshed.mesh;
+  const auto count_up = [&](std::size_t n) {
+    std::vector<std::int64_t> ids(n);
+    std::int64_t id = 5;
+    for (std::int64_t& i : ids) i = id += 1 + static_cast<std::int64_t>(random() % 3);
+    return ids;
+  };
+  mesh.node_ids = random() % 2 ? count_up(mesh.points.size()) : std::vector<std::int64_t>{};
+  mesh.hex_ids = random() % 2 ? count_up(mesh.hexes.size()) : std::vector<std::int64_t>{};
+  const auto some = [&](Index n, unsigned out_of) {
+    std::vector<Index> chosen;
+    for (Index i = 0; i < n; ++i)
+      if (random() % out_of != 0) chosen.push_back(i);
+    return chosen;
+  };
+  mesh.blocks = {{7, "many", some(mesh.n_hexes(), 10)}, {8, "half", some(mesh.n_hexes(), 2)}, {9, "", {}}};
+  mesh.node_sets = {{1, "nodes", some(mesh.n_nodes(), 20)}, {2, "", some(mesh.n_nodes(), 2)}};
+  mesh.side_sets = {{3, "sides", {}}};
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    for (int f = 0; f < 6; ++f)
+      if (random() % 3 == 0) mesh.side_sets[0].sides.push_back({h, f});
+  Field on_nodes{"displacement", Field::On::node, 3, {}}, on_hexes{"pressure", Field::On::hex, 2, {}};
+  for (std::size_t i = 0; i < 3 * mesh.points.size(); ++i) on_nodes.values.push_back(static_cast<double>(random()));
+  for (std::size_t i = 0; i < 2 * mesh.hexes.size(); ++i) on_hexes.values.push_back(static_cast<double>(random()));
+  mesh.fields = {on_nodes, on_hexes};
+}
+
+Request random_request(const MeshedModel& meshed, std::mt19937& random) {
+  const auto one_of = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
+  Request request;
+  request.kind = static_cast<TargetKind>(one_of(one_of(3) ? 6 : 8));  // few large ones
+  const Mesh& mesh = meshed.mesh;
+  Index n = 0;
+  switch (request.kind) {
+    case TargetKind::node:
+      n = mesh.n_nodes();
+      break;
+    case TargetKind::edge:
+      n = static_cast<Index>(edges(mesh).nodes.size());
+      break;
+    case TargetKind::face:
+      n = static_cast<Index>(faces(mesh).nodes.size());
+      break;
+    case TargetKind::hex:
+      n = mesh.n_hexes();
+      break;
+    default:
+      n = meshed.model->count(static_cast<int>(request.kind) - static_cast<int>(TargetKind::vertex));
+  }
+  const bool is_cad = request.kind >= TargetKind::vertex;
+  for (Index i = one_of(3); i >= 0 && n > 0; --i) request.targets.push_back(one_of(n) + is_cad);
+  std::ranges::sort(request.targets);
+  request.targets.erase(std::ranges::unique(request.targets).begin(), request.targets.end());
+  const bool is_large = request.kind == TargetKind::surface || request.kind == TargetKind::volume;  // it takes long
+  request.numsplit = 1 + (!is_large && one_of(3) == 0);
+  if (const Index depth = one_of(5); depth < 3) request.depth = depth;
+  if (one_of(6) == 0) {
+    request.depth.reset();
+    request.radius = 0.05 * box(mesh).diagonal() * (1 + one_of(3));
+  }
+  if (one_of(4) == 0) request.method = static_cast<Method>(one_of(4));
+  if (one_of(2) == 0) request.concave = Concave::fill;
+  request.smooth = !is_large && one_of(3) == 0;
+  request.dry_run = one_of(8) == 0;
+  if (one_of(4) == 0)
+    for (int i = 0; i < 20; ++i) request.fixed.push_back(one_of(mesh.n_nodes()));
+  return request;
+}
+
+std::string text_of(const Request& r) {
+  std::string text = name(r.kind);
+  for (const Index t : r.targets) text += " " + std::to_string(t);
+  text += " numsplit " + std::to_string(r.numsplit);
+  if (r.depth) text += " depth " + std::to_string(*r.depth);
+  if (r.radius) text += " radius " + std::to_string(*r.radius);
+  return text + " " + name(r.method) + (r.concave == Concave::fill ? " fill" : "") + (r.smooth ? " smooth" : "") +
+         (r.dry_run ? " dry_run" : "");
+}
+
+/// Whether a patch was used, after checking that it makes no difference.
+bool expect_same_both_ways(const MeshedModel& meshed, const Measured& known, const Request& request) {
+  SCOPED_TRACE(text_of(request));
+  const auto result = [&](Index least_mesh, std::string& error) -> std::optional<RefineResult> {
+    const Rule rule(least_mesh, 1);
+    try {
+      return refine(meshed, known, request);
+    } catch (const Error& e) {
+      error = e.what();
+      return std::nullopt;
+    }
+  };
+  std::string error, patch_error;
+  const auto whole = result(never, error), patch = result(0, patch_error);
+  EXPECT_EQ(error, patch_error);
+  if (!whole || !patch) return false;
+  EXPECT_TRUE(same_bits(whole->refined, patch->refined));
+  expect_same(whole->lineage, patch->lineage);
+  EXPECT_EQ(whole->origin, patch->origin);
+  expect_same(whole->report, patch->report);
+  return std::ranges::find(patch->report.seconds, "splice", &StageTime::stage) != patch->report.seconds.end();
+}
+
+/// Requests by chance until so many were run in patches.
+void expect_same_for(MeshedModel meshed, int n_wanted, std::mt19937& random) {
+  int n_used = 0, n_tried = 0;
+  const Measured known = measured(meshed);
+  for (; n_used < n_wanted && n_tried < 6 * n_wanted; ++n_tried) {
+    decorate(meshed, random);
+    n_used += expect_same_both_ways(meshed, known, random_request(meshed, random));
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(n_used, 0) << "of " << n_tried;
+}
+
+TEST(patch, requests_by_chance_on_grids_give_what_they_give_over_the_whole_mesh) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  expect_same_for(brick(11, 10, 12), 12, random);
+  MeshedModel mixed = brick(30, 8, 3);
+  mixed.mesh = shuffled(mixed.mesh, random);
+  mixed.association = associate(mixed.mesh, *mixed.model, nullptr).association;
+  expect_same_for(mixed, 12, random);
+}
+
+TEST(patch, requests_by_chance_on_shipped_models_give_what_they_give_over_the_whole_mesh) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models")) {
+    if (entry.path().extension() != ".msh") continue;
+    SCOPED_TRACE(entry.path());
+    expect_same_for(shipped(entry.path().stem().string()), 2, random);
+  }
+}
+
+TEST(patch, requests_by_chance_on_real_cad_and_foreign_meshes_give_what_they_give_over_the_whole_mesh) {
+  const auto folder = data_folder();
+  if (folder.empty()) GTEST_SKIP() << "the folder of real CAD and meshes is not here";
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const std::string name : {"two_material", "bracket_fillet", "sphere7"}) {
+    SCOPED_TRACE(name);
+    MeshedModel meshed{
+        read_mesh(folder / "cad" / (name + "_1k.msh")).mesh, read_cad(folder / "cad" / (name + ".brep")).model, {}};
+    meshed.association = associate(meshed.mesh, *meshed.model, nullptr).association;
+    expect_same_for(std::move(meshed), 3, random);
+  }
+  for (const char* name : {"swivel2_7494.mesh", "mastodon_model_1.e", "moebius_rot1_r1.vtk"}) {
+    SCOPED_TRACE(name);
+    MeshedModel meshed{read_mesh(folder / "mesh" / name).mesh, nullptr, {}};
+    repair_orientation(meshed.mesh);
+    FacetResult skin = associate_with_own_skin(meshed.mesh);
+    meshed.model = skin.model;
+    meshed.association = std::move(skin.association);
+    expect_same_for(std::move(meshed), 3, random);
+  }
+}
+
+TEST(patch, without_a_model_it_is_used_too_and_then_verified_from_scratch) {
+  std::mt19937 random(1);
+  MeshedModel meshed{grid(20, 20, 20), nullptr, {}};
+  decorate(meshed, random);
+  Request request{.kind = TargetKind::hex, .targets = {4210}};
+  request.smooth = true;
+  EXPECT_TRUE(expect_same_both_ways(meshed, measured(meshed), request));
+}
+
+TEST(patch, it_grows_where_filling_goes_on_beyond_its_rings) {
+  // Two rows of hexes that meet in an L, on a plate: filling makes a square of them.
+  MeshedModel meshed = brick(60, 60, 2);
+  Request request{.kind = TargetKind::hex, .concave = Concave::fill};
+  for (Index i = 20; i < 40; ++i) {
+    request.targets.push_back(i + 60 * 20);
+    request.targets.push_back(20 + 60 * i);
+  }
+  std::ranges::sort(request.targets);
+  request.targets.erase(std::ranges::unique(request.targets).begin(), request.targets.end());
+  EXPECT_TRUE(expect_same_both_ways(meshed, measured(meshed), request));
+}
+
+TEST(patch, requests_that_look_farther_than_their_target_do_not_use_one) {
+  const MeshedModel meshed = brick(12, 12, 12);
+  const auto local = [&](Request request) { return is_local(meshed, request); };
+  const Request hex{.kind = TargetKind::hex, .targets = {0}}, curve{.kind = TargetKind::curve, .targets = {1}};
+  EXPECT_TRUE(local(hex));
+  EXPECT_TRUE(local(curve));
+  const auto with = [&](Request request, auto change) {
+    change(request);
+    return request;
+  };
+  EXPECT_FALSE(local(with(hex, [](Request& r) { r.method = Method::parallel; })));
+  EXPECT_TRUE(local(with(curve, [](Request& r) { r.method = Method::parallel; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.depth = 1; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.radius = 1; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.size = 0.1; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.layers = LayerRequest{}; })));
+  EXPECT_FALSE(local(with(hex, [](Request& r) { r.sheets = SheetRequest{}; })));
+  EXPECT_FALSE(local({.kind = TargetKind::volume, .targets = {1}}));
+  EXPECT_FALSE(local({.kind = TargetKind::surface, .targets = {1}, .through_thickness = true}));
+  // Nor large changes and small meshes, and nor is anything done before errors are found.
+  const Measured known = measured(meshed);
+  const Rule rule(0, 8);
+  EXPECT_FALSE(refine_patch(meshed, known, curve, {}).has_value());
+  EXPECT_FALSE(refine_patch(brick(3, 3, 3), known, hex, {}).has_value());
+  EXPECT_THROW(refine(meshed, known, with(hex, [](Request& r) { r.targets = {100000}; })), Error);
+}
+
+TEST(patch, a_cancelled_one_is_cancelled) {
+  const MeshedModel meshed = brick(12, 12, 12);
+  const Rule rule(0, 1);
+  int n_calls = 0;
+  EXPECT_THROW(refine(meshed, measured(meshed), {.kind = TargetKind::hex, .targets = {800}},
+                      [&](const char*, double) { return ++n_calls < 3; }),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace hextwist::test
