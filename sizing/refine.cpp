@@ -179,6 +179,7 @@ RefineResult run_passes(Pipeline& run) {
   } else {
     sub_element_passes(run, method);
   }
+  if (&run.current() == &run.input()) run.keep();  // nothing was to be cut: one layer, say
   if (request.smooth && !request.dry_run) run.smooth_band();
   run.stages().begin("verify", 0.9);
   return run.take_result();

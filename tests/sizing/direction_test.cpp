@@ -8,6 +8,7 @@
 #include "hextwist/mesh/io.h"
 #include "hextwist/mesh/sheets.h"
 #include "hextwist/sizing/request.h"
+#include "hextwist/sizing/verify.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"
@@ -133,6 +134,16 @@ TEST(thickness, of_one_face_is_its_column_with_a_transition_around) {
   const Index face = find_face(all, {1 + 4, 2 + 4, 1 + 8, 2 + 8});
   const Mesh mesh = checked(input, {.kind = TargetKind::face, .targets = {face}, .through_thickness = true});
   EXPECT_EQ(count_boxes(mesh, {1, 1, 1.0 / 3}), 6);
+}
+
+TEST(layers, one_layer_is_what_there_is) {
+  const MeshedModel input = brick(3, 3, 3);
+  for (const bool smooth : {false, true}) {
+    const Request request{
+        .kind = TargetKind::surface, .targets = {5}, .layers = LayerRequest{.n_layers = 1}, .smooth = smooth};
+    EXPECT_EQ(refine(input, request).refined.mesh, input.mesh);
+    EXPECT_EQ(refine(input, measured(input), request).refined.mesh, input.mesh);
+  }
 }
 
 TEST(layers, grow_from_the_surface_by_the_ratio_within_the_first_element) {
