@@ -9,11 +9,13 @@
 #include <limits>
 
 #include "hextwist/mesh/io_exodus_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
 
 using Int64s = std::vector<std::int64_t>;
+using Ints = std::vector<int>;
 
 class Reader {
  public:
@@ -28,7 +30,8 @@ class Reader {
     float version = 0;
     file_.id = ex_open(name_.c_str(), EX_READ, &memory, &disk, &version);
     if (file_.id < 0) fail("cannot be opened as Exodus II (damaged or another format)");
-    ex_set_int64_status(file_.id, EX_ALL_INT64_API);
+    // Positions fit an Index, whatever the file stores; the library refuses those that do not.
+    ex_set_int64_status(file_.id, EX_IDS_INT64_API | EX_MAPS_INT64_API | EX_INQ_INT64_API);
     const auto length = ex_inquire_int(file_.id, EX_INQ_DB_MAX_USED_NAME_LENGTH);
     if (length > 0) ex_set_max_name_length(file_.id, static_cast<int>(std::min<std::int64_t>(length, NC_MAX_NAME)));
     name_length_ = static_cast<std::size_t>(std::max<std::int64_t>(length, 256));
@@ -89,20 +92,27 @@ class Reader {
   void nodes() {
     if (init_.num_dim != 3) fail("has " + std::to_string(init_.num_dim) + " dimensions instead of 3");
     const auto n = size(init_.num_nodes, "nodes");
-    std::array<std::vector<double>, 3> x;
-    for (auto& values : x) values.resize(n);
-    if (n) check(ex_get_coord(file_.id, x[0].data(), x[1].data(), x[2].data()), "coordinates");
-    Int64s map(n);
+    Int64s map;
+    resize_large(map, n);
     if (n) check(ex_get_id_map(file_.id, EX_NODE_MAP, map.data()), "the node id map");
-    out_.mesh.points.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      out_.mesh.points[i] = Vec3(x[0][i], x[1][i], x[2][i]);
-      if (!out_.mesh.points[i].allFinite()) fail("a coordinate of node " + std::to_string(map[i]) + " is not finite");
-    }
+    resize_large(out_.mesh.points, n);
+    std::vector<double> values(exodus_piece);
+    for (int axis = 0; axis < 3; ++axis)
+      in_pieces(n, [&](std::size_t first, std::size_t size) {
+        std::array<double*, 3> x{};
+        x[axis] = values.data();
+        check(ex_get_partial_coord(file_.id, position(first), position(size - 1), x[0], x[1], x[2]), "coordinates");
+        for (std::size_t i = 0; i < size; ++i) {
+          out_.mesh.points[first + i][axis] = values[i];
+          if (!std::isfinite(values[i]))
+            fail("a coordinate of node " + std::to_string(map[first + i]) + " is not finite");
+        }
+      });
     nodes_ = Ids(std::move(map), "node", [&](std::size_t, const std::string& what) { fail(what); });
     nodes_.sort(out_.mesh.points);
     out_.mesh.node_ids = nodes_.stored();
   }
+  static std::int64_t position(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
   /// Index of the node at a 1-based position in the file.
   Index node(std::int64_t position, const std::string& who) const {
     if (position < 1 || position > nodes_.size())
@@ -112,10 +122,13 @@ class Reader {
 
   void blocks() {
     const auto n_elements = size(init_.num_elem, "elements");
-    Int64s map(n_elements);
+    Int64s map, hex_ids;
+    resize_large(map, n_elements);
     if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
-    Int64s hex_ids;
-    hex_of_element_.assign(n_elements, -1);
+    reserve_large(hex_ids, n_elements);
+    reserve_large(out_.mesh.hexes, n_elements);
+    resize_large(hex_of_element_, n_elements);
+    std::ranges::fill(hex_of_element_, -1);
     quad_of_element_.assign(n_elements, -1);
     std::int64_t first = 0;
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
@@ -141,7 +154,9 @@ class Reader {
       if (name == exodus_rest_block) continue;
       Block& to = group_of_id(out_.mesh.blocks, group_id(block.id, "element block"));
       to.name = name;
-      for (std::int64_t e = block.first; e < block.first + block.n; ++e) to.hexes.push_back(hex_of_element_[e]);
+      grow_large(to.hexes, static_cast<std::size_t>(block.n));
+      to.hexes.insert(to.hexes.end(), hex_of_element_.begin() + block.first,
+                      hex_of_element_.begin() + block.first + block.n);
       make_set(to.hexes);
     }
     quad_sides_ = oriented_sides(out_.mesh, quads_);
@@ -176,32 +191,38 @@ class Reader {
                              name + ")");
       return;
     }
-    Int64s nodes(map.size() * static_cast<std::size_t>(n_nodes));
-    check(ex_get_conn(file_.id, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr), "nodes of " + name);
-    for (std::size_t i = 0; i < map.size(); ++i) {
-      const auto corner = [&](std::size_t c) {
-        const std::int64_t position = nodes[i * static_cast<std::size_t>(n_nodes) + c];
-        if (position < 1 || position > nodes_.size()) node(position, "element " + std::to_string(map[i]));
-        return node(position, "");
-      };
-      if (hexes) {
-        hex_of_element_[first + static_cast<std::int64_t>(i)] = static_cast<Index>(hex_ids.size());
-        hex_ids.push_back(map[i]);
-        Hex& hex = out_.mesh.hexes.emplace_back();
-        for (std::size_t c = 0; c < 8; ++c) hex[file_corner[c]] = corner(c);
-      } else {
-        quad_of_element_[first + static_cast<std::int64_t>(i)] = static_cast<Index>(quads_.size());
-        quads_.push_back({corner(0), corner(1), corner(2), corner(3)});
+    Ints nodes(exodus_piece * static_cast<std::size_t>(n_nodes));
+    in_pieces(map.size(), [&](std::size_t begin, std::size_t size) {
+      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, position(begin), position(size - 1), nodes.data(),
+                                nullptr, nullptr),
+            "nodes of " + name);
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::int64_t id = map[begin + k], element = first + static_cast<std::int64_t>(begin + k);
+        const int* corners = &nodes[k * static_cast<std::size_t>(n_nodes)];
+        const auto corner = [&](std::size_t c) {
+          if (corners[c] < 1 || corners[c] > nodes_.size()) node(corners[c], "element " + std::to_string(id));
+          return nodes_.place().empty() ? corners[c] - 1 : nodes_.place()[corners[c] - 1];
+        };
+        if (hexes) {
+          hex_of_element_[element] = static_cast<Index>(hex_ids.size());
+          hex_ids.push_back(id);
+          Hex hex;
+          for (std::size_t c = 0; c < 8; ++c) hex[c] = corner(c);
+          out_.mesh.hexes.push_back(in_file_order(hex));
+        } else {
+          quad_of_element_[element] = static_cast<Index>(quads_.size());
+          quads_.push_back({corner(0), corner(1), corner(2), corner(3)});
+        }
       }
-    }
+    });
   }
 
   /// Members and, for side sets, side numbers.
-  std::pair<Int64s, Int64s> set(ex_entity_type type, std::int64_t id) const {
+  std::pair<Ints, Ints> set(ex_entity_type type, std::int64_t id) const {
     const std::string name = "set " + std::to_string(id);
-    std::int64_t n = 0, n_factors = 0;
+    int n = 0, n_factors = 0;
     check(ex_get_set_param(file_.id, type, id, &n, &n_factors), name);
-    std::pair<Int64s, Int64s> result;
+    std::pair<Ints, Ints> result;
     result.first.resize(size(n, "members"));
     result.second.resize(type == EX_SIDE_SET ? result.first.size() : 0);
     if (n > 0)

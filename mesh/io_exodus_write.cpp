@@ -9,11 +9,12 @@
 #include <utility>
 
 #include "hextwist/mesh/io_exodus_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
 
-using Int64s = std::vector<std::int64_t>;
+using Ints = std::vector<int>;
 
 struct Divided {
   int id;
@@ -55,6 +56,7 @@ class Writer {
     std::vector<char> taken(mesh_.hexes.size(), 0);
     for (const Block& block : mesh_.blocks) {
       Divided part{block.id, block.name, {}};
+      reserve_large(part.hexes, block.hexes.size());
       for (const Index h : block.hexes)
         if (!std::exchange(taken[h], 1)) part.hexes.push_back(h);
       if (part.hexes.size() != block.hexes.size()) whole_.push_back(&block);
@@ -64,8 +66,8 @@ class Writer {
     for (Index h = 0; h < mesh_.n_hexes(); ++h)
       if (!taken[h]) rest.hexes.push_back(h);
     if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
-    element_of_hex_.resize(mesh_.hexes.size());
-    std::int64_t element = 0;
+    resize_large(element_of_hex_, mesh_.hexes.size());
+    int element = 0;
     for (const Divided& part : parts_)
       for (const Index h : part.hexes) element_of_hex_[h] = ++element;
   }
@@ -76,7 +78,7 @@ class Writer {
     const bool wide = highest > std::numeric_limits<std::int32_t>::max();
     // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
     const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / 32 - 1;
-    int mode = EX_CLOBBER | (wide || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL) | EX_ALL_INT64_API;
+    int mode = EX_CLOBBER | (wide || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL) | EX_MAPS_INT64_API;
     if (wide) mode |= EX_ALL_INT64_DB;
     int memory = 8, disk = 8;
     ex_opts(0);
@@ -104,38 +106,58 @@ class Writer {
   }
 
   void nodes() {
-    std::array<std::vector<double>, 3> x;
+    // All of x, then y, then z, as they lie in the file.
+    std::vector<double> values(exodus_piece);
     for (int axis = 0; axis < 3; ++axis)
-      for (const Vec3& p : mesh_.points) x[axis].push_back(p[axis]);
-    if (!mesh_.points.empty()) check(ex_put_coord(id_, x[0].data(), x[1].data(), x[2].data()));
+      in_pieces(mesh_.points.size(), [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i) values[i] = mesh_.points[first + i][axis];
+        std::array<const double*, 3> x{};
+        x[axis] = values.data();
+        check(ex_put_partial_coord(id_, position(first), position(n - 1), x[0], x[1], x[2]));
+      });
     std::array<std::string, 3> names = {"x", "y", "z"};
     std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
     check(ex_put_coord_names(id_, pointers.data()));
-    Int64s map;
-    for (Index n = 0; n < mesh_.n_nodes(); ++n) map.push_back(node_id(mesh_, n));
-    if (!map.empty()) check(ex_put_id_map(id_, EX_NODE_MAP, map.data()));
+    put_map(EX_NODE_MAP, mesh_.points.size(),
+            [&](std::size_t n) { return id_of(mesh_.node_ids, static_cast<Index>(n)); });
+  }
+  /// 1-based, as the library counts.
+  static std::int64_t position(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
+  template <class F>
+  void put_map(ex_entity_type type, std::size_t n_items, F&& id) {
+    std::vector<std::int64_t> ids(exodus_piece);
+    in_pieces(n_items, [&](std::size_t first, std::size_t n) {
+      for (std::size_t i = 0; i < n; ++i) ids[i] = id(first + i);
+      check(ex_put_partial_id_map(id_, type, position(first), position(n - 1), ids.data()));
+    });
   }
 
   void blocks() {
-    Int64s map(mesh_.hexes.size()), nodes;
+    std::vector<Hex> nodes(exodus_piece);
     for (const Divided& part : parts_) {
       const auto n = std::ssize(part.hexes);
       check(ex_put_block(id_, EX_ELEM_BLOCK, part.id, "HEX8", n, 8, 0, 0, 0));
       put_name(EX_ELEM_BLOCK, part.id, part.name);
-      nodes.clear();
-      for (const Index h : part.hexes) {
-        map[element_of_hex_[h] - 1] = hex_id(mesh_, h);
-        for (const int c : file_corner) nodes.push_back(mesh_.hexes[h][c] + 1);
-      }
-      if (n > 0) check(ex_put_conn(id_, EX_ELEM_BLOCK, part.id, nodes.data(), nullptr, nullptr));
+      in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) {
+          nodes[i] = in_file_order(mesh_.hexes[part.hexes[first + i]]);
+          for (Index& node : nodes[i]) ++node;
+        }
+        check(ex_put_partial_elem_conn(id_, part.id, position(first), position(size - 1), nodes.data()));
+      });
     }
-    if (!map.empty()) check(ex_put_id_map(id_, EX_ELEM_MAP, map.data()));
+    // Parts follow each other.
+    std::size_t part = 0, before = 0;
+    put_map(EX_ELEM_MAP, mesh_.hexes.size(), [&](std::size_t element) {
+      while (element - before == parts_[part].hexes.size()) before += parts_[part++].hexes.size();
+      return id_of(mesh_.hex_ids, parts_[part].hexes[element - before]);
+    });
   }
 
   void put_name(ex_entity_type type, int id, const std::string& name) {
     if (!name.empty()) check(ex_put_name(id_, type, id, name.substr(0, 255).c_str()));
   }
-  void put_set(ex_entity_type type, int id, const std::string& name, const Int64s& members, const Int64s& sides) {
+  void put_set(ex_entity_type type, int id, const std::string& name, const Ints& members, const Ints& sides) {
     check(ex_put_set_param(id_, type, id, std::ssize(members), 0));
     if (!members.empty()) check(ex_put_set(id_, type, id, members.data(), sides.empty() ? nullptr : sides.data()));
     put_name(type, id, name);
@@ -143,14 +165,14 @@ class Writer {
 
   void sets() {
     for (const NodeSet& set : mesh_.node_sets) {
-      Int64s members;
+      Ints members;
       for (const Index n : set.nodes) members.push_back(n + 1);
       put_set(EX_NODE_SET, set.id, set.name, members, {});
     }
-    std::array<std::int64_t, 6> side_of_face{};
+    std::array<int, 6> side_of_face{};
     for (int side = 0; side < 6; ++side) side_of_face[exodus_face[side]] = side + 1;
     for (const SideSet& set : mesh_.side_sets) {
-      Int64s members, sides;
+      Ints members, sides;
       for (const Side& side : set.sides) {
         members.push_back(element_of_hex_[side.hex]);
         sides.push_back(side_of_face[side.face]);
@@ -158,7 +180,7 @@ class Writer {
       put_set(EX_SIDE_SET, set.id, set.name, members, sides);
     }
     for (const Block* block : whole_) {
-      Int64s members;
+      Ints members;
       for (const Index h : block->hexes) members.push_back(element_of_hex_[h]);
       put_set(EX_ELEM_SET, block->id, block->name, members, {});
     }
@@ -199,7 +221,7 @@ class Writer {
   std::vector<Field> fields_;
   std::vector<Divided> parts_;
   std::vector<const Block*> whole_;  // written as element sets
-  Int64s element_of_hex_;            // 1-based place in the file
+  Ints element_of_hex_;              // 1-based place in the file
   int id_ = -1;
 };
 

@@ -1,6 +1,7 @@
 #include "hextwist/mesh/io_file_internal.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,16 +46,33 @@ struct Input {
 
 }  // namespace
 
+void ReleaseBytes::operator()(const char* data) const {
+  if (mapped > 0)
+    ::munmap(const_cast<char*>(data), mapped);
+  else
+    delete[] data;
+}
+
 Bytes read_bytes(const std::filesystem::path& file) {
   const Input input(file);
-  Bytes bytes{file.string(), std::make_unique_for_overwrite<char[]>(input.size), 0};
+  Bytes bytes{file.string(), nullptr, 0};
+  constexpr std::size_t worthwhile = std::size_t{1} << 16;
+  void* mapped =
+      input.size < worthwhile ? MAP_FAILED : ::mmap(nullptr, input.size, PROT_READ, MAP_PRIVATE, input.descriptor, 0);
+  if (mapped != MAP_FAILED) {
+    bytes.data = {static_cast<const char*>(mapped), ReleaseBytes{input.size}};
+    bytes.size = input.size;
+    return bytes;
+  }
+  auto memory = std::make_unique_for_overwrite<char[]>(input.size);
   while (bytes.size < input.size) {
-    const auto n = ::read(input.descriptor, bytes.data.get() + bytes.size, input.size - bytes.size);
+    const auto n = ::read(input.descriptor, memory.get() + bytes.size, input.size - bytes.size);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) throw Error(bytes.name + ": cannot be read: " + reason(errno));
     if (n == 0) break;
     bytes.size += static_cast<std::size_t>(n);
   }
+  bytes.data = {memory.release(), ReleaseBytes{}};
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 // Whole files in, whole files out: reading in one go, and writing that leaves either the complete file or the old one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -14,14 +15,22 @@
 
 namespace hextwist::io {
 
+/// Gives back what holds the bytes of a file: its pages, or memory.
+struct ReleaseBytes {
+  std::size_t mapped = 0;  ///< 0: memory
+  void operator()(const char* data) const;
+};
+
 /// The bytes of a file; name is what error messages call it.
 struct Bytes {
   std::string name;
-  std::unique_ptr<char[]> data;
+  std::unique_ptr<const char[], ReleaseBytes> data;
   std::size_t size = 0;
 };
 
-/// Reads a whole file. Throws Error when it is missing, a folder, unreadable or empty.
+/// The bytes of a whole file, mapped where the system can: no copy of them is made, and pages that were read can go.
+/// As with every mapped file, nobody may cut it short meanwhile (our own writers replace files and never do).
+/// Throws Error when it is missing, a folder, unreadable or empty.
 Bytes read_bytes(const std::filesystem::path& file);
 
 /// Throws the same Errors for a file that a library will read.
@@ -91,12 +100,26 @@ class Output {
   void put_all(std::span<const T> values) {
     raw(values.data(), values.size_bytes());
   }
+  /// value(0) .. value(n - 1), made where they leave from.
+  template <class F>
+  void put_each(std::size_t n, F&& value) {
+    using T = decltype(value(n));
+    for (std::size_t i = 0; i < n;) {
+      const std::size_t piece = std::min(n - i, capacity / sizeof(T));
+      char* at = room(piece * sizeof(T));
+      used_ += piece * sizeof(T);
+      for (const std::size_t end = i + piece; i < end; ++i, at += sizeof(T)) {
+        const T one = value(i);
+        std::memcpy(at, &one, sizeof(T));
+      }
+    }
+  }
 
   /// Flushes, closes and moves the file to its place.
   void commit();
 
  private:
-  static constexpr std::size_t capacity = std::size_t{1} << 20;
+  static constexpr std::size_t capacity = std::size_t{1} << 18;  // stays in the cache
   char* room(std::size_t n) {
     if (n > capacity - used_) flush();
     return buffer_.get() + used_;

@@ -5,25 +5,23 @@
 // repeat (deal.II gives all lines the same).
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/io_gmsh_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
 
 /// One element can be in the file once per physical group (versions 1 and 2): for each element the first with the same
 /// nodes and entity, in order of tags. Empty when no element repeats another.
-std::vector<Index> first_copies(const GmshElements& elements, std::size_t n_nodes) {
+std::vector<Index> first_copies(const GmshElements& elements, std::span<const Hex> hexes) {
   const auto n = elements.tags.size();
   if (elements.physical.empty() || n < 2) return {};
   std::vector<Index> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<Index>(i);
-  const auto nodes = [&](Index i) { return std::span(elements.nodes).subspan(i * n_nodes, n_nodes); };
-  const auto compare = [&](Index a, Index b) {
-    const auto x = nodes(a), y = nodes(b);
-    return std::lexicographical_compare_three_way(x.begin(), x.end(), y.begin(), y.end());
-  };
+  const auto compare = [&](Index a, Index b) { return hexes[a] <=> hexes[b]; };
   std::ranges::sort(order, [&](Index a, Index b) {
     const auto c = compare(a, b);
     return c != 0 ? c < 0 : elements.tags[a] < elements.tags[b];
@@ -85,16 +83,13 @@ class Assembly {
     for (const auto& [group, name] : in_.physical_names)
       if (group.dim == dim && group.id > 0) groups[group.id];
     const auto& elements = in_.elements[dim];
-    int last_entity = std::numeric_limits<int>::min();
-    std::vector<std::vector<Member>*> current;  // groups of the entity at hand: no lookup per element
-    for (std::size_t i = 0; i < elements.tags.size(); ++i) {
-      const int key = elements.physical.empty() ? elements.entity[i] : elements.physical[i];
-      if (key != last_entity) {
-        current.clear();
-        each_group(dim, i, [&](int id) { current.push_back(&groups[id]); });
-        last_entity = key;
-      }
-      for (auto* group : current) member(i, *group);
+    const auto& key = elements.physical.empty() ? elements.entity : elements.physical;
+    for (std::size_t i = 0, end = 0; i < key.size(); i = end) {
+      while (end < key.size() && key[end] == key[i]) ++end;
+      each_group(dim, i, [&](int id) {
+        grow_large(groups[id], end - i);
+        for (std::size_t k = i; k < end; ++k) member(k, groups[id]);
+      });
     }
     for (const auto& [group, tags] : in_.more_members) {
       if (group.dim != dim || group.id <= 0) continue;
@@ -119,23 +114,23 @@ class Assembly {
   void nodes() {
     file_.mesh.points = std::move(in_.points);
     file_.mesh.node_ids = in_.nodes.stored();
-    file_.tags.node_owner.resize(file_.mesh.points.size());
-    file_.tags.node_parameters.resize(file_.mesh.points.size());
+    owned_by_entities_ = !in_.node_entity.empty();
     Owner last, owner;
-    for (std::size_t i = 0; i < in_.node_entity.size(); ++i) {
-      if (in_.node_entity[i] != last) owner = in_.owner(in_.node_entity[i]);
-      last = in_.node_entity[i];
-      file_.tags.node_owner[i] = owner;
+    for (Owner& of_node : in_.node_entity) {
+      if (of_node != last) owner = in_.owner(of_node);
+      last = std::exchange(of_node, owner);
     }
-    if (!in_.node_parameters.empty()) file_.tags.node_parameters = std::move(in_.node_parameters);
+    file_.tags.node_owner = std::move(in_.node_entity);
+    file_.tags.node_owner.resize(file_.mesh.points.size());
+    file_.tags.node_parameters = std::move(in_.node_parameters);
+    resize_large(file_.tags.node_parameters, file_.mesh.points.size());
   }
 
   void hexes() {
     GmshElements& elements = in_.elements[3];
     if (elements.tags.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
     // Drop repetitions, remembering to which hex they go.
-    const auto first = first_copies(elements, 8);
-    hex_of_element_.assign(elements.tags.size(), -1);
+    const auto first = first_copies(elements, in_.hexes);
     std::vector<std::int64_t> tags;
     std::vector<Run> runs;
     std::vector<Index> kept;
@@ -151,14 +146,13 @@ class Assembly {
     }
     hex_ids_ = Ids(std::move(tags), "element", cursor_, runs);
     const auto n = static_cast<std::size_t>(hex_ids_.size());
-    file_.mesh.hexes.resize(n);
-    file_.tags.hex_volume.assign(n, 0);
+    resize_large(hex_of_element_, elements.tags.size());
+    resize_large(file_.tags.hex_volume, n);
     int last = -1, volume = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = first.empty() ? k : static_cast<std::size_t>(kept[k]);
       const Index h = hex_ids_.place().empty() ? static_cast<Index>(k) : hex_ids_.place()[k];
       hex_of_element_[i] = h;
-      for (int c = 0; c < 8; ++c) file_.mesh.hexes[h][file_corner[c]] = elements.nodes[8 * i + c];
       if (elements.entity[i] != last) {
         const Owner owner = in_.owner({3, elements.entity[i]});
         volume = owner.dim == 3 ? owner.id : 0;
@@ -167,23 +161,28 @@ class Assembly {
       file_.tags.hex_volume[h] = volume;
     }
     for (std::size_t i = 0; i < first.size(); ++i) hex_of_element_[i] = hex_of_element_[first[i]];
+    derive_node_owners(3);
+    std::size_t n_kept = 0;
+    for (const Index i : kept) in_.hexes[n_kept++] = in_.hexes[i];
+    if (!first.empty()) in_.hexes.resize(n);
+    hex_ids_.sort(in_.hexes);
+    file_.mesh.hexes = std::move(in_.hexes);
     // Ids of hexes only where they are counted before everything else.
     std::int64_t lowest_other = std::numeric_limits<std::int64_t>::max();
     for (int dim = 0; dim < 3; ++dim)
       for (const auto tag : in_.elements[dim].tags) lowest_other = std::min(lowest_other, tag);
     const auto highest = std::ranges::max(elements.tags);
     if (highest < lowest_other) file_.mesh.hex_ids = hex_ids_.stored();
-    derive_node_owners(3);
   }
 
   void derive_node_owners(int dim) {
-    if (!in_.node_entity.empty()) return;
+    if (owned_by_entities_) return;
     std::vector<int> ids;
     for (const int entity : in_.elements[dim].entity) {
       const Owner owner = in_.owner({dim, entity});
       ids.push_back(owner.dim == dim ? owner.id : 0);
     }
-    derive_owners(file_.tags.node_owner, dim, in_.elements[dim].nodes, ids);
+    derive_owners(file_.tags.node_owner, dim, in_.nodes_of(dim), ids);
   }
 
   void blocks() {
@@ -290,6 +289,7 @@ class Assembly {
   const Cursor& cursor_;
   MeshFile file_;
   Ids hex_ids_;
+  bool owned_by_entities_ = false;     // nodes; else by the elements around them
   std::vector<Index> hex_of_element_;  // file order
   mutable std::array<std::vector<std::pair<std::int64_t, Index>>, 4> tag_order_;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
@@ -60,9 +61,9 @@ class Planner {
     return next_tag_[dim]++;
   }
 
-  /// Entities for classes of items, and their elements; `append` adds the nodes of an item.
+  /// Entities for classes of items, and their elements; `append` adds the nodes of an item (not for hexes).
   template <class F>
-  void add_classes(int dim, const Classes& classes, std::span<const int> group_ids, F&& append) {
+  void add_classes(int dim, Classes classes, std::span<const int> group_ids, F&& append) {
     std::vector<int> tag(classes.key.size());
     std::set<int> taken;
     for (std::size_t c = 0; c < tag.size(); ++c) {
@@ -75,25 +76,25 @@ class Planner {
     std::vector<int> order(tag.size());
     for (std::size_t c = 0; c < order.size(); ++c) order[c] = static_cast<int>(c);
     std::ranges::stable_sort(order, {}, [&](int c) { return tag[c]; });
-    std::vector<std::size_t> start(tag.size());
-    std::size_t sum = 0;
-    for (const int c : order) {
-      start[c] = sum;
-      sum += static_cast<std::size_t>(classes.count[c]);
-    }
-    item_[dim].resize(sum);
-    for (std::size_t i = 0; i < sum; ++i) item_[dim][start[classes.of_item[i]]++] = static_cast<Index>(i);
     PlannedElements& elements = plan_.elements[dim];
-    elements.entity.resize(sum);
-    elements.physical.resize(sum);
-    elements.nodes.reserve(sum * n_element_nodes[dim]);
-    for (std::size_t k = 0; k < sum; ++k) {
-      const int c = classes.of_item[item_[dim][k]];
-      elements.entity[k] = tag[c];
-      elements.physical[k] = classes.groups[c].empty() ? 0 : group_ids[classes.groups[c][0]];
-      append(item_[dim][k], elements.nodes);
+    std::vector<std::size_t> start(tag.size());
+    for (const int c : order) {
+      const auto n = static_cast<std::size_t>(classes.count[c]);
+      elements.runs.push_back(
+          {tag[c], classes.groups[c].empty() ? 0 : group_ids[classes.groups[c][0]], elements.size, n});
+      start[c] = elements.size;
+      elements.size += n;
     }
-    groups_of_item_[dim] = classes;
+    if (tag.size() > 1) {
+      resize_large(elements.items, elements.size);
+      for (std::size_t i = 0; i < elements.size; ++i)
+        elements.items[start[classes.of_item[i]]++] = static_cast<Index>(i);
+    }
+    if (dim < 3) {
+      elements.nodes.reserve(elements.size * n_element_nodes[dim]);
+      for (std::size_t k = 0; k < elements.size; ++k) append(elements.item(k), elements.nodes);
+    }
+    groups_of_item_[dim] = std::move(classes);
   }
 
   template <class Group, class Members>
@@ -103,7 +104,8 @@ class Planner {
   }
 
   void hexes() {
-    std::vector<int> volume(mesh_.hexes.size(), 0);
+    std::vector<int> volume;
+    resize_large(volume, mesh_.hexes.size());
     for (Index h = 0; h < mesh_.n_hexes(); ++h) volume[h] = std::max(0, volume_of(tags_, h));
     std::vector<std::span<const Index>> members;
     for (const Block& block : mesh_.blocks) {
@@ -111,9 +113,7 @@ class Planner {
       group_ids_[3].push_back(block.id);
     }
     add_group_names(3, mesh_.blocks, &Block::hexes);
-    add_classes(3, classify(volume, members), group_ids_[3], [&](Index h, std::vector<Index>& nodes) {
-      for (const int c : file_corner) nodes.push_back(mesh_.hexes[h][c]);
-    });
+    add_classes(3, classify(volume, members), group_ids_[3], [](Index, std::vector<Index>&) {});
   }
 
   void sides() {
@@ -154,8 +154,7 @@ class Planner {
   }
 
   void lines() {
-    Classes classes = classify(tags_.edge_curve, {});
-    add_classes(1, classes, {}, [&](Index i, std::vector<Index>& nodes) {
+    add_classes(1, classify(tags_.edge_curve, {}), {}, [&](Index i, std::vector<Index>& nodes) {
       nodes.insert(nodes.end(), tags_.curve_edges[i].begin(), tags_.curve_edges[i].end());
     });
   }
@@ -201,15 +200,14 @@ class Planner {
 
   /// Hexes have their own ids; everything else is counted after them.
   void number_elements() {
-    std::int64_t next = 1;
-    for (const Index h : item_[3]) plan_.elements[3].tags.push_back(hex_id(mesh_, h));
-    if (!mesh_.hexes.empty()) next = hex_id(mesh_, mesh_.n_hexes() - 1) + 1;
-    for (int dim = 0; dim < 3; ++dim)
-      for (std::size_t i = 0; i < plan_.elements[dim].entity.size(); ++i) plan_.elements[dim].tags.push_back(next++);
-    PlannedElements& lines = plan_.elements[1];
-    for (std::size_t k = 0; k < lines.tags.size(); ++k)
-      if (const auto& physicals = plan_.entity(1, lines.entity[k]).physicals; !physicals.empty())
-        lines.physical[k] = physicals[0];
+    std::int64_t next = mesh_.hexes.empty() ? 1 : hex_id(mesh_, mesh_.n_hexes() - 1) + 1;
+    for (int dim = 0; dim < 3; ++dim) {
+      plan_.elements[dim].first_tag = next;
+      next += static_cast<std::int64_t>(plan_.elements[dim].size);
+    }
+    for (auto& lines : plan_.elements[1].runs)
+      if (const auto& physicals = plan_.entity(1, lines.entity).physicals; !physicals.empty())
+        lines.physical = physicals[0];
   }
 
   /// Without splitting, entities are in no group; each element names its first group, these are the rest.
@@ -219,11 +217,11 @@ class Planner {
       const int dim = group.group.dim;
       const auto& ids = group_ids_[dim];
       if (dim == 1) {
-        const PlannedElements& lines = plan_.elements[1];
-        for (std::size_t k = 0; k < lines.tags.size(); ++k) {
-          const auto& physicals = plan_.entity(1, lines.entity[k]).physicals;
+        for (const auto& lines : plan_.elements[1].runs) {
+          const auto& physicals = plan_.entity(1, lines.entity).physicals;
           if (std::ranges::find(physicals, group.group.id) != physicals.end() && physicals[0] != group.group.id)
-            group.more.push_back(lines.tags[k]);
+            for (std::size_t k = lines.first; k < lines.first + lines.n; ++k)
+              group.more.push_back(plan_.tag(mesh_, 1, k));
         }
         continue;
       }
@@ -234,26 +232,59 @@ class Planner {
         extra[c] = !classes.groups[c].empty() && classes.groups[c][0] != g &&
                    std::ranges::find(classes.groups[c], g) != classes.groups[c].end();
       if (std::ranges::find(extra, 1) == extra.end()) continue;
-      for (std::size_t k = 0; k < item_[dim].size(); ++k)
-        if (extra[classes.of_item[item_[dim][k]]]) group.more.push_back(plan_.elements[dim].tags[k]);
+      const PlannedElements& elements = plan_.elements[dim];
+      for (std::size_t k = 0; k < elements.size; ++k)
+        if (extra[classes.of_item[elements.item(k)]]) group.more.push_back(plan_.tag(mesh_, dim, k));
     }
   }
 
   void boxes() {
-    for (int dim = 0; dim < 4; ++dim) {
-      const auto& elements = plan_.elements[dim];
-      const auto n = static_cast<std::size_t>(n_element_nodes[dim]);
-      PlannedEntity* entity = nullptr;
-      for (std::size_t i = 0; i < elements.entity.size(); ++i) {
-        if (!entity || entity->tag != elements.entity[i]) entity = &plan_.entity(dim, elements.entity[i]);
-        for (std::size_t k = 0; k < n; ++k) entity->box.add(mesh_.points[elements.nodes[n * i + k]]);
+    for (int dim = 0; dim < 3; ++dim)
+      for (const auto& run : plan_.elements[dim].runs) {
+        Box& box = plan_.entity(dim, run.entity).box;
+        const auto n = static_cast<std::size_t>(n_element_nodes[dim]);
+        for (const Index node : std::span(plan_.elements[dim].nodes).subspan(n * run.first, n * run.n))
+          box.add(mesh_.points[node]);
       }
+    std::vector<int> seen(mesh_.points.size(), 0);  // by which entity's hexes
+    for (const auto& run : plan_.elements[3].runs) {
+      Box& box = plan_.entity(3, run.entity).box;
+      for (std::size_t k = run.first; k < run.first + run.n; ++k)
+        for (const Index node : mesh_.hexes[plan_.elements[3].item(k)])
+          if (std::exchange(seen[node], run.entity) != run.entity) box.add(mesh_.points[node]);
     }
     for (std::size_t i = 0; i < tags_.node_owner.size(); ++i)
       if (const Owner owner = tags_.node_owner[i]; owner && owner.dim < 3)
         plan_.entity(owner.dim, owner.id).box.add(mesh_.points[i]);
   }
 
+  template <class Owned, class Bounds>
+  void bounds_of_volumes_and_surfaces(Owned&& owned, Bounds&& bounds) {
+    const auto& volumes = plan_.elements[3];
+    std::vector<int> volume_of_hex(mesh_.hexes.size());
+    for (const auto& run : volumes.runs)
+      for (std::size_t k = run.first; k < run.first + run.n; ++k) volume_of_hex[volumes.item(k)] = run.entity;
+    const auto& quads = plan_.elements[2];
+    std::vector<Quad> behind(quads.size);
+    for (std::size_t k = 0; k < behind.size(); ++k)
+      for (int c = 0; c < 4; ++c) behind[k][c] = quads.nodes[4 * k + 3 - c];
+    const auto other = oriented_sides(mesh_, behind);
+    for (const auto& run : quads.runs) {
+      if (!owned(2, run.entity)) continue;
+      for (std::size_t k = run.first; k < run.first + run.n; ++k) {
+        const Side side = sides_.sides[quads.item(k)];
+        const int front = volume_of_hex[side.hex], back = volume_of_hex[other[k].hex];
+        if (owned(3, front) && (front != back || other[k] == side)) bounds(3, front, run.entity);
+        if (owned(3, back) && front != back) bounds(3, back, run.entity);
+        for (int c = 0; c < 4; ++c) {
+          const auto [a, b] = std::minmax(behind[k][c], behind[k][(c + 1) % 4]);
+          const auto at = std::ranges::lower_bound(tags_.curve_edges, Edge{a, b});
+          if (at != tags_.curve_edges.end() && *at == Edge{a, b})
+            bounds(2, run.entity, tags_.edge_curve[at - tags_.curve_edges.begin()]);
+        }
+      }
+    }
+  }
   /// Which entities bound which, as far as the elements show it; owned entities only.
   void boundaries() {
     const auto owned = [&](int dim, int tag) {
@@ -264,26 +295,7 @@ class Planner {
       auto& list = plan_.entity(dim, tag).boundary;
       if (std::ranges::find(list, boundary) == list.end()) list.push_back(boundary);
     };
-    std::vector<int> volume_of_hex(mesh_.hexes.size());
-    for (std::size_t k = 0; k < item_[3].size(); ++k) volume_of_hex[item_[3][k]] = plan_.elements[3].entity[k];
-    const auto& quads = plan_.elements[2];
-    std::vector<Quad> behind(quads.entity.size());
-    for (std::size_t k = 0; k < behind.size(); ++k)
-      for (int c = 0; c < 4; ++c) behind[k][c] = quads.nodes[4 * k + 3 - c];
-    const auto other = oriented_sides(mesh_, behind);
-    for (std::size_t k = 0; k < behind.size(); ++k) {
-      if (!owned(2, quads.entity[k])) continue;
-      const Side side = sides_.sides[item_[2][k]];
-      const int front = volume_of_hex[side.hex], back = volume_of_hex[other[k].hex];
-      if (owned(3, front) && (front != back || other[k] == side)) bounds(3, front, quads.entity[k]);
-      if (owned(3, back) && front != back) bounds(3, back, quads.entity[k]);
-      for (int c = 0; c < 4; ++c) {
-        const auto [a, b] = std::minmax(behind[k][c], behind[k][(c + 1) % 4]);
-        const auto at = std::ranges::lower_bound(tags_.curve_edges, Edge{a, b});
-        if (at != tags_.curve_edges.end() && *at == Edge{a, b})
-          bounds(2, quads.entity[k], tags_.edge_curve[at - tags_.curve_edges.begin()]);
-      }
-    }
+    if (plan_.elements[2].size > 0) bounds_of_volumes_and_surfaces(owned, bounds);
     for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i)
       for (const Index n : tags_.curve_edges[i])
         if (const Owner vertex = owner(tags_, n); vertex.dim == 0) bounds(1, tags_.edge_curve[i], vertex.id);
@@ -302,7 +314,6 @@ class Planner {
   const bool split_;
   GmshPlan plan_;
   std::array<int, 4> next_tag_ = {1, 1, 1, 1};
-  std::array<std::vector<Index>, 4> item_;  // per element: hex, side, curve edge
   std::array<std::vector<int>, 4> group_ids_;
   std::array<Classes, 4> groups_of_item_;
   PlannedSides sides_;
@@ -317,7 +328,7 @@ PlannedEntity& GmshPlan::entity(int dim, int tag) {
 
 std::size_t GmshPlan::n_elements() const {
   std::size_t n = 0;
-  for (const auto& of_dim : elements) n += of_dim.tags.size();
+  for (const auto& of_dim : elements) n += of_dim.size;
   return n;
 }
 

@@ -20,10 +20,19 @@ struct PlannedEntity {
 
 /// Elements of one dimension, grouped by entity, entities ascending.
 struct PlannedElements {
-  std::vector<std::int64_t> tags;
-  std::vector<Index> nodes;  ///< Gmsh's corner order
-  std::vector<int> entity;
-  std::vector<int> physical;  ///< first group of each, 0 none
+  /// Neighbours on one entity with the same first group, 0 none. Never empty.
+  struct Run {
+    int entity = 0;
+    int physical = 0;
+    std::size_t first = 0, n = 0;
+  };
+  std::vector<Run> runs;
+  std::size_t size = 0;
+  std::vector<Index> items;    ///< which hex, side, curve edge or point each of them is; empty: 0, 1, 2, ...
+  std::vector<Index> nodes;    ///< of those that are no hexes, Gmsh's order
+  std::int64_t first_tag = 1;  ///< of those that are no hexes: they are counted from here
+
+  Index item(std::size_t k) const { return items.empty() ? static_cast<Index>(k) : items[k]; }
 };
 
 struct PlannedGroup {
@@ -41,6 +50,10 @@ struct GmshPlan {
 
   PlannedEntity& entity(int dim, int tag);
   std::size_t n_elements() const;
+  /// Tag of element k of a dimension; hexes have their own ids.
+  std::int64_t tag(const Mesh& mesh, int dim, std::size_t k) const {
+    return dim == 3 ? id_of(mesh.hex_ids, elements[3].item(k)) : elements[dim].first_tag + static_cast<std::int64_t>(k);
+  }
 };
 
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).

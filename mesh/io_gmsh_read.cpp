@@ -128,16 +128,22 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
   return -1;
 }
 
-void read_gmsh_nodes(GmshContents& contents, GmshSource& source, int dim, std::int64_t tag, const char* at) {
-  auto& nodes = contents.elements[dim].nodes;
-  const int n = gmsh_type(gmsh_kept[dim])->n_nodes;
-  for (int c = 0; c < n; ++c) {
-    const std::int64_t id = contents.version == 41 ? source.large("a node") : source.integer("a node");
-    const Index node = contents.nodes.find(id);
-    if (node < 0)
-      source.cursor.fail_at(
-          at, "element " + std::to_string(tag) + " names node " + std::to_string(id) + ", which is not there");
-    nodes.push_back(node);
+void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std::int64_t tag,
+                      std::span<const std::int64_t> node_ids, const char* at) {
+  const auto node = [&](std::int64_t id) {
+    const Index index = contents.nodes.find(id);
+    if (index < 0)
+      cursor.fail_at(at,
+                     "element " + std::to_string(tag) + " names node " + std::to_string(id) + ", which is not there");
+    return index;
+  };
+  contents.elements[dim].tags.push_back(tag);
+  if (dim == 3) {
+    Hex hex;
+    for (int c = 0; c < 8; ++c) hex[c] = node(node_ids[c]);
+    contents.hexes.push_back(in_file_order(hex));
+  } else {
+    for (const std::int64_t id : node_ids) contents.elements[dim].nodes.push_back(node(id));
   }
 }
 

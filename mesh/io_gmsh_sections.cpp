@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "hextwist/mesh/io_gmsh_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
@@ -23,7 +24,7 @@ void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametr
   const std::vector<Run> runs = {{0, cursor.at}};
   for (std::size_t i = 0; i < n; ++i) {
     ids[i] = source.integer("a node id");
-    for (double& x : contents.points[i]) x = source.coordinate();
+    source.coordinates(coordinates(std::span(contents.points).subspan(i, 1)));
     if (!parametric) continue;
     // The entity and its parameters: the elements say it better.
     const int dim = source.integer("a dimension");
@@ -45,10 +46,12 @@ void add_element(GmshContents& contents, GmshSource& source, int dim, int tag, i
                  const char* at) {
   GmshElements& elements = contents.elements[dim];
   begin_run(elements, at);
-  elements.tags.push_back(tag);
   elements.physical.push_back(positive(physical));
   elements.entity.push_back(std::max(entity, 0));
-  read_gmsh_nodes(contents, source, dim, tag, at);
+  std::array<std::int64_t, 8> ids;
+  const auto nodes = std::span(ids).first(static_cast<std::size_t>(gmsh_type(gmsh_kept[dim])->n_nodes));
+  for (std::int64_t& id : nodes) id = source.integer("a node");
+  add_gmsh_element(contents, source.cursor, dim, tag, nodes, at);
 }
 
 }  // namespace
@@ -150,9 +153,10 @@ void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
   source.large("the highest node id");
   std::vector<std::int64_t> ids;
   std::vector<Run> runs;
-  ids.reserve(n);
-  contents.points.reserve(n);
-  contents.node_entity.reserve(n);
+  resize_large(ids, n);
+  resize_large(contents.points, n);
+  reserve_large(contents.node_entity, n);
+  std::size_t done = 0;
   bool any_parametric = false;
   cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "node blocks");
   for (std::int64_t block = 0; block < n_blocks; ++block) {
@@ -162,30 +166,29 @@ void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
     const int parametric = source.integer("whether nodes have parameters");
     if (dim < 0 || dim > 3) cursor.fail_at(at, "nodes on an entity of dimension " + std::to_string(dim));
     const auto size = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
-    if (size > n - ids.size()) cursor.fail_at(at, "more nodes than the header says");
+    if (size > n - done) cursor.fail_at(at, "more nodes than the header says");
     cursor.skip_text_blanks();
-    runs.push_back({ids.size(), cursor.at});
-    for (std::size_t i = 0; i < size; ++i) ids.push_back(source.large("a node id"));
-    for (std::size_t i = 0; i < size; ++i) {
-      Vec3& point = contents.points.emplace_back();
-      for (double& x : point) x = source.coordinate();
-      if (parametric) {
-        std::array<double, 3> u;
+    runs.push_back({done, cursor.at});
+    const auto block_ids = std::span(ids).subspan(done, size);
+    const auto points = std::span(contents.points).subspan(done, size);
+    source.large_ones(block_ids, "a node id");
+    if (!parametric) {
+      source.coordinates(coordinates(points));
+    } else {
+      any_parametric = any_parametric || dim == 1 || dim == 2;
+      if (any_parametric) contents.node_parameters.resize(n);
+      for (std::size_t i = 0; i < size; ++i) {
+        source.coordinates(coordinates(points.subspan(i, 1)));
+        std::array<double, 3> u{};
         for (int k = 0; k < dim; ++k) u[k] = source.real("a parameter");
-        if (dim == 1 || dim == 2) {
-          if (!any_parametric) contents.node_parameters.resize(contents.points.size());
-          any_parametric = true;
-          contents.node_parameters.resize(contents.points.size());
-          contents.node_parameters.back().u = u[0];
-          if (dim == 2) contents.node_parameters.back().v = u[1];
-        }
+        if (dim == 1 || dim == 2) contents.node_parameters[done + i].u = u[0];
+        if (dim == 2) contents.node_parameters[done + i].v = u[1];
       }
     }
     contents.node_entity.insert(contents.node_entity.end(), size, entity > 0 ? Owner{dim, entity} : Owner{});
+    done += size;
   }
-  if (ids.size() != n)
-    cursor.fail("the header says " + std::to_string(n) + " nodes, there are " + std::to_string(ids.size()));
-  if (any_parametric) contents.node_parameters.resize(n);
+  if (done != n) cursor.fail("the header says " + std::to_string(n) + " nodes, there are " + std::to_string(done));
   contents.nodes = Ids(std::move(ids), "node", cursor, runs);
   contents.nodes.sort(contents.points);
   contents.nodes.sort(contents.node_entity);
@@ -218,20 +221,20 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
     if (dim >= 0) {
       GmshElements& elements = contents.elements[dim];
       begin_run(elements, first);
-      elements.tags.reserve(elements.tags.size() + size);
-      elements.nodes.reserve(elements.nodes.size() + size * n_nodes);
+      const std::size_t most = n - done + size + elements.tags.size();  // however many blocks follow
+      reserve_large(elements.tags, most);
+      reserve_large(elements.entity, most);
+      if (dim == 3) reserve_large(contents.hexes, most);
       elements.entity.insert(elements.entity.end(), size, entity_dim == dim ? std::max(entity, 0) : 0);
     }
+    // Tag and nodes.
+    std::array<std::int64_t, 1 + most_gmsh_nodes> row;
+    const auto numbers = std::span(row).first(1 + static_cast<std::size_t>(n_nodes));
     for (std::size_t i = 0; i < size; ++i) {
       cursor.skip_text_blanks();
       at = cursor.at;
-      const auto tag = source.large("an element");
-      if (dim >= 0) {
-        contents.elements[dim].tags.push_back(tag);
-        read_gmsh_nodes(contents, source, dim, tag, at);
-      } else {
-        for (int c = 0; c < n_nodes; ++c) source.large("a node");
-      }
+      source.large_ones(numbers, "an element or a node");
+      if (dim >= 0) add_gmsh_element(contents, cursor, dim, row[0], numbers.subspan(1), at);
     }
   }
   if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));

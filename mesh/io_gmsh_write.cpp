@@ -8,6 +8,7 @@
 
 #include "hextwist/mesh/io_gmsh_internal.h"
 #include "hextwist/mesh/io_gmsh_plan_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 namespace {
@@ -23,6 +24,15 @@ struct Writer {
       out.put(x);
     else
       out << x << ' ';
+  }
+  /// row(0) .. row(n - 1), a std::array each: a line of text.
+  template <class Row>
+  void rows(std::size_t n, Row&& row) const {
+    if (binary) return out.put_each(n, row);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const auto x : row(i)) value(x);
+      end_line();
+    }
   }
   void integer(int x) const { value(std::int32_t{x}); }
   void large(std::size_t x) const { value(static_cast<std::int64_t>(x)); }
@@ -103,76 +113,136 @@ void write_entities_4(const Writer& to, const GmshPlan& plan) {
   to.out << "$EndEntities\n";
 }
 
-void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& association, const GmshPlan& plan) {
-  // Nodes by owner; those of nobody on an entity that says so.
-  std::vector<std::pair<Owner, Index>> order(mesh.points.size());
-  for (Index n = 0; n < mesh.n_nodes(); ++n) {
-    const Owner at = owner(association, n);
-    order[n] = {at ? at : Owner{3, plan.nobody}, n};
+/// Nodes by owner, those of nobody on an entity that says so; and where each owner's begin.
+struct NodeOrder {
+  struct Run {
+    Owner owner;
+    std::size_t first = 0, n = 0;
+  };
+  std::vector<Run> runs;
+  std::vector<Index> nodes;  ///< empty: 0, 1, 2, ...
+};
+NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const GmshPlan& plan) {
+  NodeOrder order;
+  std::array<std::size_t, 4> start{};  // of each dimension's entities among all
+  for (int dim = 0; dim < 4; ++dim) {
+    start[dim] = order.runs.size();
+    for (const PlannedEntity& entity : plan.entities[dim]) order.runs.push_back({{dim, entity.tag}, 0, 0});
   }
-  if (!std::ranges::is_sorted(order)) std::ranges::sort(order);
-  std::vector<std::size_t> first;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (i == 0 || order[i].first != order[i - 1].first) first.push_back(i);
+  std::vector<int> run_of_node;
+  resize_large(run_of_node, mesh.points.size());
+  std::size_t run = 0;
+  for (Index n = 0; n < mesh.n_nodes(); ++n) {
+    const Owner at = owner(association, n), of = at ? at : Owner{3, plan.nobody};
+    if (n == 0 || of != order.runs[run].owner) {
+      const auto& entities = plan.entities[of.dim];
+      run = start[of.dim] + static_cast<std::size_t>(
+                                std::ranges::lower_bound(entities, of.id, {}, &PlannedEntity::tag) - entities.begin());
+    }
+    run_of_node[n] = static_cast<int>(run);
+    ++order.runs[run].n;
+  }
+  std::vector<std::size_t> next;
+  std::size_t sum = 0;
+  for (auto& one : order.runs) {
+    one.first = sum;
+    next.push_back(sum);
+    sum += one.n;
+  }
+  std::erase_if(order.runs, [](const auto& one) { return one.n == 0; });
+  if (order.runs.size() < 2) return order;
+  resize_large(order.nodes, mesh.points.size());
+  for (Index n = 0; n < mesh.n_nodes(); ++n) order.nodes[next[run_of_node[n]]++] = n;
+  return order;
+}
+
+void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& association, const GmshPlan& plan) {
+  const NodeOrder order = nodes_by_owner(mesh, association, plan);
   to.out << "$Nodes\n";
-  to.large(first.size());
-  to.large(order.size());
+  to.large(order.runs.size());
+  to.large(mesh.points.size());
   to.id(mesh.points.empty() ? 0 : node_id(mesh, 0));
   to.id(mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1));
   to.end_line();
-  first.push_back(order.size());
-  for (std::size_t block = 0; block + 1 < first.size(); ++block) {
-    const auto nodes = std::span(order).subspan(first[block], first[block + 1] - first[block]);
-    to.integer(nodes[0].first.dim);
-    to.integer(nodes[0].first.id);
+  for (const auto& run : order.runs) {
+    to.integer(run.owner.dim);
+    to.integer(run.owner.id);
     to.integer(0);
-    to.large(nodes.size());
+    to.large(run.n);
     to.end_line();
-    for (const auto& [at, n] : nodes) {
-      to.id(node_id(mesh, n));
-      to.end_line();
-    }
-    for (const auto& [at, n] : nodes) {
-      for (const double x : mesh.points[n]) to.real(x);
-      to.end_line();
-    }
+    const auto node = [&](std::size_t i) {
+      return order.nodes.empty() ? static_cast<Index>(i) : order.nodes[run.first + i];
+    };
+    to.rows(run.n, [&](std::size_t i) { return std::array{id_of(mesh.node_ids, node(i))}; });
+    to.rows(run.n, [&](std::size_t i) {
+      const Vec3& p = mesh.points[node(i)];
+      return std::array{p.x(), p.y(), p.z()};
+    });
   }
   if (to.binary) to.out << '\n';
   to.out << "$EndNodes\n";
 }
 
+/// Ids of the nodes of element k, in Gmsh's order.
+template <int dim>
+auto element_node_ids(const Mesh& mesh, const PlannedElements& elements, std::size_t k) {
+  constexpr std::size_t n = dim == 3 ? 8 : dim == 2 ? 4 : dim + 1;
+  std::array<Index, n> nodes;
+  if constexpr (dim == 3)
+    nodes = in_file_order(mesh.hexes[elements.item(k)]);
+  else
+    std::ranges::copy_n(&elements.nodes[n * k], n, nodes.begin());
+  std::array<std::int64_t, n> ids;
+  for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes[c]);
+  return ids;
+}
+
+template <int dim>
+void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+  const PlannedElements& elements = plan.elements[dim];
+  for (const auto& run : elements.runs) {
+    to.integer(dim);
+    to.integer(run.entity);
+    to.integer(gmsh_kept[dim]);
+    to.large(run.n);
+    to.end_line();
+    to.rows(run.n, [&](std::size_t i) {
+      const std::size_t k = run.first + i;
+      const auto ids = element_node_ids<dim>(mesh, elements, k);
+      std::array<std::int64_t, ids.size() + 1> row;
+      row[0] = plan.tag(mesh, dim, k);
+      std::ranges::copy(ids, row.begin() + 1);
+      return row;
+    });
+  }
+}
+
+/// Lowest and highest tag of an element, 0 where there are none. Tags ascend along the items.
+std::pair<std::int64_t, std::int64_t> element_tags(const Mesh& mesh, const GmshPlan& plan) {
+  std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0;
+  const auto add = [&](std::int64_t first, std::int64_t last) {
+    low = std::min(low, first), high = std::max(high, last);
+  };
+  if (!mesh.hexes.empty()) add(hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1));
+  for (int dim = 0; dim < 3; ++dim)
+    if (const std::size_t n = plan.elements[dim].size; n > 0) add(plan.tag(mesh, dim, 0), plan.tag(mesh, dim, n - 1));
+  return {high == 0 ? 0 : low, high};
+}
+
 void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
   std::size_t n_blocks = 0;
-  std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0;
-  for (const auto& elements : plan.elements) {
-    for (std::size_t i = 0; i < elements.entity.size(); ++i)
-      n_blocks += i == 0 || elements.entity[i] != elements.entity[i - 1];
-    for (const auto tag : elements.tags) low = std::min(low, tag), high = std::max(high, tag);
-  }
+  for (const auto& elements : plan.elements) n_blocks += elements.runs.size();
+  const auto [low, high] = element_tags(mesh, plan);
   to.out << "$Elements\n";
   to.large(n_blocks);
   to.large(plan.n_elements());
-  to.id(high == 0 ? 0 : low);
+  to.id(low);
   to.id(high);
   to.end_line();
-  for (int dim = 0; dim < 4; ++dim) {
-    const PlannedElements& elements = plan.elements[dim];
-    const auto n_nodes = static_cast<std::size_t>(gmsh_type(gmsh_kept[dim])->n_nodes);
-    for (std::size_t i = 0; i < elements.tags.size();) {
-      std::size_t end = i;
-      while (end < elements.tags.size() && elements.entity[end] == elements.entity[i]) ++end;
-      to.integer(dim);
-      to.integer(elements.entity[i]);
-      to.integer(gmsh_kept[dim]);
-      to.large(end - i);
-      to.end_line();
-      for (; i < end; ++i) {
-        to.id(elements.tags[i]);
-        for (std::size_t k = 0; k < n_nodes; ++k) to.id(node_id(mesh, elements.nodes[n_nodes * i + k]));
-        to.end_line();
-      }
-    }
-  }
+  write_elements_4<0>(to, mesh, plan);
+  write_elements_4<1>(to, mesh, plan);
+  write_elements_4<2>(to, mesh, plan);
+  write_elements_4<3>(to, mesh, plan);
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -188,29 +258,40 @@ void write_nodes_2(const Writer& to, const Mesh& mesh) {
   to.out << "$EndNodes\n";
 }
 
+template <int dim>
+void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+  const PlannedElements& elements = plan.elements[dim];
+  if (to.binary && elements.size > 0) {
+    to.integer(gmsh_kept[dim]);
+    to.integer(static_cast<int>(elements.size));
+    to.integer(2);
+  }
+  for (const auto& run : elements.runs) {
+    const auto row = [&]<std::size_t n_head>(std::size_t k, const std::array<int, n_head>& head) {
+      const auto ids = element_node_ids<dim>(mesh, elements, k);
+      std::array<std::int32_t, n_head + ids.size()> result;
+      std::ranges::copy(head, result.begin());
+      for (std::size_t c = 0; c < ids.size(); ++c) result[n_head + c] = static_cast<int>(ids[c]);
+      return result;
+    };
+    const auto tag = [&](std::size_t k) { return static_cast<int>(plan.tag(mesh, dim, k)); };
+    if (to.binary)
+      to.rows(run.n, [&](std::size_t i) {
+        return row(run.first + i, std::array{tag(run.first + i), run.physical, run.entity});
+      });
+    else
+      to.rows(run.n, [&](std::size_t i) {
+        return row(run.first + i, std::array{tag(run.first + i), gmsh_kept[dim], 2, run.physical, run.entity});
+      });
+  }
+}
+
 void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
   to.out << "$Elements\n" << plan.n_elements() << '\n';
-  for (int dim = 0; dim < 4; ++dim) {
-    const PlannedElements& elements = plan.elements[dim];
-    const auto n_nodes = static_cast<std::size_t>(gmsh_type(gmsh_kept[dim])->n_nodes);
-    if (to.binary && !elements.tags.empty()) {
-      to.integer(gmsh_kept[dim]);
-      to.integer(static_cast<int>(elements.tags.size()));
-      to.integer(2);
-    }
-    for (std::size_t i = 0; i < elements.tags.size(); ++i) {
-      to.integer(static_cast<int>(elements.tags[i]));
-      if (!to.binary) {
-        to.integer(gmsh_kept[dim]);
-        to.integer(2);
-      }
-      to.integer(elements.physical[i]);
-      to.integer(elements.entity[i]);
-      for (std::size_t k = 0; k < n_nodes; ++k)
-        to.integer(static_cast<int>(node_id(mesh, elements.nodes[n_nodes * i + k])));
-      to.end_line();
-    }
-  }
+  write_elements_2<0>(to, mesh, plan);
+  write_elements_2<1>(to, mesh, plan);
+  write_elements_2<2>(to, mesh, plan);
+  write_elements_2<3>(to, mesh, plan);
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -257,10 +338,8 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
     write_parts(out, plan);
     write_elements_4(to, mesh, plan);
   } else {
-    std::int64_t high = mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1);
-    for (const auto& elements : plan.elements)
-      if (!elements.tags.empty()) high = std::max(high, std::ranges::max(elements.tags));
-    check_int32(high, "version 2.2 of ");
+    check_int32(mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1), "version 2.2 of ");
+    check_int32(element_tags(mesh, plan).second, "version 2.2 of ");
     write_nodes_2(to, mesh);
     write_parts(out, plan);
     write_elements_2(to, mesh, plan);

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/io_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 
@@ -58,12 +59,18 @@ std::vector<std::int64_t> Ids::stored() const {
 
 Classes classify(const std::vector<int>& key_of_item, std::span<const std::span<const Index>> groups) {
   Classes result;
-  result.key = key_of_item;
+  // Neighbours mostly have the same key.
+  for (std::size_t i = 0; i < key_of_item.size(); ++i)
+    if (i == 0 || key_of_item[i] != key_of_item[i - 1]) result.key.push_back(key_of_item[i]);
   make_set(result.key);
   result.groups.resize(result.key.size());
-  result.of_item.resize(key_of_item.size());
-  for (std::size_t i = 0; i < key_of_item.size(); ++i)
-    result.of_item[i] = static_cast<int>(std::ranges::lower_bound(result.key, key_of_item[i]) - result.key.begin());
+  resize_large(result.of_item, key_of_item.size());
+  int of_key = 0;
+  for (std::size_t i = 0; i < key_of_item.size(); ++i) {
+    if (i == 0 || key_of_item[i] != key_of_item[i - 1])
+      of_key = static_cast<int>(std::ranges::lower_bound(result.key, key_of_item[i]) - result.key.begin());
+    result.of_item[i] = of_key;
+  }
   std::vector<int> moved;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     moved.assign(result.key.size(), -1);

@@ -137,6 +137,26 @@ constexpr int face_of_file_corners(const std::array<int, 4>& corners) {
   return -1;
 }
 
+// ---- points and hexes ----
+
+/// node_id() and hex_id() for loops over everything.
+inline std::int64_t id_of(std::span<const std::int64_t> ids, Index index) {
+  return ids.empty() ? std::int64_t{index} + 1 : ids[index];
+}
+/// x y z of all points, in their memory.
+inline std::span<const double> coordinates(std::span<const Vec3> points) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return {reinterpret_cast<const double*>(points.data()), 3 * points.size()};
+}
+inline std::span<double> coordinates(std::span<Vec3> points) {
+  return {reinterpret_cast<double*>(points.data()), 3 * points.size()};
+}
+/// Corners in the order of the files, and back: the same permutation.
+constexpr Hex in_file_order(const Hex& hex) {
+  return {hex[0], hex[1], hex[3], hex[2], hex[4], hex[5], hex[7], hex[6]};
+}
+static_assert(in_file_order({0, 1, 2, 3, 4, 5, 6, 7}) == file_corner);
+
 // ---- fields ----
 
 /// Fields for formats that know scalars only: a vector's components become name_x name_y name_z, any other number of

@@ -49,10 +49,7 @@ void ReferenceComments::add(std::string_view comment, const Cursor& cursor) {
   constexpr std::string_view mark = " hextwist ";
   if (!comment.starts_with(mark)) return;
   ours = true;
-  Bytes bytes{std::string(cursor.name), nullptr, 0};
-  Cursor words(bytes);
-  words.at = words.begin = comment.data() + mark.size();
-  words.end = comment.data() + comment.size();
+  Cursor words(comment.substr(mark.size()), cursor.name);
   const std::string kind(words.word());
   if (kind == "mesh") return;
   const int id = words.small("an id");

@@ -12,10 +12,13 @@ template <std::size_t n>
 struct ByLowestNode {
   std::vector<std::array<Index, n>> sorted;
   Lists of_node;
+  std::vector<char> marked;  // nodes of items
 
   ByLowestNode(std::span<const std::array<Index, n>> items, Index n_nodes) : sorted(items.begin(), items.end()) {
     of_node.first.assign(static_cast<std::size_t>(n_nodes) + 2, 0);
+    marked.assign(static_cast<std::size_t>(n_nodes), 0);
     for (auto& nodes : sorted) {
+      for (const Index node : nodes) marked[node] = 1;
       std::ranges::sort(nodes);
       ++of_node.first[nodes[0] + 2];
     }
@@ -26,6 +29,12 @@ struct ByLowestNode {
     of_node.first.pop_back();
   }
 
+  /// False where no item can be one of this hex: the quick answer, for most hexes.
+  bool near(const Hex& hex) const {
+    int n_marked = 0;
+    for (const Index node : hex) n_marked += marked[node];
+    return n_marked >= static_cast<int>(n);
+  }
   /// Calls f(item) for every item with these nodes.
   template <class F>
   void find(std::array<Index, n> nodes, F&& f) const {
@@ -46,13 +55,15 @@ bool turns_the_same_way(const Quad& a, const Quad& b) {
 }  // namespace
 
 std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles) {
+  if (cycles.empty()) return {};
   const ByLowestNode<4> quads(cycles, mesh.n_nodes());
   // Best candidate per quad: 6 * hex + face, plus a lot where the cycle turns inwards; the lowest wins.
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   constexpr std::int64_t against = std::int64_t{1} << 60;
   std::vector<std::int64_t> best(cycles.size(), none);
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    for (Index h = begin; h < end; ++h)
+    for (Index h = begin; h < end; ++h) {
+      if (!quads.near(mesh.hexes[h])) continue;
       for (int f = 0; f < n_hex_faces; ++f) {
         const Quad outward = face_node_cycle(mesh.hexes[h], f);
         quads.find(outward, [&](Index q) {
@@ -60,6 +71,7 @@ std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles)
           atomic_min(best[q], turns_the_same_way(cycles[q], outward) ? candidate : candidate + against);
         });
       }
+    }
   });
   std::vector<Side> sides(cycles.size());
   for (std::size_t q = 0; q < cycles.size(); ++q)
@@ -114,13 +126,16 @@ PlannedSides plan_sides(const Mesh& mesh, const Association& association) {
 }
 
 std::vector<char> are_edges(const Mesh& mesh, std::span<const Edge> pairs) {
+  if (pairs.empty()) return {};
   const ByLowestNode<2> edges(pairs, mesh.n_nodes());
   std::vector<char> found(pairs.size(), 0);
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    for (Index h = begin; h < end; ++h)
+    for (Index h = begin; h < end; ++h) {
+      if (!edges.near(mesh.hexes[h])) continue;
       for (int e = 0; e < n_hex_edges; ++e)
         edges.find({mesh.hexes[h][edge_corner(e, 0)], mesh.hexes[h][edge_corner(e, 1)]},
                    [&](Index i) { std::atomic_ref<char>(found[i]).store(1, std::memory_order_relaxed); });
+    }
   });
   return found;
 }

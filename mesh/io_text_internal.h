@@ -13,9 +13,19 @@
 
 namespace hextwist::io {
 
+template <class T>
+T with_bytes_reversed(const T& value) {
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  std::ranges::reverse(bytes);
+  return std::bit_cast<T>(bytes);
+}
+
 class Cursor {
  public:
-  explicit Cursor(const Bytes& bytes) : at(bytes.data.get()), begin(at), end(at + bytes.size), name(bytes.name) {}
+  explicit Cursor(const Bytes& bytes) : Cursor({bytes.data.get(), bytes.size}, bytes.name) {}
+  /// Part of a file, or what was decoded from one. `file` must live on.
+  Cursor(std::string_view text, std::string_view file)
+      : at(text.data()), begin(at), end(at + text.size()), name(file) {}
 
   const char* at;
   const char* begin;
@@ -67,12 +77,20 @@ class Cursor {
   template <class T>
   T raw(std::string_view what) {
     if (left() < sizeof(T)) fail_truncated(what);
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at, sizeof(T));
+    T value;
+    std::memcpy(&value, at, sizeof(T));
     at += sizeof(T);
+    return swapped ? with_bytes_reversed(value) : value;
+  }
+
+  /// The same for as many as there is room for.
+  template <class T>
+  void raw_all(std::span<T> to, std::string_view what) {
+    if (to.size_bytes() > left()) fail_truncated(what);
+    std::memcpy(to.data(), at, to.size_bytes());
+    at += to.size_bytes();
     if (swapped)
-      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
-    return std::bit_cast<T>(bytes);
+      for (T& value : to) value = with_bytes_reversed(value);
   }
 
   /// Checks a number of items against what is left of the file, each taking at least `bytes`, so that a broken count

@@ -13,10 +13,10 @@ class Reader {
   MeshFile result() {
     header();
     while (cursor_.more()) section();
-    if (out_.types.empty()) cursor_.fail_at(cursor_.end, "the file ends without cells");
-    if (out_.offsets.size() != out_.types.size() + 1)
+    if (out_.types.size() == 0) cursor_.fail_at(cursor_.end, "the file ends without cells");
+    if (out_.ends.size() != out_.types.size())
       cursor_.fail_at(cursor_.end, std::to_string(out_.types.size()) + " cell types for " +
-                                       std::to_string(out_.offsets.empty() ? 0 : out_.offsets.size() - 1) + " cells");
+                                       std::to_string(out_.ends.size()) + " cells");
     return assemble_vtk(std::move(out_), cursor_);
   }
 
@@ -66,11 +66,9 @@ class Reader {
     } else if (word == "CELLS") {
       cells(at);
     } else if (word == "CELL_TYPES") {
-      VtkArray array;
       const auto n = count("cell types");
       cursor_.line();
-      values("int", n, array);
-      for (const auto type : array.integers) out_.types.push_back(static_cast<int>(type));
+      values("int", n, out_.types);
     } else if (word == "CELL_DATA" || word == "POINT_DATA") {
       on_ = word == "CELL_DATA" ? VtkArray::On::cell : VtkArray::On::node;
       n_ = count("values");
@@ -95,32 +93,38 @@ class Reader {
       cursor_.word();
       const std::string offset_type(cursor_.word());
       cursor_.line();
-      VtkArray offsets;
-      values(offset_type, first, offsets);
+      values(offset_type, first, out_.ends);
       cursor_.skip_blanks();
       if (cursor_.word() != "CONNECTIVITY") cursor_.fail_at(at, "expected CONNECTIVITY after OFFSETS");
       const std::string type(cursor_.word());
       cursor_.line();
       values(type, second, array);
-      out_.offsets = std::move(offsets.integers);
-      out_.connectivity = std::move(array.integers);
-      const auto n = std::ssize(out_.connectivity);
-      if (!std::ranges::is_sorted(out_.offsets) || out_.offsets.empty() || out_.offsets[0] != 0 ||
-          out_.offsets.back() != n)
+      if (!array.is_integer() || !out_.ends.is_integer()) cursor_.fail_at(at, "the numbers of cells are no integers");
+      if (out_.ends.size() == 0 || out_.ends.integer(0) != 0 ||
+          out_.ends.integer(out_.ends.size() - 1) != static_cast<std::int64_t>(array.size()))
         cursor_.fail_at(at, "the offsets of cells do not fit");
+      out_.ends.drop_first();
+      out_.connectivity = std::move(array);
       return;
     }
     values("int", second, array);
-    out_.offsets = {0};
-    std::size_t i = 0;
-    for (std::size_t cell = 0; cell < first; ++cell) {
-      const std::int64_t n = i < array.integers.size() ? array.integers[i] : -1;
-      if (n < 0 || static_cast<std::size_t>(n) > array.integers.size() - i - 1)
-        cursor_.fail_at(at, "cell " + std::to_string(cell + 1) + " does not fit in the list of cells");
-      for (std::size_t k = 1; k <= static_cast<std::size_t>(n); ++k) out_.connectivity.push_back(array.integers[i + k]);
-      i += static_cast<std::size_t>(n) + 1;
-      out_.offsets.push_back(std::ssize(out_.connectivity));
-    }
+    std::vector<std::int64_t> nodes, ends;
+    array.visit([&](auto numbers) {
+      nodes.reserve(numbers.size());
+      ends.reserve(first);
+      std::size_t i = 0;
+      for (std::size_t cell = 0; cell < first; ++cell) {
+        const auto n = i < numbers.size() ? static_cast<std::int64_t>(numbers[i]) : -1;
+        if (n < 0 || static_cast<std::size_t>(n) > numbers.size() - i - 1)
+          cursor_.fail_at(at, "cell " + std::to_string(cell + 1) + " does not fit in the list of cells");
+        for (std::size_t k = 1; k <= static_cast<std::size_t>(n); ++k)
+          nodes.push_back(static_cast<std::int64_t>(numbers[i + k]));
+        i += static_cast<std::size_t>(n) + 1;
+        ends.push_back(std::ssize(nodes));
+      }
+    });
+    set_integers(out_.connectivity, nodes);
+    set_integers(out_.ends, ends);
   }
 
   /// Names have blanks and the like as %20.

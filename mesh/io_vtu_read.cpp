@@ -230,13 +230,9 @@ class Reader {
   }
 
   void from_text(const std::string& text, VtkType type, VtkArray& to) const {
-    Bytes bytes{std::string(cursor_.name) + ", array " + shown(to.name), nullptr, 0};
-    Cursor words(bytes);
-    words.begin = words.at = text.data();
-    words.end = text.data() + text.size();
-    VtkArray one;
-    read_vtk_text(words, type, 0, to);
-    while (words.more()) read_vtk_text(words, type, 1, to);
+    const std::string name = std::string(cursor_.name) + ", array " + shown(to.name);
+    Cursor words(text, name);
+    read_vtk_text(words, type, {}, to);
   }
 
   /// The bytes of an array: a size, then data; or, compressed, the number and sizes of blocks, then those.
@@ -259,13 +255,8 @@ class Reader {
       return part;
     };
     const auto number = [&](std::string_view bytes, std::size_t i) {
-      Bytes none{std::string(cursor_.name), nullptr, 0};
-      Cursor numbers(none);
-      numbers.binary = true;
-      numbers.swapped = swapped_;
-      numbers.begin = bytes.data();
-      numbers.at = bytes.data() + i * word;
-      numbers.end = bytes.data() + bytes.size();
+      Cursor numbers = binary(bytes);
+      numbers.at += i * word;
       return wide_header_ ? numbers.raw<std::uint64_t>("a size") : std::uint64_t{numbers.raw<std::uint32_t>("a size")};
     };
     std::string data;
@@ -312,13 +303,15 @@ class Reader {
       }
       bytes = data;
     }
-    Bytes none{std::string(cursor_.name), nullptr, 0};
-    Cursor values(none);
-    values.binary = true;
-    values.swapped = swapped_;
-    values.begin = values.at = bytes.data();
-    values.end = bytes.data() + bytes.size();
+    Cursor values = binary(bytes);
     read_vtk_values(values, type, bytes.size() / vtk_size(type), to);
+    if (base64 || compressed_) to.keep();
+  }
+  Cursor binary(std::string_view bytes) const {
+    Cursor cursor(bytes, cursor_.name);
+    cursor.binary = true;
+    cursor.swapped = swapped_;
+    return cursor;
   }
 
   void finish() {
@@ -326,19 +319,16 @@ class Reader {
       cursor_.fail_at(cursor_.end,
                       std::to_string(points_.size()) + " coordinates for " + std::to_string(n_points_) + " points");
     out_.points = vtk_points(points_, cursor_);
-    const auto cells = [&](const char* name) -> std::vector<std::int64_t>& {
+    const auto cells = [&](const char* name) -> VtkArray&& {
       VtkArray& array = cells_[name];
-      if (!array.integer && array.size() > 0) cursor_.fail_at(cursor_.end, std::string(name) + " are no integers");
-      return array.integers;
+      if (!array.is_integer()) cursor_.fail_at(cursor_.end, std::string(name) + " are no integers");
+      return std::move(array);
     };
-    out_.connectivity = std::move(cells("connectivity"));
-    out_.offsets = std::move(cells("offsets"));
-    for (const auto type : cells("types")) out_.types.push_back(static_cast<int>(type));
-    if (out_.types.size() != n_cells_ || out_.offsets.size() != n_cells_)
+    out_.connectivity = cells("connectivity");
+    out_.ends = cells("offsets");
+    out_.types = cells("types");
+    if (out_.types.size() != n_cells_ || out_.ends.size() != n_cells_)
       cursor_.fail_at(cursor_.end, "offsets or types do not fit " + std::to_string(n_cells_) + " cells");
-    out_.offsets.insert(out_.offsets.begin(), 0);
-    if (!std::ranges::is_sorted(out_.offsets) || out_.offsets.back() > std::ssize(out_.connectivity))
-      cursor_.fail_at(cursor_.end, "the offsets of cells do not fit");
   }
 
   Cursor cursor_;

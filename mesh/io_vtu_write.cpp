@@ -4,6 +4,7 @@
 // What VTK has no place for is kept as field data, named "hextwist:...": groups with their members (0-based), edges
 // on curves, faces on surfaces. "hextwist:made <names>" lists the arrays that are made here and are no fields.
 #include <functional>
+#include <span>
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/io_internal.h"
@@ -41,35 +42,50 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Arrays of a file: text is written where they are declared, binary data after all declarations.
+/// Numbers of one value of an array: itself, or those of a std::array.
+template <class T>
+struct Numbers {
+  using Type = T;
+  static std::span<const T> of(const T& value) { return {&value, 1}; }
+};
+template <class T, std::size_t n>
+struct Numbers<std::array<T, n>> {
+  using Type = T;
+  static std::span<const T> of(const std::array<T, n>& value) { return value; }
+};
+
+/// Arrays of a file: text is written where they are declared, binary data after all declarations. What an array is
+/// made of must live until finish().
 class Arrays {
  public:
   Arrays(Output& out, bool binary) : out_(out), binary_(binary) {}
 
-  /// value(i) for i = 0 .. n * components - 1. What `value` refers to must live until finish().
-  template <class T, class F>
-  void add(const std::string& name, std::size_t n, int components, F value, const std::string& more = "") {
-    out_ << "<DataArray type=\"" << vtk_type<T>() << "\" Name=\"" << escaped(name) << "\" NumberOfComponents=\""
-         << components << "\"" << more;
-    const std::size_t total = n * static_cast<std::size_t>(components);
-    if (binary_) {
-      out_ << " format=\"appended\" offset=\"" << offset_ << "\"/>\n";
-      offset_ += sizeof(std::uint64_t) + total * sizeof(T);
-      appended_.emplace_back([this, total, value] {
-        out_.put(static_cast<std::uint64_t>(total * sizeof(T)));
-        for (std::size_t i = 0; i < total; ++i) out_.put(static_cast<T>(value(i)));
+  /// Numbers as they lie in memory. `more`: attributes.
+  template <class T>
+  void add(const std::string& name, std::span<const T> values, int components, const std::string& more = "") {
+    declare<T>(name, values.size(), components, more);
+    if (binary_)
+      appended_.emplace_back([this, values] { out_.put_all(values); });
+    else
+      text([&](auto&& put) {
+        for (const T value : values) put(value);
       });
-      return;
-    }
-    out_ << " format=\"ascii\">\n";
-    for (std::size_t i = 0; i < total; ++i) {
-      if constexpr (std::is_same_v<T, double>)
-        out_ << static_cast<double>(value(i));
-      else
-        out_ << static_cast<std::int64_t>(value(i));
-      out_ << ((i + 1) % 12 == 0 ? '\n' : ' ');
-    }
-    out_ << "\n</DataArray>\n";
+  }
+  /// value(0) .. value(n - 1), made when they are written; a number or a std::array of them each.
+  template <class F>
+  void add_each(const std::string& name, std::size_t n, int components, F value, const std::string& more = "") {
+    using Value = decltype(value(n));
+    using T = typename Numbers<Value>::Type;
+    declare<T>(name, n * sizeof(Value) / sizeof(T), components, more);
+    if (binary_)
+      appended_.emplace_back([this, n, value] { out_.put_each(n, value); });
+    else
+      text([&](auto&& put) {
+        for (std::size_t i = 0; i < n; ++i) {
+          const Value one = value(i);
+          for (const T number : Numbers<Value>::of(one)) put(number);
+        }
+      });
   }
 
   void finish() {
@@ -80,18 +96,72 @@ class Arrays {
   }
 
  private:
+  template <class T>
+  void declare(const std::string& name, std::size_t n_numbers, int components, const std::string& more) {
+    out_ << "<DataArray type=\"" << vtk_type<T>() << "\" Name=\"" << escaped(name) << "\" NumberOfComponents=\""
+         << components << "\"" << more << (binary_ ? " format=\"appended\"" : " format=\"ascii\">\n");
+    if (!binary_) return;
+    out_ << " offset=\"" << offset_ << "\"/>\n";
+    const std::uint64_t n_bytes = n_numbers * sizeof(T);
+    offset_ += sizeof n_bytes + n_bytes;
+    appended_.emplace_back([this, n_bytes] { out_.put(n_bytes); });
+  }
+  template <class Each>
+  void text(Each&& each) {
+    std::size_t n = 0;
+    each([&](auto number) {
+      if constexpr (std::is_integral_v<decltype(number)>)
+        out_ << static_cast<std::int64_t>(number);
+      else
+        out_ << number;
+      out_ << (++n % 12 == 0 ? '\n' : ' ');
+    });
+    out_ << "\n</DataArray>\n";
+  }
+
   Output& out_;
   bool binary_;
   std::uint64_t offset_ = 0;
   std::vector<std::function<void()>> appended_;
 };
 
-/// Field data: a list of rows of integers.
-void add_rows(Arrays& arrays, const std::string& name, std::vector<std::int32_t> rows, int columns) {
-  const std::size_t n = rows.size() / static_cast<std::size_t>(columns);
-  arrays.add<std::int32_t>(
-      "hextwist:" + name, n, columns, [rows = std::move(rows)](std::size_t i) { return rows[i]; },
-      " NumberOfTuples=\"" + std::to_string(n) + "\"");
+/// Attributes of field data.
+std::string tuples(std::size_t n) {
+  return " NumberOfTuples=\"" + std::to_string(n) + "\"";
+}
+
+/// What VTK has no place for.
+void add_field_data(Arrays& arrays, const std::string& made_names, const Mesh& mesh, const Association& association) {
+  const auto name = [](const char* kind, const auto& group) {
+    return "hextwist:" + std::string(kind) + " " + std::to_string(group.id) + " " + group.name;
+  };
+  arrays.add_each(
+      "hextwist:made" + made_names, 1, 1, [](std::size_t) { return std::int32_t{1}; }, tuples(1));
+  for (const Block& block : mesh.blocks)
+    arrays.add<Index>(name("block", block), block.hexes, 1, tuples(block.hexes.size()));
+  for (const NodeSet& set : mesh.node_sets)
+    arrays.add<Index>(name("nodeset", set), set.nodes, 1, tuples(set.nodes.size()));
+  for (const SideSet& set : mesh.side_sets)
+    arrays.add_each(
+        name("sideset", set), set.sides.size(), 2,
+        [&](std::size_t i) {
+          return std::array{set.sides[i].hex, set.sides[i].face};
+        },
+        tuples(set.sides.size()));
+  if (const auto& edges = association.curve_edges; !edges.empty())
+    arrays.add_each(
+        "hextwist:curve_edges", edges.size(), 3,
+        [&](std::size_t i) {
+          return std::array{edges[i][0], edges[i][1], association.edge_curve[i]};
+        },
+        tuples(edges.size()));
+  if (const auto& faces = association.surface_faces; !faces.empty())
+    arrays.add_each(
+        "hextwist:surface_faces", faces.size(), 3,
+        [&](std::size_t i) {
+          return std::array{faces[i].hex, faces[i].face, association.face_surface[i]};
+        },
+        tuples(faces.size()));
 }
 
 }  // namespace
@@ -122,69 +192,47 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
       << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
-  add_rows(arrays, "made" + names, {1}, 1);
-  for (const Block& block : mesh.blocks)
-    add_rows(arrays, "block " + std::to_string(block.id) + " " + block.name, block.hexes, 1);
-  for (const NodeSet& set : mesh.node_sets)
-    add_rows(arrays, "nodeset " + std::to_string(set.id) + " " + set.name, set.nodes, 1);
-  for (const SideSet& set : mesh.side_sets) {
-    std::vector<std::int32_t> rows;
-    for (const Side& side : set.sides) rows.insert(rows.end(), {side.hex, side.face});
-    add_rows(arrays, "sideset " + std::to_string(set.id) + " " + set.name, std::move(rows), 2);
-  }
-  std::vector<std::int32_t> rows;
-  for (std::size_t i = 0; i < association.curve_edges.size(); ++i)
-    rows.insert(rows.end(), {association.curve_edges[i][0], association.curve_edges[i][1], association.edge_curve[i]});
-  if (!rows.empty()) add_rows(arrays, "curve_edges", std::move(rows), 3);
-  rows.clear();
-  for (std::size_t i = 0; i < association.surface_faces.size(); ++i)
-    rows.insert(rows.end(),
-                {association.surface_faces[i].hex, association.surface_faces[i].face, association.face_surface[i]});
-  if (!rows.empty()) add_rows(arrays, "surface_faces", std::move(rows), 3);
-
+  add_field_data(arrays, names, mesh, association);
   out << "</FieldData>\n<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_hexes
       << "\">\n<PointData>\n";
   if (node_ids)
-    arrays.add<std::int64_t>("node_id", n_nodes, 1,
-                             [&](std::size_t i) { return node_id(mesh, static_cast<Index>(i)); });
+    arrays.add_each("node_id", n_nodes, 1, [&](std::size_t i) { return id_of(mesh.node_ids, static_cast<Index>(i)); });
   if (owners) {
-    arrays.add<std::int32_t>("owner_dim", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].dim; });
-    arrays.add<std::int32_t>("owner_id", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].id; });
+    arrays.add_each("owner_dim", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].dim; });
+    arrays.add_each("owner_id", n_nodes, 1, [&](std::size_t i) { return association.node_owner[i].id; });
   }
-  const auto add_fields = [&](Field::On on, std::size_t n) {
+  const auto add_fields = [&](Field::On on) {
     for (const Field& field : mesh.fields)
-      if (field.on == on)
-        arrays.add<double>(field.name, n, field.components, [&field](std::size_t i) { return field.values[i]; });
+      if (field.on == on) arrays.add<double>(field.name, field.values, field.components);
   };
-  add_fields(Field::On::node, n_nodes);
+  add_fields(Field::On::node);
   out << "</PointData>\n<CellData>\n";
   if (hex_ids)
-    arrays.add<std::int64_t>("hex_id", n_hexes, 1, [&](std::size_t i) { return hex_id(mesh, static_cast<Index>(i)); });
-  if (volumes) arrays.add<std::int32_t>("volume", n_hexes, 1, [&](std::size_t i) { return association.hex_volume[i]; });
-  std::vector<std::int32_t> block_of_hex(block_ids ? n_hexes : 0, 0);
+    arrays.add_each("hex_id", n_hexes, 1, [&](std::size_t i) { return id_of(mesh.hex_ids, static_cast<Index>(i)); });
+  if (volumes) arrays.add<int>("volume", association.hex_volume, 1);
+  std::vector<int> block_of_hex(block_ids ? n_hexes : 0, 0);
   if (block_ids) {
     for (const Block& block : mesh.blocks)
       for (const Index h : block.hexes)
         if (block_of_hex[h] == 0) block_of_hex[h] = block.id;
-    arrays.add<std::int32_t>("block", n_hexes, 1, [&](std::size_t i) { return block_of_hex[i]; });
+    arrays.add<int>("block", block_of_hex, 1);
   }
   std::vector<double> shapes, jacobians;
   if (shape) {
     shapes = quality(Metric::shape, mesh);
-    arrays.add<double>("shape", n_hexes, 1, [&](std::size_t i) { return shapes[i]; });
+    arrays.add<double>("shape", shapes, 1);
   }
   if (jacobian) {
     jacobians = quality(Metric::scaled_jacobian, mesh);
-    arrays.add<double>("scaled_jacobian", n_hexes, 1, [&](std::size_t i) { return jacobians[i]; });
+    arrays.add<double>("scaled_jacobian", jacobians, 1);
   }
-  add_fields(Field::On::hex, n_hexes);
+  add_fields(Field::On::hex);
   out << "</CellData>\n<Points>\n";
-  arrays.add<double>("Points", n_nodes, 3, [&](std::size_t i) { return mesh.points[i / 3][static_cast<int>(i % 3)]; });
+  arrays.add<double>("Points", coordinates(mesh.points), 3);
   out << "</Points>\n<Cells>\n";
-  arrays.add<std::int32_t>("connectivity", 8 * n_hexes, 1,
-                           [&](std::size_t i) { return mesh.hexes[i >> 3][file_corner[i & 7]]; });
-  arrays.add<std::int64_t>("offsets", n_hexes, 1, [](std::size_t i) { return 8 * (static_cast<std::int64_t>(i) + 1); });
-  arrays.add<std::uint8_t>("types", n_hexes, 1, [](std::size_t) { return 12; });
+  arrays.add_each("connectivity", n_hexes, 1, [&](std::size_t h) { return in_file_order(mesh.hexes[h]); });
+  arrays.add_each("offsets", n_hexes, 1, [](std::size_t h) { return 8 * (static_cast<std::int64_t>(h) + 1); });
+  arrays.add_each("types", n_hexes, 1, [](std::size_t) { return std::uint8_t{12}; });
   out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
   arrays.finish();
   out << "</VTKFile>\n";

@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,13 +24,22 @@ inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std:
 #endif
 }
 
-/// list.resize(n) for an array that is about to be filled: allocated once, in huge pages where it is large.
+/// list.reserve(n) for an array that is about to be filled: in huge pages where it is large.
+template <class T>
+void reserve_large(std::vector<T>& list, std::size_t n) {
+  if (list.capacity() >= n) return;
+  list.reserve(n);
+  advise_huge_pages(list.data() + list.size(), (n - list.size()) * sizeof(T));
+}
+/// Room for n items more, at least doubled where there is too little.
+template <class T>
+void grow_large(std::vector<T>& list, std::size_t n) {
+  if (list.capacity() < list.size() + n) reserve_large(list, std::max(list.size() + n, 2 * list.capacity()));
+}
+/// list.resize(n) likewise.
 template <class T>
 void resize_large(std::vector<T>& list, std::size_t n) {
-  if (list.capacity() < n) {
-    list.reserve(n);
-    advise_huge_pages(list.data() + list.size(), (n - list.size()) * sizeof(T));
-  }
+  reserve_large(list, n);
   list.resize(n);
 }
 
@@ -37,8 +47,7 @@ void resize_large(std::vector<T>& list, std::size_t n) {
 template <class T>
 std::vector<T> copy_large(const std::vector<T>& list, std::size_t n) {
   std::vector<T> copy;
-  copy.reserve(n);
-  advise_huge_pages(copy.data(), n * sizeof(T));
+  reserve_large(copy, n);
   copy.assign(list.begin(), list.end());
   return copy;
 }
