@@ -96,18 +96,16 @@ class Reader {
     resize_large(map, n);
     if (n) check(ex_get_id_map(file_.id, EX_NODE_MAP, map.data()), "the node id map");
     resize_large(out_.mesh.points, n);
-    std::vector<double> values(exodus_piece);
-    for (int axis = 0; axis < 3; ++axis)
-      in_pieces(n, [&](std::size_t first, std::size_t size) {
-        std::array<double*, 3> x{};
-        x[axis] = values.data();
-        check(ex_get_partial_coord(file_.id, position(first), position(size - 1), x[0], x[1], x[2]), "coordinates");
-        for (std::size_t i = 0; i < size; ++i) {
-          out_.mesh.points[first + i][axis] = values[i];
-          if (!std::isfinite(values[i]))
-            fail("a coordinate of node " + std::to_string(map[first + i]) + " is not finite");
-        }
-      });
+    std::vector<double> x(exodus_piece), y(exodus_piece), z(exodus_piece);
+    in_pieces(n, [&](std::size_t first, std::size_t size) {
+      check(ex_get_partial_coord(file_.id, position(first), position(size - 1), x.data(), y.data(), z.data()),
+            "coordinates");
+      for (std::size_t i = 0; i < size; ++i) {
+        Vec3& point = out_.mesh.points[first + i];
+        point = Vec3(x[i], y[i], z[i]);
+        if (!point.allFinite()) fail("a coordinate of node " + std::to_string(map[first + i]) + " is not finite");
+      }
+    });
     nodes_ = Ids(std::move(map), "node", [&](std::size_t, const std::string& what) { fail(what); });
     nodes_.sort(out_.mesh.points);
     out_.mesh.node_ids = nodes_.stored();
@@ -122,14 +120,12 @@ class Reader {
 
   void blocks() {
     const auto n_elements = size(init_.num_elem, "elements");
-    Int64s map, hex_ids;
+    Int64s map;
     resize_large(map, n_elements);
     if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
-    reserve_large(hex_ids, n_elements);
     reserve_large(out_.mesh.hexes, n_elements);
     resize_large(hex_of_element_, n_elements);
     std::ranges::fill(hex_of_element_, -1);
-    quad_of_element_.assign(n_elements, -1);
     std::int64_t first = 0;
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
       ex_block block{};
@@ -138,11 +134,17 @@ class Reader {
       check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
       const auto n = static_cast<std::int64_t>(size(block.num_entry, "elements"));
       if (first + n > init_.num_elem) fail("the blocks have more elements than the file says");
-      read_block(block, std::span(map).subspan(first, n), first, hex_ids);
+      read_block(block, std::span(map).subspan(first, n), first);
       first += n;
     }
-    if (hex_ids.empty()) fail("there is no hex in the file");
-    hexes_ = Ids(std::move(hex_ids), "element", [&](std::size_t, const std::string& what) { fail(what); });
+    if (out_.mesh.hexes.empty()) fail("there is no hex in the file");
+    if (out_.mesh.hexes.size() < map.size()) {
+      std::size_t n_kept = 0;
+      for (std::size_t e = 0; e < map.size(); ++e)
+        if (hex_of_element_[e] >= 0) map[n_kept++] = map[e];
+      map.resize(n_kept);
+    }
+    hexes_ = Ids(std::move(map), "element", [&](std::size_t, const std::string& what) { fail(what); });
     hexes_.sort(out_.mesh.hexes);
     out_.mesh.hex_ids = hexes_.stored();
     if (!hexes_.place().empty())
@@ -161,16 +163,16 @@ class Reader {
     }
     quad_sides_ = oriented_sides(out_.mesh, quads_);
     for (const FileBlock& block : blocks_) {
-      if (block.hexes || block.n == 0 || quad_of_element_[block.first] < 0) continue;
+      if (block.hexes || block.n == 0 || quad(block.first) < 0) continue;
       const bool taken = std::ranges::find(out_.mesh.side_sets, block.id, &SideSet::id) != out_.mesh.side_sets.end();
       quad_sets_.push_back({taken ? 0 : group_id(block.id, "element block"), group_name(EX_ELEM_BLOCK, block.id), {}});
       for (std::int64_t e = block.first; e < block.first + block.n; ++e)
-        if (const Side side = quad_sides_[quad_of_element_[e]]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
+        if (const Side side = quad_sides_[quad(e)]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
       make_set(quad_sets_.back().sides);
     }
   }
 
-  void read_block(const ex_block& block, std::span<const std::int64_t> map, std::int64_t first, Int64s& hex_ids) {
+  void read_block(const ex_block& block, std::span<const std::int64_t> map, std::int64_t first) {
     const std::string name = "element block " + std::to_string(block.id);
     const std::string type = lower_case(block.topology);
     const auto starts = [&](std::string_view word) { return type.starts_with(word); };
@@ -191,6 +193,7 @@ class Reader {
                              name + ")");
       return;
     }
+    if (quads) quad_of_element_.resize(hex_of_element_.size(), -1);
     Ints nodes(exodus_piece * static_cast<std::size_t>(n_nodes));
     in_pieces(map.size(), [&](std::size_t begin, std::size_t size) {
       check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, position(begin), position(size - 1), nodes.data(),
@@ -204,8 +207,7 @@ class Reader {
           return nodes_.place().empty() ? corners[c] - 1 : nodes_.place()[corners[c] - 1];
         };
         if (hexes) {
-          hex_of_element_[element] = static_cast<Index>(hex_ids.size());
-          hex_ids.push_back(id);
+          hex_of_element_[element] = out_.mesh.n_hexes();
           Hex hex;
           for (std::size_t c = 0; c < 8; ++c) hex[c] = corner(c);
           out_.mesh.hexes.push_back(in_file_order(hex));
@@ -236,6 +238,8 @@ class Reader {
     return hex_of_element_[element - 1];
   }
 
+  Index quad(std::int64_t element) const { return quad_of_element_.empty() ? -1 : quad_of_element_[element]; }
+
   void side_sets() {
     for (const std::int64_t id : ids(EX_SIDE_SET, init_.num_side_sets)) {
       const std::string who = "side set " + std::to_string(id);
@@ -247,11 +251,11 @@ class Reader {
         const Index h = hex(elements[i], who);
         if (h >= 0 && (sides[i] < 1 || sides[i] > 6)) fail(who + " names side " + std::to_string(sides[i]));
         // A shell's front (1) and back (2) are the quad itself; its edges are no sides of hexes.
-        const Index quad = h < 0 ? quad_of_element_[elements[i] - 1] : -1;
+        const Index q = h < 0 ? quad(elements[i] - 1) : -1;
         if (h >= 0)
           to.sides.push_back({h, exodus_face[sides[i] - 1]});
-        else if (quad >= 0 && sides[i] <= 2 && quad_sides_[quad].hex >= 0)
-          to.sides.push_back(quad_sides_[quad]);
+        else if (q >= 0 && sides[i] <= 2 && quad_sides_[q].hex >= 0)
+          to.sides.push_back(quad_sides_[q]);
         else
           ++dropped;
       }
@@ -335,7 +339,8 @@ class Reader {
   MeshFile out_;
   Ids nodes_, hexes_;
   std::vector<FileBlock> blocks_;
-  std::vector<Index> hex_of_element_, quad_of_element_;
+  std::vector<Index> hex_of_element_;   // -1 for others
+  std::vector<Index> quad_of_element_;  // the same; empty where there are none
   std::vector<Quad> quads_;
   std::vector<Side> quad_sides_;
   std::vector<SideSet> quad_sets_;

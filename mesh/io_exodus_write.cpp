@@ -19,7 +19,8 @@ using Ints = std::vector<int>;
 struct Divided {
   int id;
   std::string name;
-  std::vector<Index> hexes;
+  std::span<const Index> hexes;
+  std::vector<Index> own;  // what `hexes` is where it is no list of the mesh
 };
 
 class Writer {
@@ -55,16 +56,19 @@ class Writer {
   void divide() {
     std::vector<char> taken(mesh_.hexes.size(), 0);
     for (const Block& block : mesh_.blocks) {
-      Divided part{block.id, block.name, {}};
-      reserve_large(part.hexes, block.hexes.size());
-      for (const Index h : block.hexes)
-        if (!std::exchange(taken[h], 1)) part.hexes.push_back(h);
-      if (part.hexes.size() != block.hexes.size()) whole_.push_back(&block);
+      Divided part{block.id, block.name, block.hexes, {}};
+      if (std::ranges::any_of(block.hexes, [&](Index h) { return taken[h] != 0; })) {
+        std::ranges::copy_if(block.hexes, std::back_inserter(part.own), [&](Index h) { return taken[h] == 0; });
+        part.hexes = part.own;
+        whole_.push_back(&block);
+      }
+      for (const Index h : part.hexes) taken[h] = 1;
       if (!part.hexes.empty() || block.hexes.empty()) parts_.push_back(std::move(part));
     }
-    Divided rest{free_id(mesh_.blocks), exodus_rest_block, {}};
+    Divided rest{free_id(mesh_.blocks), exodus_rest_block, {}, {}};
     for (Index h = 0; h < mesh_.n_hexes(); ++h)
-      if (!taken[h]) rest.hexes.push_back(h);
+      if (!taken[h]) rest.own.push_back(h);
+    rest.hexes = rest.own;
     if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
     resize_large(element_of_hex_, mesh_.hexes.size());
     int element = 0;
@@ -75,11 +79,11 @@ class Writer {
   void create() {
     const std::int64_t highest = std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
                                           mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
-    const bool wide = highest > std::numeric_limits<std::int32_t>::max();
+    wide_ = highest > std::numeric_limits<std::int32_t>::max();
     // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
     const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / 32 - 1;
-    int mode = EX_CLOBBER | (wide || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL) | EX_MAPS_INT64_API;
-    if (wide) mode |= EX_ALL_INT64_DB;
+    int mode = EX_CLOBBER | (wide_ || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL);
+    if (wide_) mode |= EX_ALL_INT64_DB | EX_MAPS_INT64_API;
     int memory = 8, disk = 8;
     ex_opts(0);
     id_ = ex_create(replacement_.temporary().c_str(), mode, &memory, &disk);
@@ -106,7 +110,7 @@ class Writer {
   }
 
   void nodes() {
-    // All of x, then y, then z, as they lie in the file.
+    // All of x, then y, then z, as they lie in the file: the library buffers one place only.
     std::vector<double> values(exodus_piece);
     for (int axis = 0; axis < 3; ++axis)
       in_pieces(mesh_.points.size(), [&](std::size_t first, std::size_t n) {
@@ -123,13 +127,16 @@ class Writer {
   }
   /// 1-based, as the library counts.
   static std::int64_t position(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
+  /// id(0) .. id(n_items - 1).
   template <class F>
   void put_map(ex_entity_type type, std::size_t n_items, F&& id) {
-    std::vector<std::int64_t> ids(exodus_piece);
-    in_pieces(n_items, [&](std::size_t first, std::size_t n) {
-      for (std::size_t i = 0; i < n; ++i) ids[i] = id(first + i);
-      check(ex_put_partial_id_map(id_, type, position(first), position(n - 1), ids.data()));
-    });
+    const auto put = [&]<class T>(std::vector<T> ids) {
+      in_pieces(n_items, [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<T>(id(first + i));
+        check(ex_put_partial_id_map(id_, type, position(first), position(n - 1), ids.data()));
+      });
+    };
+    wide_ ? put(std::vector<std::int64_t>(exodus_piece)) : put(Ints(exodus_piece));
   }
 
   void blocks() {
@@ -223,6 +230,7 @@ class Writer {
   std::vector<const Block*> whole_;  // written as element sets
   Ints element_of_hex_;              // 1-based place in the file
   int id_ = -1;
+  bool wide_ = false;  // ids beyond 32 bits
 };
 
 }  // namespace

@@ -196,21 +196,20 @@ class Assembly {
     std::vector<Quad> cycles(elements.tags.size());
     for (std::size_t i = 0; i < cycles.size(); ++i)
       for (int k = 0; k < 4; ++k) cycles[i][k] = elements.nodes[4 * i + k];
-    const auto sides = oriented_sides(file_.mesh, cycles);
+    std::vector<Side> lower;
+    const auto sides = oriented_sides(file_.mesh, cycles, &lower);
     const auto lost = std::ranges::count(sides, -1, &Side::hex);
     if (lost) notice("dropped " + std::to_string(lost) + " quads that are no side of a hex");
     for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>&group) {
            if (sides[i].hex >= 0) group.push_back(sides[i]);
          }))
       file_.mesh.side_sets.push_back({id, group_name(2, id), std::move(set)});
-    std::vector<Side> owned;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Owner owner = in_.owner({2, elements.entity[i]});
       if (sides[i].hex < 0 || owner.dim != 2) continue;
-      owned.push_back(sides[i]);
+      file_.tags.surface_faces.push_back(lower[i]);
       file_.tags.face_surface.push_back(owner.id);
     }
-    file_.tags.surface_faces = lower_sides(file_.mesh, owned);
     derive_node_owners(2);
   }
 

@@ -227,14 +227,14 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
       if (dim == 3) reserve_large(contents.hexes, most);
       elements.entity.insert(elements.entity.end(), size, entity_dim == dim ? std::max(entity, 0) : 0);
     }
-    // Tag and nodes.
-    std::array<std::int64_t, 1 + most_gmsh_nodes> row;
-    const auto numbers = std::span(row).first(1 + static_cast<std::size_t>(n_nodes));
+    std::array<std::int64_t, most_gmsh_nodes> ids;
+    const auto nodes = std::span(ids).first(static_cast<std::size_t>(n_nodes));
     for (std::size_t i = 0; i < size; ++i) {
       cursor.skip_text_blanks();
       at = cursor.at;
-      source.large_ones(numbers, "an element or a node");
-      if (dim >= 0) add_gmsh_element(contents, cursor, dim, row[0], numbers.subspan(1), at);
+      const auto tag = source.large("an element");
+      source.large_ones(nodes, "a node");
+      if (dim >= 0) add_gmsh_element(contents, cursor, dim, tag, nodes, at);
     }
   }
   if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));

@@ -23,29 +23,46 @@ Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& 
   const auto fail = [&](std::size_t item, const char* what) {
     fail_item(item, std::string(kind) + " id " + std::to_string(ids_[item]) + what);
   };
-  for (std::size_t i = 0; i < ids_.size(); ++i)
+  if (ids_.empty()) return;
+  const bool ascending = std::ranges::adjacent_find(ids_, std::ranges::greater_equal{}) == ids_.end();
+  for (std::size_t i = 0; i < (ascending ? 1 : ids_.size()); ++i)
     if (ids_[i] < 1) fail(i, " is not positive");
-  if (std::ranges::adjacent_find(ids_, std::ranges::greater_equal{}) != ids_.end()) {
-    std::vector<Index> order(ids_.size());
+  const auto [low, high] = std::ranges::minmax(ids_);
+  low_ = low;
+  const auto range = static_cast<std::size_t>(high - low) + 1;
+  contiguous_ = range == ids_.size();
+  const bool dense = range / 4 <= ids_.size();
+  if (!contiguous_ && dense) table_.assign(range, -1);
+  if (ascending) {
+    for (std::size_t i = 0; i < ids_.size() && !table_.empty(); ++i) table_[ids_[i] - low_] = static_cast<Index>(i);
+    return;
+  }
+  // Else the items in ascending order of id.
+  std::vector<Index> order;
+  if (dense) {
+    std::vector<Index> item_of_id(range, -1);
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      if (item_of_id[ids_[i] - low_] >= 0) fail(i, " occurs twice");
+      item_of_id[ids_[i] - low_] = static_cast<Index>(i);
+    }
+    if (!contiguous_) std::erase(item_of_id, -1);
+    order = std::move(item_of_id);
+  } else {
+    order.resize(ids_.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](Index i) { return ids_[i]; });
     for (std::size_t i = 1; i < order.size(); ++i)
       if (ids_[order[i]] == ids_[order[i - 1]]) fail(order[i], " occurs twice");
-    place_.resize(order.size());
-    std::vector<std::int64_t> sorted(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      place_[order[i]] = static_cast<Index>(i);
-      sorted[i] = ids_[order[i]];
-    }
-    ids_ = std::move(sorted);
   }
-  if (ids_.empty()) return;
-  low_ = ids_.front();
-  const auto range = static_cast<std::size_t>(ids_.back() - low_) + 1;
-  contiguous_ = range == ids_.size();
-  if (contiguous_ || range / 4 > ids_.size()) return;
-  table_.assign(range, -1);
-  for (std::size_t i = 0; i < ids_.size(); ++i) table_[ids_[i] - low_] = static_cast<Index>(i);
+  resize_large(place_, order.size());
+  std::vector<std::int64_t> sorted;
+  resize_large(sorted, order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place_[order[i]] = static_cast<Index>(i);
+    sorted[i] = ids_[order[i]];
+    if (!table_.empty()) table_[sorted[i] - low_] = static_cast<Index>(i);
+  }
+  ids_ = std::move(sorted);
 }
 
 Index Ids::find_sorted(std::int64_t id) const {

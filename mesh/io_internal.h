@@ -14,6 +14,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/io.h"
 #include "hextwist/mesh/io_text_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 
 namespace hextwist::io {
 
@@ -69,7 +70,8 @@ class Ids {
   template <class T>
   void sort(std::vector<T>& values, std::size_t n = 1) const {
     if (place_.empty()) return;
-    std::vector<T> sorted(values.size());
+    std::vector<T> sorted;
+    resize_large(sorted, values.size());
     for (std::size_t i = 0; i < place_.size(); ++i)
       for (std::size_t k = 0; k < n; ++k) sorted[place_[i] * n + k] = std::move(values[i * n + k]);
     values = std::move(sorted);
@@ -110,8 +112,9 @@ int free_id(const std::vector<Group>& groups);
 // ---- sides and edges ----
 
 /// The side that each quad (a cycle of nodes) is. Where a quad lies between two hexes, the one from which its cycle
-/// turns outwards, else the one with the lower index. hex -1 where no hex has such a face.
-std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles);
+/// turns outwards, else the one with the lower index. hex -1 where no hex has such a face. `lower`: the one with the
+/// lower index in any case.
+std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles, std::vector<Side>* lower = nullptr);
 /// The same face as a side of the hex with the lower index.
 std::vector<Side> lower_sides(const Mesh& mesh, std::span<const Side> sides);
 /// Sides to write as quads: those of all side sets, and the faces on surfaces unless a set has the same face from

@@ -54,35 +54,45 @@ bool turns_the_same_way(const Quad& a, const Quad& b) {
 
 }  // namespace
 
-std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles) {
+std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles, std::vector<Side>* lower) {
+  if (lower) lower->clear();
   if (cycles.empty()) return {};
   const ByLowestNode<4> quads(cycles, mesh.n_nodes());
-  // Best candidate per quad: 6 * hex + face, plus a lot where the cycle turns inwards; the lowest wins.
+  // Per quad the lowest 6 * hex + face from which its cycle turns outwards, and inwards.
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
-  constexpr std::int64_t against = std::int64_t{1} << 60;
-  std::vector<std::int64_t> best(cycles.size(), none);
+  struct Candidates {
+    std::int64_t outwards = none, inwards = none;
+  };
+  std::vector<Candidates> best(cycles.size());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     for (Index h = begin; h < end; ++h) {
       if (!quads.near(mesh.hexes[h])) continue;
       for (int f = 0; f < n_hex_faces; ++f) {
         const Quad outward = face_node_cycle(mesh.hexes[h], f);
         quads.find(outward, [&](Index q) {
-          const auto candidate = std::int64_t{6} * h + f;
-          atomic_min(best[q], turns_the_same_way(cycles[q], outward) ? candidate : candidate + against);
+          Candidates& of_quad = best[q];
+          const bool same = turns_the_same_way(cycles[q], outward);
+          atomic_min(same ? of_quad.outwards : of_quad.inwards, std::int64_t{6} * h + f);
         });
       }
     }
   });
+  const auto side = [](std::int64_t candidate) {
+    return candidate == none ? Side{}
+                             : Side{static_cast<Index>(candidate / 6), static_cast<std::int32_t>(candidate % 6)};
+  };
   std::vector<Side> sides(cycles.size());
-  for (std::size_t q = 0; q < cycles.size(); ++q)
-    if (best[q] != none) {
-      const std::int64_t side = best[q] & (against - 1);
-      sides[q] = {static_cast<Index>(side / 6), static_cast<std::int32_t>(side % 6)};
-    }
+  if (lower) lower->resize(cycles.size());
+  for (std::size_t q = 0; q < cycles.size(); ++q) {
+    const auto [outwards, inwards] = best[q];
+    sides[q] = side(outwards != none ? outwards : inwards);
+    if (lower) (*lower)[q] = side(std::min(outwards, inwards));
+  }
   return sides;
 }
 
 std::vector<Side> lower_sides(const Mesh& mesh, std::span<const Side> sides) {
+  if (sides.empty()) return {};
   std::vector<Quad> quads(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) quads[i] = face_nodes(mesh.hexes[sides[i].hex], sides[i].face);
   return find_sides(mesh, quads);

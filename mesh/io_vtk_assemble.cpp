@@ -51,7 +51,8 @@ class Assembly {
     reserve_large(out_.mesh.hexes, std::min(n_cells, n_numbers / 8));
     // In pieces that stay in the cache, so that one loop does for all types of numbers.
     constexpr std::size_t piece = 1024;
-    std::vector<std::int64_t> types, ends, nodes;
+    std::vector<std::int64_t> types, ends;
+    std::vector<Index> nodes;
     std::int64_t begin = 0;
     for (std::size_t first = 0; first < n_cells; first += piece) {
       const std::size_t n = std::min(piece, n_cells - first);
@@ -64,11 +65,10 @@ class Assembly {
           fail("the nodes of cell " + std::to_string(first + k + 1) + " do not fit: they end at " +
                std::to_string(ends[k]) + " of " + std::to_string(n_numbers));
       nodes.resize(static_cast<std::size_t>(begin - start));
-      in_.connectivity.copy(static_cast<std::size_t>(start), nodes);
-      const std::int64_t* from = nodes.data();
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::int64_t* to = nodes.data() + (ends[k] - start);
-        cell(first + k, types[k], {from, to});
+      in_.connectivity.copy_indices(static_cast<std::size_t>(start), nodes, out_.mesh.n_nodes());
+      for (std::size_t k = 0, from = 0; k < n; ++k) {
+        const auto to = static_cast<std::size_t>(ends[k] - start);
+        cell(first + k, types[k], std::span(nodes).subspan(from, to - from), static_cast<std::size_t>(start) + from);
         from = to;
       }
     }
@@ -78,26 +78,20 @@ class Assembly {
                              ", which are no hexes or quads");
   }
 
-  void cell(std::size_t i, std::int64_t type, std::span<const std::int64_t> nodes) {
-    if (type == vtk_hex && nodes.size() == 8) {
-      Hex hex;
-      for (int c = 0; c < 8; ++c) hex[c] = node(i, nodes[c]);
-      add_hex(i, in_file_order(hex));
-      return;
+  /// `at`: where its nodes stand in the connectivity.
+  void cell(std::size_t i, std::int64_t type, std::span<const Index> nodes, std::size_t at) {
+    const bool hex = type == vtk_hex || type == vtk_voxel, quad = type == vtk_quad || type == vtk_pixel;
+    if (hex && nodes.size() == 8) {
+      check(i, nodes, at);
+      Hex corners;
+      std::ranges::copy(nodes, corners.begin());
+      return add_hex(i, type == vtk_voxel ? corners : in_file_order(corners));
     }
     const std::string name = "cell " + std::to_string(i + 1);
-    const bool hex = type == vtk_hex || type == vtk_voxel, quad = type == vtk_quad || type == vtk_pixel;
     if (!hex && std::ranges::find(lower_types, type) == std::end(lower_types))
       fail(name + " is a " + type_name(type) + "; only 8-node hexes are accepted");
-    const std::size_t n = hex ? 8 : 4;
-    if ((hex || quad) && nodes.size() != n)
-      fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + std::to_string(n));
-    if (hex) {
-      Hex voxel;
-      for (int c = 0; c < 8; ++c) voxel[c] = node(i, nodes[c]);
-      add_hex(i, voxel);
-      return;
-    }
+    if (hex || (quad && nodes.size() != 4))
+      fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + (hex ? "8" : "4"));
     if (only_hexes_)  // up to here
       for (std::size_t h = 0; h < i; ++h) hex_cells_.push_back(h);
     only_hexes_ = false;
@@ -105,8 +99,8 @@ class Assembly {
       ++n_dropped_[type];
       return;
     }
-    Quad cycle;
-    for (int c = 0; c < 4; ++c) cycle[c] = node(i, nodes[c]);
+    check(i, nodes, at);
+    Quad cycle{nodes[0], nodes[1], nodes[2], nodes[3]};
     if (type == vtk_pixel) std::swap(cycle[2], cycle[3]);
     quads_.push_back(cycle);
     quad_cells_.push_back(i);
@@ -116,11 +110,14 @@ class Assembly {
     if (!only_hexes_) hex_cells_.push_back(i);
   }
   std::size_t cell_of_hex(std::size_t hex) const { return only_hexes_ ? hex : hex_cells_[hex]; }
-  Index node(std::size_t i, std::int64_t position) const {
-    if (position < 0 || position >= out_.mesh.n_nodes())
-      fail("cell " + std::to_string(i + 1) + " names point " + std::to_string(position) + " of " +
-           std::to_string(out_.mesh.n_nodes()) + " (counted from 0)");
-    return static_cast<Index>(position);
+  void check(std::size_t i, std::span<const Index> nodes, std::size_t at) const {
+    Index all = 0;
+    for (const Index node : nodes) all |= node;
+    if (all >= 0) return;
+    const auto wrong =
+        at + static_cast<std::size_t>(std::ranges::find_if(nodes, [](Index n) { return n < 0; }) - nodes.begin());
+    fail("cell " + std::to_string(i + 1) + " names point " + std::to_string(in_.connectivity.integer(wrong)) + " of " +
+         std::to_string(out_.mesh.n_nodes()) + " (counted from 0)");
   }
 
   const VtkArray* find(VtkArray::On on, std::string_view name) const {

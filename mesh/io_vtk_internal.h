@@ -85,6 +85,18 @@ struct VtkArray {
   }
   /// Copies the numbers to memory of its own, if they have none.
   void keep();
+  /// The same as indices, -1 for what is not in 0..n-1.
+  void copy_indices(std::size_t first, std::span<Index> to, Index n) const {
+    visit([&](auto numbers) {
+      using T = decltype(numbers[0]);
+      const T end = static_cast<T>(n);
+      const bool all_less = static_cast<Index>(end) != n;  // n is more than T can say
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        const T value = numbers[first + i];
+        to[i] = value >= T{0} && (all_less || value < end) ? static_cast<Index>(value) : -1;
+      }
+    });
+  }
   /// Takes the first number away.
   void drop_first() { bytes.remove_prefix(vtk_size(type)); }
 };
