@@ -56,9 +56,7 @@ void ReleaseBytes::operator()(const char* data) const {
 Bytes read_bytes(const std::filesystem::path& file) {
   const Input input(file);
   Bytes bytes{file.string(), nullptr, 0};
-  constexpr std::size_t worthwhile = std::size_t{1} << 16;
-  void* mapped =
-      input.size < worthwhile ? MAP_FAILED : ::mmap(nullptr, input.size, PROT_READ, MAP_PRIVATE, input.descriptor, 0);
+  void* mapped = ::mmap(nullptr, input.size, PROT_READ, MAP_PRIVATE, input.descriptor, 0);
   if (mapped != MAP_FAILED) {
     bytes.data = {static_cast<const char*>(mapped), ReleaseBytes{input.size}};
     bytes.size = input.size;

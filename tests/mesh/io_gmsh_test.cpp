@@ -44,6 +44,33 @@ TEST(gmsh_files, owners_come_back_though_sets_cut_across_entities) {
     }
 }
 
+TEST(gmsh_files, binary_files_of_the_other_byte_order_are_read) {
+  std::string text = "$MeshFormat\n4.1 1 8\n";
+  const auto put = [&](auto... values) {
+    const auto one = [&](auto value) {
+      auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
+      std::ranges::reverse(bytes);
+      text.append(bytes.data(), bytes.size());
+    };
+    (one(values), ...);
+  };
+  put(1);
+  text += "\n$EndMeshFormat\n$Nodes\n";
+  using Large = std::int64_t;
+  put(Large{1}, Large{8}, Large{1}, Large{8}, 3, 1, 0, Large{8});
+  for (Large id = 8; id > 0; --id) put(id);
+  for (int i = 0; i < 8; ++i) put(i & 1 ? 1.5 : 0.0, i & 2 ? 1.25 : 0.0, i & 4 ? 1.125 : 0.0);
+  text += "\n$EndNodes\n$Elements\n";
+  put(Large{1}, Large{1}, Large{7}, Large{7}, 3, 1, 5, Large{1});
+  for (const Large value : {7, 8, 7, 5, 6, 4, 3, 1, 2}) put(value);
+  text += "\n$EndElements\n";
+  const auto read = read_mesh(test::write_text(test::output_folder() / "other.msh", text));
+  EXPECT_EQ(read.mesh.hexes, (std::vector<Hex>{{7, 6, 5, 4, 3, 2, 1, 0}}));
+  EXPECT_EQ(read.mesh.points[0], Vec3(1.5, 1.25, 1.125));
+  EXPECT_EQ(read.mesh.points[6], Vec3(1.5, 0, 0));
+  EXPECT_EQ(read.tags.hex_volume, std::vector<int>{1});
+}
+
 TEST(gmsh_files, real_meshes_have_the_known_counts) {
   const auto data = test::data_folder();
   if (data.empty()) GTEST_SKIP() << "no folder of real meshes";

@@ -40,9 +40,9 @@ inline std::string refusal(const std::filesystem::path& file) {
 
 /// A shuffled grid with awkward coordinates, overlapping blocks, hexes in no block, node sets, side sets with sides
 /// between hexes from either one, names, fields, and gaps in the ids where asked.
-inline Mesh rich_mesh(unsigned seed, bool gaps) {
+inline Mesh rich_mesh(unsigned seed, bool gaps, const std::array<int, 3>& cells = {4, 3, 3}) {
   std::mt19937 random(seed);
-  Mesh mesh = shuffled(grid(4, 3, 3), random);
+  Mesh mesh = shuffled(grid(cells[0], cells[1], cells[2]), random);
   std::uniform_real_distribution<double> jitter(-0.1, 0.1);
   for (Vec3& p : mesh.points)
     for (double& x : p) x += jitter(random);

@@ -143,6 +143,30 @@ std::vector<std::filesystem::path> all_variants(const std::filesystem::path& fol
   return files;
 }
 
+TEST(mesh_files, a_mesh_of_many_pieces_comes_back_from_every_format) {
+  // More than what is converted, buffered or handed to a library at a time.
+  const Mesh mesh = test::rich_mesh(5, true, {25, 24, 23});
+  const auto tags = test::brick_association(mesh, Vec3(25, 24, 23));
+  for (const auto& [name, binary, gmsh] : variants) {
+    SCOPED_TRACE(name);
+    WriteOptions options;
+    options.binary = binary;
+    options.gmsh_version = gmsh;
+    const auto file = test::output_folder() / name;
+    write_mesh(file, mesh, &tags, options);
+    const auto back = read_mesh(file);
+    const bool all = file.extension() != ".inp" && file.extension() != ".mesh";
+    EXPECT_TRUE(all ? test::same_mesh(mesh, back.mesh) : test::same_mesh(plain(mesh), plain(back.mesh)));
+    if (gmsh == 41 && (file.extension() == ".msh" || file.extension() == ".vtu")) {
+      EXPECT_EQ(back.tags.node_owner, tags.node_owner);
+      EXPECT_EQ(back.tags.surface_faces, tags.surface_faces);
+      EXPECT_EQ(back.tags.face_surface, tags.face_surface);
+      EXPECT_EQ(back.tags.curve_edges, tags.curve_edges);
+      EXPECT_EQ(back.tags.hex_volume, tags.hex_volume);
+    }
+  }
+}
+
 TEST(mesh_files, files_cut_anywhere_are_refused_or_read) {
   const auto folder = test::output_folder();
   std::mt19937 random(11);

@@ -155,6 +155,13 @@ TEST(vtk_files, what_is_wrong_is_said) {
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ": cell 1 names point 8 of 8 (counted from 0)");
   says(good + "CELLS 1 8\n7 0 1 2 3 4 5 6\nCELL_TYPES 1\n12\n", ": cell 1 has 7 nodes instead of 8");
   says(good + "CELLS 1 9\n9 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ":8: cell 1 does not fit in the list of cells");
+  const std::string cells = good + "CELLS 2 8\nOFFSETS ";
+  const std::string nodes = "CONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n";
+  says(cells + "vtktypeint64\n0 9\n" + nodes, ":8: the offsets of cells do not fit");
+  says(cells + "double\n0 8\n" + nodes, ":8: the numbers of cells are no integers");
+  says(good +
+           "CELLS 3 8\nOFFSETS vtktypeint64\n0 9 8\nCONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7\nCELL_TYPES 2\n12 12\n",
+       ": the nodes of cell 1 do not fit: they end at 9 of 8");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\n", ":10: the file ends without cells");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 2\n12 12\n", ":12: 2 cell types for 1 cells");
   says(good + "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n", ":12: there is no hex in the file");
