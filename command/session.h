@@ -120,6 +120,9 @@ class Session {
   /// Takes a mesh as it is: repaired, checked and associated (with a model of its own skin if model is null; starting
   /// from tags if not null) as by import. Throws Error.
   void take(Mesh mesh, std::shared_ptr<const Model> model, const Association* tags = nullptr);
+  /// The same with an association that is complete already (has_cad: with CAD, else with a skin); notices are the
+  /// remarks of who made it.
+  void take(MeshedModel meshed, bool has_cad, const std::vector<std::string>& notices = {});
   /// The same on the CAD that the session has (glued if need be), or the mesh's own skin where it has none.
   void take_mesh(Mesh mesh, const Association* tags = nullptr);
 

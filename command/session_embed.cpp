@@ -5,6 +5,8 @@
 #include <new>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/validate.h"
 #include "hextwist/sizing/adapt.h"
 #include "hextwist/sizing/stages_internal.h"
 
@@ -80,6 +82,37 @@ void Session::take(Mesh mesh, std::shared_ptr<const Model> model, const Associat
     state.meshed = std::make_shared<MeshedModel>(MeshedModel{{}, std::move(model), {}});
     load_mesh(run, std::move(mesh), tags, "mesh");
     state.tags = tags ? std::make_shared<const Association>(*tags) : nullptr;
+  });
+}
+
+void Session::take(MeshedModel meshed, bool has_cad, const std::vector<std::string>& notices) {
+  run_step(*core_, "take mesh", [&](Execution& run) {
+    SessionState& state = core_->state;
+    run.stage("check mesh");
+    for (const std::string& line : notices) run.note(line);
+    const std::vector<Violation> violations = validate(meshed.mesh);
+    std::string wrong = record_violations(run.record, meshed.mesh, violations);
+    if (const auto inverted = inverted_among(violations); !inverted.empty() && state.untangle) {
+      run.stage("untangle");
+      const std::vector<Vec3> before = meshed.mesh.points;
+      run.record.violations.clear();
+      run.record.warnings.clear();
+      run.record.n_violations = 0;
+      if (untangle_mesh(run, meshed.mesh, meshed.association, meshed.model.get(), inverted, true)) {
+        wrong = record_violations(run.record, meshed.mesh, validate(meshed.mesh));
+        run.note(untangled_text(meshed.mesh, before, inverted));
+      } else {
+        wrong += "; untangling did not help";
+      }
+    }
+    if (!wrong.empty()) throw Error(wrong);
+    if (const auto broken = check_association(meshed.mesh, meshed.association, *meshed.model); !broken.empty())
+      throw Error(broken.front());
+    forget_members(state, true);
+    state.has_cad = has_cad;
+    state.cad_file.clear();
+    state.tags = nullptr;
+    take_meshed(state, std::move(meshed));
   });
 }
 

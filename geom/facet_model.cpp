@@ -509,7 +509,7 @@ bool FacetModel::contains(int volume, const Vec3& p) const {
 
 FacetImport facet_model(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
                         std::span<const std::array<int, 2>> quad_volumes, const FacetModelOptions& options) {
-  SkinFeatures skin = find_skin_features(points, quads, quad_volumes, options.feature_angle);
+  SkinFeatures skin = find_skin_features(points, quads, quad_volumes, options.feature_angle, options.labels);
   FacetImport result;
   result.model = std::make_shared<FacetModel>(points, skin);
   result.classification = std::move(skin.classification);

@@ -21,10 +21,21 @@ struct FacetClassification {
   std::vector<std::int32_t> vertex_nodes;          ///< per vertex id - 1: node
 };
 
+/// What the skin is divided into where somebody knows, such as a program that tags its elements.
+struct FacetLabels {
+  std::span<const int> quads;                          ///< per quad
+  std::span<const std::array<std::int32_t, 2>> edges;  ///< on curves: (a < b), lexicographic
+  std::span<const int> edge_labels;                    ///< per edge
+  std::span<const std::int32_t> vertices;              ///< nodes, ascending
+};
+
 struct FacetModelOptions {
   /// An edge whose two quads' normals differ by more than this is a feature, a node where two features turn by more
   /// is a vertex. Degrees, 0..180.
   double feature_angle = 35;
+  /// Instead of angles: features are where the quads' labels differ and the labelled edges, vertices where edges'
+  /// labels change and the labelled ones, besides what features and vertices are in any case. Null: by angles.
+  const FacetLabels* labels = nullptr;
 };
 
 struct FacetImport {

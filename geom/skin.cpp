@@ -49,6 +49,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 struct Finder {
   std::span<const Vec3> points;
   double feature_angle = 0;
+  const FacetLabels* labels = nullptr;
   SkinFeatures result;
   std::vector<std::array<int, 2>> quad_volumes;  ///< turned like the quads
   std::vector<Vec3> normals;                     ///< per quad
@@ -63,6 +64,7 @@ struct Finder {
   std::vector<int> surfaces_at(std::size_t edge) const;
   void find_vertices();
   bool bends(Node node, Node from, Node to) const;
+  int edge_label(Node a, Node b) const;
   void find_curves();
 };
 
@@ -96,6 +98,9 @@ void Finder::sort_edges() {
 bool Finder::is_feature(std::size_t first, std::size_t last) const {
   if (last - first != 2) return true;
   const auto p = uses[first].quad, q = uses[first + 1].quad;
+  if (labels)
+    return quad_volumes[p] != quad_volumes[q] || labels->quads[p] != labels->quads[q] ||
+           std::ranges::binary_search(labels->edges, std::array{uses[first].a, uses[first].b});
   return quad_volumes[p] != quad_volumes[q] || angle_between(normals[p], normals[q]) > feature_angle + rounding;
 }
 
@@ -132,7 +137,14 @@ std::vector<int> Finder::surfaces_at(std::size_t edge) const {
   return ids;
 }
 
+int Finder::edge_label(Node a, Node b) const {
+  const auto at = std::ranges::lower_bound(labels->edges, std::array{std::min(a, b), std::max(a, b)});
+  const bool found = at != labels->edges.end() && *at == std::array{std::min(a, b), std::max(a, b)};
+  return found ? labels->edge_labels[at - labels->edges.begin()] : 0;
+}
+
 bool Finder::bends(Node node, Node from, Node to) const {
+  if (labels) return edge_label(from, node) != edge_label(node, to);
   return angle_between(points[node] - points[from], points[to] - points[node]) > feature_angle + rounding;
 }
 
@@ -176,10 +188,13 @@ void Finder::find_vertices() {
     const auto other = [&](std::int32_t e) { return edges[e][0] == node ? edges[e][1] : edges[e][0]; };
     is_vertex[n] = bends(node, other(two[n][0]), other(two[n][1])) || surfaces_at(two[n][0]) != surfaces_at(two[n][1]);
   }
+  if (labels)
+    for (const Node node : labels->vertices)
+      if (n_fans[node] > 0) is_vertex[node] = 1;
   // Cone tips: no feature leads there, but the quads around look far from their common direction.
   for (std::size_t q = 0; q < result.quads.size(); ++q)
     for (const Node node : result.quads[q])
-      if (n_features[node] == 0 && angle_between(normals[q], mean[node]) > feature_angle + rounding)
+      if (!labels && n_features[node] == 0 && angle_between(normals[q], mean[node]) > feature_angle + rounding)
         is_vertex[node] = 1;
   for (std::size_t n = 0; n < n_nodes; ++n)
     if (is_vertex[n]) result.classification.vertex_nodes.push_back(static_cast<Node>(n));
@@ -228,13 +243,15 @@ void Finder::find_curves() {
 }  // namespace
 
 SkinFeatures find_skin_features(std::span<const Vec3> points, std::span<const QuadNodes> quads,
-                                std::span<const std::array<int, 2>> quad_volumes, double feature_angle) {
+                                std::span<const std::array<int, 2>> quad_volumes, double feature_angle,
+                                const FacetLabels* labels) {
   if (!(feature_angle >= 0 && feature_angle <= 180))
     throw Error("feature angle must lie between 0 and 180 degrees, not " + std::to_string(feature_angle));
   assert(quads.size() == quad_volumes.size());
   Finder finder;
   finder.points = points;
   finder.feature_angle = feature_angle;
+  finder.labels = labels;
   finder.turn_quads(quads, quad_volumes);
   finder.sort_edges();
   finder.find_edges_and_surfaces();

@@ -25,8 +25,9 @@ struct SkinFeatures {
   std::vector<std::array<int, 2>> surface_curves;
 };
 
-/// Arguments as for facet_model(). Throws Error when the angle is not within 0..180.
+/// Arguments as for facet_model(); labels may be null. Throws Error when the angle is not within 0..180.
 SkinFeatures find_skin_features(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
-                                std::span<const std::array<int, 2>> quad_volumes, double feature_angle);
+                                std::span<const std::array<int, 2>> quad_volumes, double feature_angle,
+                                const FacetLabels* labels = nullptr);
 
 }  // namespace hextwist

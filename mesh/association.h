@@ -73,13 +73,16 @@ AssociateResult associate(const Mesh& mesh, const Model& model, const Associatio
                           const AssociateOptions& options = {});
 
 /// A facet model of the mesh's own skin, and the association with it. Volumes: the blocks where they partition the
-/// mesh, in the blocks' order, else one. Throws Error for a mesh without hexes.
+/// mesh, in the blocks' order, else one. With tags the skin is divided as they say instead of by angle and blocks: by
+/// the tags of hexes, of faces (0 where there is none), of edges and of nodes on vertices; ids are those of the facet
+/// model, volumes in ascending order of their tags. Throws Error for a mesh without hexes.
 struct FacetResult {
   std::shared_ptr<const Model> model;
   Association association;
 };
 struct SkinOptions {
-  double feature_angle = 35;  ///< degrees
+  double feature_angle = 35;          ///< degrees
+  const Association* tags = nullptr;  ///< lists ascending, as in a complete association
 };
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options = {});
 

@@ -1,5 +1,6 @@
 // Association of a mesh with the facet model of its own skin.
 #include <algorithm>
+#include <optional>
 
 #include "hextwist/geom/facet_model.h"
 #include "hextwist/mesh/association_internal.h"
@@ -23,6 +24,36 @@ std::vector<int> volumes_of_blocks(const Mesh& mesh) {
   if (std::ranges::find(volume, 0) != volume.end()) return std::vector<int>(mesh.hexes.size(), 1);
   return volume;
 }
+
+/// The tags of volumes, numbered from 1.
+std::vector<int> volumes_of_tags(std::span<const int> tags) {
+  std::vector<int> known(tags.begin(), tags.end());
+  std::ranges::sort(known);
+  known.erase(std::ranges::unique(known).begin(), known.end());
+  std::vector<int> volume;
+  for (const int tag : tags)
+    volume.push_back(static_cast<int>(std::ranges::lower_bound(known, tag) - known.begin()) + 1);
+  return volume;
+}
+
+/// Tags as labels of the skin.
+struct Labels {
+  std::vector<int> quads;
+  std::vector<Index> vertices;
+  FacetLabels view;
+
+  Labels(const Association& tags, std::span<const Side> sides) : quads(sides.size(), 0) {
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+      const auto at = std::ranges::lower_bound(tags.surface_faces, sides[q]);
+      if (at != tags.surface_faces.end() && *at == sides[q])
+        quads[q] = tags.face_surface[static_cast<std::size_t>(at - tags.surface_faces.begin())];
+    }
+    for (std::size_t n = 0; n < tags.node_owner.size(); ++n)
+      if (tags.node_owner[n].dim == 0) vertices.push_back(static_cast<Index>(n));
+    view = {quads, tags.curve_edges, tags.edge_curve, vertices};
+  }
+  Labels(const Labels&) = delete;
+};
 
 /// Parameters of the nodes on curves and surfaces.
 std::vector<Parameters> parameters_on(const Model& model, const Mesh& mesh, std::span<const Owner> owners) {
@@ -49,7 +80,8 @@ FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options
   if (mesh.hexes.empty()) throw Error("the mesh has no hexes to associate");
   FacetResult result;
   Association& association = result.association;
-  association.hex_volume = volumes_of_blocks(mesh);
+  const Association* tags = options.tags;
+  association.hex_volume = tags ? volumes_of_tags(tags->hex_volume) : volumes_of_blocks(mesh);
   const auto& volume = association.hex_volume;
 
   const Faces mesh_faces = faces(mesh);
@@ -66,7 +98,11 @@ FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options
       quad_volumes.push_back({volume[h], front});
     }
 
-  FacetImport import = facet_model(mesh.points, quads, quad_volumes, {.feature_angle = options.feature_angle});
+  std::optional<Labels> labels;
+  if (tags) labels.emplace(*tags, association.surface_faces);
+  FacetImport import =
+      facet_model(mesh.points, quads, quad_volumes,
+                  {.feature_angle = options.feature_angle, .labels = labels ? &labels->view : nullptr});
   const FacetClassification& pieces = import.classification;
   association.face_surface = pieces.quad_surface;
   association.curve_edges = pieces.edges;

@@ -1,6 +1,7 @@
 // The Python module. One source, since what is expensive to compile is pybind11 itself.
 #include <pybind11/stl/filesystem.h>
 
+#include "hextwist/embed/python/gmsh_internal.h"
 #include "hextwist/embed/python/mesh_internal.h"
 #include "hextwist/embed/python/records_internal.h"
 #include "hextwist/embed/python/session_internal.h"
@@ -342,6 +343,27 @@ void bind_session(py::module_& m) {
           "What the last command did; None before the first.");
 }
 
+void bind_gmsh(py::module_& m) {
+  py::class_<GmshLink>(m, "GmshLink", "What hextwist.gmsh has to know to bring a mesh back.")
+      .def_readonly("on_cad", &GmshLink::on_cad)
+      .def_property_readonly("tags", [](const GmshLink& link) {
+        py::dict result;
+        for (int dim = 0; dim < 4; ++dim) result[dimension_name(dim)] = link.tag_of[dim];
+        return result;
+      });
+  m.def("take_gmsh",
+        [](PySession& session, const py::list& entities, const py::list& physical, const std::filesystem::path& brep) {
+          const GmshModel model = gmsh_model_of(entities, physical);
+          return session.run([&](Session& s) { return take_gmsh(s, model, brep); });
+        });
+  m.def("put_gmsh", [](PySession& session, const GmshLink& link) {
+    py::list result;
+    for (GmshEntity& entity : session.run([&](Session& s) { return put_gmsh(s, link); }))
+      result.append(tuple_of_entity(std::move(entity)));
+    return result;
+  });
+}
+
 /// hextwist.Error, and hextwist.Cancelled of it.
 void bind_errors(py::module_& m) {
   static py::handle error, cancelled;
@@ -383,4 +405,5 @@ PYBIND11_MODULE(_core, m) {
   hextwist::python::bind_errors(m);
   hextwist::python::bind_mesh(m);
   hextwist::python::bind_session(m);
+  hextwist::python::bind_gmsh(m);
 }

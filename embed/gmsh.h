@@ -1,0 +1,32 @@
+// Refines the mesh of Gmsh's current model in place. Needs the library hextwist_gmsh (CMake: hextwist::gmsh), which is
+// built where libgmsh is found.
+//
+//   gmsh::initialize();
+//   gmsh::open("part.geo");
+//   gmsh::model::mesh::generate(3);
+//   hextwist::refine_gmsh("refine curve 3 numsplit 2");
+//   gmsh::write("part.msh");
+//
+// What gmsh_exchange.h says holds: what ids in commands mean, what is refused, where elements go. The model has to have
+// 8-node hexes and no other volume elements. New nodes lie on its OpenCASCADE CAD where it has that, else (Gmsh's
+// built-in kernel, models from mesh files) on the skin of the mesh. Physical groups stay, since they are
+// made of entities; views do not change. Entities that no hex touches are left alone. Periodic correspondences of nodes
+// on refined entities are dropped, with a notice.
+#pragma once
+
+#include <string_view>
+
+#include "hextwist/embed/gmsh_exchange.h"
+
+namespace hextwist {
+
+/// Takes the mesh, runs the commands in a session and puts the mesh back. Throws Error (CommandError for a command);
+/// Gmsh's model is then as it was.
+void refine_gmsh(std::string_view commands, SessionCallbacks callbacks = {});
+
+/// The two halves, for those who want to do more in between. The first throws with the session as it was, the second
+/// with Gmsh's model as it was.
+GmshLink take_from_gmsh(Session& session);
+void put_into_gmsh(const Session& session, const GmshLink& link);
+
+}  // namespace hextwist
