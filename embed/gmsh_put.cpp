@@ -198,9 +198,9 @@ class Writing {
 
 std::vector<GmshEntity> put_gmsh(const Session& session, const GmshLink& link) {
   const MeshedModel& meshed = session.meshed();
+  if (meshed.mesh.n_hexes() == 0) throw Error("the session has no mesh to put back");
   if (meshed.model != link.model)
     throw Error("the session is on another model than Gmsh's by now: its mesh can't be put back");
-  if (meshed.mesh.n_hexes() == 0) throw Error("the session has no mesh to put back");
   return Writing(meshed, link).result();
 }
 

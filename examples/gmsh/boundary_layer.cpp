@@ -24,8 +24,9 @@ int main(int argc, char** argv) try {
   gmsh::model::mesh::generate(3);
 
   // Surface 1 is that of Gmsh. The callback prints what the command did.
-  hextwist::refine_gmsh("refine surface 1 direction layers 4 growth 1.5",
-                        {.output = [](const std::string& line) { std::cout << line << '\n'; }});
+  hextwist::SessionCallbacks callbacks;
+  callbacks.output = [](const std::string& line) { std::cout << line << '\n'; };
+  hextwist::refine_gmsh("refine surface 1 direction layers 4 growth 1.5", callbacks);
   gmsh::write(argv[1]);
   gmsh::finalize();
 } catch (const std::exception& error) {

@@ -41,8 +41,8 @@ def main(output):
     gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, hole), "hole")
 
     # Surfaces by their tags in Gmsh, or by the physical group, which is a side set here.
-    hextwist.gmsh.refine("surface " + " ".join(map(str, hole)), output=print)
-    hextwist.gmsh.refine("refine face in sideset 'hole' size 2 bias 1.5", output=print)
+    hextwist.gmsh.refine("surface " + " ".join(map(str, hole)) + " size 1.5 bias 1.5", output=print)
+    hextwist.gmsh.refine("smooth hex in face in sideset 'hole'", output=print)
     gmsh.write(output)
     gmsh.finalize()
 
