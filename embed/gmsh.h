@@ -11,7 +11,7 @@
 // 8-node hexes and no other volume elements. New nodes lie on its OpenCASCADE CAD where it has that, else (Gmsh's
 // built-in kernel, models from mesh files) on the skin of the mesh. Physical groups stay, since they are
 // made of entities; views do not change. Entities that no hex touches are left alone. Periodic correspondences of nodes
-// on refined entities are dropped, with a notice.
+// on refined entities are dropped.
 #pragma once
 
 #include <string_view>

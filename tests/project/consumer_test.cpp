@@ -26,6 +26,12 @@ class SlowConsumer : public testing::Test {
   const std::filesystem::path example = source_folder() / "examples/minimal";
   const std::filesystem::path models = source_folder() / "models";
 
+  /// Configures and builds a project against the installed tree.
+  static Outcome build_with_cmake(const std::filesystem::path& project, const std::filesystem::path& folder) {
+    return run("cmake -S " + quoted(project) + " -B " + quoted(folder) + " -G Ninja -DCMAKE_BUILD_TYPE=None" +
+               " -DCMAKE_CXX_COMPILER=" HEXTWIST_CXX_COMPILER " -DCMAKE_CXX_FLAGS=" + quoted(HEXTWIST_CXX_FLAGS) +
+               " -DCMAKE_PREFIX_PATH=" + quoted(prefix) + " && cmake --build " + quoted(folder));
+  }
   void expect_refines(const std::filesystem::path& program) {
     const auto out = program.parent_path() / "refined.msh";
     const Outcome refined = run(quoted(program.string()) + " " + quoted(models / "bracket.brep") + " " +
@@ -43,25 +49,31 @@ class SlowConsumer : public testing::Test {
 
 TEST_F(SlowConsumer, builds_the_example_through_find_package) {
   const auto folder = output_folder() / "build";
-  const Outcome built =
-      run("cmake -S " + quoted(example) + " -B " + quoted(folder) + " -G Ninja -DCMAKE_BUILD_TYPE=None" +
-          " -DCMAKE_CXX_COMPILER=" HEXTWIST_CXX_COMPILER " -DCMAKE_CXX_FLAGS=" + quoted(HEXTWIST_CXX_FLAGS) +
-          " -DCMAKE_PREFIX_PATH=" + quoted(prefix) + " && cmake --build " + quoted(folder));
+  const Outcome built = build_with_cmake(example, folder);
   ASSERT_EQ(built.status, 0) << built.output;
   expect_refines(folder / "minimal");
 }
 
 TEST_F(SlowConsumer, builds_the_C_example_through_find_package) {
   const auto folder = output_folder() / "build";
-  const Outcome built = run(
-      "cmake -S " + quoted(source_folder() / "examples/c") + " -B " + quoted(folder) +
-      " -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER=" HEXTWIST_CXX_COMPILER " -DCMAKE_CXX_FLAGS=" +
-      quoted(HEXTWIST_CXX_FLAGS) + " -DCMAKE_PREFIX_PATH=" + quoted(prefix) + " && cmake --build " + quoted(folder));
+  const Outcome built = build_with_cmake(source_folder() / "examples/c", folder);
   ASSERT_EQ(built.status, 0) << built.output;
   const auto out = folder / "adapted.msh";
   const Outcome adapted = run(quoted(folder / "adapt") + " " + quoted(models / "bracket.brep") + " " +
                               quoted(models / "bracket.msh") + " " + quoted(out));
   ASSERT_EQ(adapted.status, 0) << adapted.output;
+  EXPECT_TRUE(conformal(read_mesh(out).mesh));
+}
+
+TEST_F(SlowConsumer, builds_the_Gmsh_example_through_find_package) {
+  if (run("find " + quoted(prefix) + " -name 'libhextwist_gmsh*' | grep .").status != 0)
+    GTEST_SKIP() << "hextwist_gmsh is not built";
+  const auto folder = output_folder() / "build";
+  const Outcome built = build_with_cmake(source_folder() / "examples/gmsh", folder);
+  ASSERT_EQ(built.status, 0) << built.output;
+  const auto out = folder / "layers.msh";
+  const Outcome refined = run(quoted(folder / "boundary_layer") + " " + quoted(out));
+  ASSERT_EQ(refined.status, 0) << refined.output;
   EXPECT_TRUE(conformal(read_mesh(out).mesh));
 }
 

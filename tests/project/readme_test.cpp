@@ -58,7 +58,9 @@ TEST(Readme, python_works) {
   const auto folder = output_folder();
   std::filesystem::create_directory_symlink(source_folder() / "models", folder / "models");
   ASSERT_FALSE(blocks("python").empty());
+  const bool has_gmsh = run(HEXTWIST_PYTHON " -c 'import gmsh'").status == 0;
   for (const std::string& block : blocks("python")) {
+    if (!has_gmsh && block.find("import gmsh") != std::string::npos) continue;
     const Outcome outcome = run("cd " + quoted(folder) + "; PYTHONPATH=" + quoted(HEXTWIST_BINARY_DIR "/python") +
                                 " " HEXTWIST_PYTHON " -c " + quoted(block));
     EXPECT_EQ(outcome.status, 0) << block << outcome.output;

@@ -50,6 +50,13 @@ class Mesh:
         self, kind: str, id: int, points: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
 
+class GmshLink:
+    on_cad: bool
+    tags: dict[str, list[int]]
+
+def take_gmsh(session: Session, entities: list[Any], groups: list[Any], brep: Union[str, os.PathLike[str]]) -> GmshLink: ...
+def put_gmsh(session: Session, link: GmshLink) -> list[Any]: ...
+
 class Session:
     def __init__(
         self,
