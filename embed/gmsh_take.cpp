@@ -29,6 +29,7 @@ class Reading {
     hexes();
     nodes();
     for (const GmshEntity& entity : gmsh.entities) boundary(entity);
+    place_elements();
     sort_tags();
     groups();
   }
@@ -37,6 +38,7 @@ class Reading {
   const GmshModel& gmsh_;
   std::vector<std::array<Index, 2>> lines_;  // per curve edge, as Gmsh has it
   std::vector<std::size_t> own_;             // tags of the nodes of hexes, ascending
+  std::vector<std::pair<const GmshEntity*, std::size_t>> line_source_, quad_source_;  // entity and tag
 
   Index find(std::size_t node) const {
     const auto at = std::ranges::lower_bound(own_, node);
@@ -133,28 +135,27 @@ class Reading {
       if (std::ranges::find(one, -1) != one.end()) refuse(entity, tags[i]);
       link.elements[entity.dim].emplace_back(element_key(file.mesh, one), tags[i]);
     }
-    if (entity.dim == 1) {
-      std::vector<Edge> edges;
-      for (std::size_t i = 0; i < tags.size(); ++i) {
-        edges.push_back({std::min(at[2 * i], at[2 * i + 1]), std::max(at[2 * i], at[2 * i + 1])});
-        lines_.push_back({at[2 * i], at[2 * i + 1]});
-        file.tags.curve_edges.push_back(edges.back());
-        file.tags.edge_curve.push_back(entity.tag);
-      }
-      const auto good = io::are_edges(file.mesh, edges);
-      if (const auto bad = std::ranges::find(good, 0); bad != good.end())
-        refuse(entity, tags[static_cast<std::size_t>(bad - good.begin())]);
-    } else if (entity.dim == 2) {
-      std::vector<Quad> quads(tags.size());
-      for (std::size_t i = 0; i < at.size(); ++i) quads[i / 4][i % 4] = at[i];
-      const std::vector<Side> sides = find_sides(file.mesh, quads);
-      for (std::size_t i = 0; i < tags.size(); ++i) {
-        if (sides[i].hex < 0) refuse(entity, tags[i]);
-        file.tags.surface_faces.push_back(sides[i]);
-        file.tags.face_surface.push_back(entity.tag);
-        cycles.push_back(quads[i]);
-      }
+    for (std::size_t i = 0; i < tags.size() && entity.dim == 1; ++i) {
+      lines_.push_back({at[2 * i], at[2 * i + 1]});
+      file.tags.curve_edges.push_back({std::min(at[2 * i], at[2 * i + 1]), std::max(at[2 * i], at[2 * i + 1])});
+      file.tags.edge_curve.push_back(entity.tag);
+      line_source_.emplace_back(&entity, tags[i]);
     }
+    for (std::size_t i = 0; i < tags.size() && entity.dim == 2; ++i) {
+      cycles.push_back({at[4 * i], at[4 * i + 1], at[4 * i + 2], at[4 * i + 3]});
+      file.tags.face_surface.push_back(entity.tag);
+      quad_source_.emplace_back(&entity, tags[i]);
+    }
+  }
+
+  /// All quads and lines at once: each search looks at every hex.
+  void place_elements() {
+    file.tags.surface_faces = find_sides(file.mesh, cycles);
+    for (std::size_t i = 0; i < cycles.size(); ++i)
+      if (file.tags.surface_faces[i].hex < 0) refuse(*quad_source_[i].first, quad_source_[i].second);
+    const std::vector<char> good = io::are_edges(file.mesh, file.tags.curve_edges);
+    for (std::size_t i = 0; i < good.size(); ++i)
+      if (!good[i]) refuse(*line_source_[i].first, line_source_[i].second);
   }
 
   [[noreturn]] static void refuse(const GmshEntity& entity, std::size_t tag) {
