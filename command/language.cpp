@@ -1,6 +1,7 @@
 // The table of all commands. Adding one means adding a row here and a function in the session.
 
 #include "hextwist/command/syntax.h"
+#include "hextwist/refine/uniform.h"
 
 namespace hextwist {
 namespace {
@@ -177,7 +178,7 @@ const std::vector<CommandSpec> table = {
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
      {{"range", Kind::range, 0, 0, false, range_help},
-      {"splits", Kind::integer, 1, 29, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
+      {"splits", Kind::integer, 1, max_uniform_pieces - 1, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
       {"size", Kind::number, 0, 1e100, true, "wished size of elements at the target"},
       {"growth", Kind::number, 1, 1e100, false, "growth of the wished size from element to element; default 1: none, the size is for the target alone"},

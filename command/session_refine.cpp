@@ -10,8 +10,6 @@
 namespace hextwist {
 namespace {
 
-constexpr int max_local_numsplit = 8;
-
 /// What is asked of sizes; the engine checks the rest, these have a place to point at.
 void read_sizes(const Execution& run, Request& request) {
   const Command& command = run.command;
@@ -130,10 +128,10 @@ Request request_of(const Execution& run) {
     for (Index& target : request.targets) ++target;
   if (const Item* splits = command.find("splits")) {
     request.numsplit = static_cast<int>(splits->number);
-    if (request.numsplit > max_local_numsplit && !whole)
+    if (request.numsplit > max_numsplit && !whole)
       throw error_at(
           command.statement, splits->token,
-          "numsplit must be at most " + std::to_string(max_local_numsplit) + " unless all volumes are refined");
+          "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
   }
   if (const Item* layers = command.find("layers")) request.depth = static_cast<int>(layers->number);
   read_sizes(run, request);

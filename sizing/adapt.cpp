@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/refine/marks.h"
+#include "hextwist/sizing/pipeline_internal.h"
 #include "hextwist/sizing/size_field.h"
 
 namespace hextwist {
@@ -17,11 +19,6 @@ Mesh with_levels(const Mesh& mesh, std::span<const int> level) {
   if (found == result.fields.end())
     result.fields.push_back({level_field, Field::On::hex, 1, {level.begin(), level.end()}});
   return result;
-}
-
-Field& level_values(Mesh& mesh) {
-  return *std::ranges::find_if(
-      mesh.fields, [](const Field& field) { return field.name == level_field && field.on == Field::On::hex; });
 }
 
 void check_length(const MeshedModel& input, std::size_t n, const char* what) {
@@ -73,24 +70,40 @@ Index close_flags(const Mesh& mesh, std::span<const int> level, std::span<std::u
   return n_added;
 }
 
+Index grade_marks(const Mesh& mesh, Concave concave, std::span<std::uint8_t> marked) {
+  const std::vector<int> level = levels(mesh);
+  // A hex between flagged ones has all its nodes marked too, and is cut as they are.
+  const auto whole = [&] {
+    std::vector<std::uint8_t> flags(mesh.hexes.size());
+    parallel_each(flags.size(), [&](std::size_t h) { flags[h] = corner_mask(mesh.hexes[h], marked) == 0xff; });
+    return flags;
+  };
+  std::vector<std::uint8_t> flags = whole();
+  const auto n_before = std::ranges::count(flags, 1);
+  while (close_flags(mesh, level, flags) > 0) {
+    mark_nodes(mesh.hexes, where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; }), marked);
+    if (concave == Concave::fill) fill_concave(mesh, marked);
+    flags = whole();
+  }
+  return static_cast<Index>(std::ranges::count(flags, 1) - n_before);
+}
+
+void say_graded(Index n_hexes, std::vector<std::string>& notices) {
+  if (n_hexes > 0)
+    notices.push_back("cut " + std::to_string(n_hexes) +
+                      (n_hexes == 1 ? " hex more than asked for" : " hexes more than asked for") +
+                      ", to keep neighbours within one level");
+}
+
 AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags, const AdaptOptions& options,
                   const Progress& progress) {
   check_length(input, flags.size(), "flags");
   const std::vector<int> level = levels(input.mesh);
-  std::vector<std::uint8_t> wanted(flags.begin(), flags.end());
-  const Index n_added = options.keep_gradation ? close_flags(input.mesh, level, wanted) : 0;
   Request request{.kind = TargetKind::hex, .concave = options.concave, .smooth = options.smooth};
-  request.targets = where(input.mesh.n_hexes(), [&](Index h) { return wanted[h] != 0; });
+  request.levels = options.keep_gradation ? Levels::graded : Levels::counted;
+  request.targets = where(input.mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
   if (request.targets.empty()) return unchanged(input, level);
-  const MeshedModel leveled{with_levels(input.mesh, level), input.model, input.association};
-  AdaptResult result = run(leveled, request, progress);
-  std::vector<double>& values = level_values(result.refined.mesh).values;
-  for (std::size_t h = 0; h < values.size(); ++h)
-    if (wanted[result.origin[h]]) values[h] = level[result.origin[h]] + 1;
-  if (n_added > 0)
-    result.report.notices.push_back("cut " + std::to_string(n_added) +
-                                    " hexes more than flagged, to keep neighbours within one level");
-  return result;
+  return run({with_levels(input.mesh, level), input.model, input.association}, request, progress);
 }
 
 AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const AdaptOptions& options,
@@ -106,10 +119,9 @@ AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const
                   .size_field = field_size(background, "size"),
                   .concave = options.concave,
                   .smooth = options.smooth};
+  request.levels = options.keep_gradation ? Levels::graded : Levels::counted;
   request.targets = where(input.mesh.n_hexes(), [](Index) { return true; });
-  const std::vector<int> level = levels(input.mesh);
-  const MeshedModel leveled{with_levels(input.mesh, level), input.model, input.association};
-  return run(leveled, request, progress);
+  return run({with_levels(input.mesh, levels(input.mesh)), input.model, input.association}, request, progress);
 }
 
 }  // namespace hextwist

@@ -13,12 +13,12 @@
 namespace hextwist {
 
 /// Field of hexes that says how often each was cut, 0 where the mesh has none. Children of a hex that was cut in all
-/// its directions are one level above it; those of the transition around keep its level.
+/// its directions in one pass are one level above it; those of the transition around keep its level.
 inline constexpr const char* level_field = "level";
 
 struct AdaptOptions {
   /// Cut more hexes than flagged, so that none has a neighbour (that shares a node) of a level more than one below its
-  /// own: repeated calls then grade from coarse to fine. False: exactly the flagged ones.
+  /// own: repeated calls of both kinds then grade from coarse to fine. False: exactly the flagged ones.
   bool keep_gradation = true;
   /// Of wished sizes: limits their growth from element to element (Request::bias).
   double bias = 1;
@@ -45,7 +45,7 @@ AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const
 /// Level of every hex: the field, or zeros.
 std::vector<int> levels(const Mesh& mesh);
 
-/// Flags of hexes and of those that have to go with them so that levels stay graded: a neighbour of a flagged hex that
+/// Flags of hexes that are cut in all directions and of those that have to go with them so that levels stay graded: a neighbour of a flagged hex that
 /// is of a lower level is flagged too, and so on. Returns how many were added.
 Index close_flags(const Mesh& mesh, std::span<const int> level, std::span<std::uint8_t> flags);
 

@@ -11,6 +11,7 @@
 #include "hextwist/mesh/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
+#include "hextwist/sizing/adapt.h"
 
 namespace hextwist {
 namespace {
@@ -18,6 +19,20 @@ namespace {
 constexpr int smooth_layers = 2;  // around the new hexes
 /// Between passes, new hexes below this shape are smoothed, even if smoothing is not asked for.
 constexpr double least_shape_to_go_on = 0.1;
+
+/// One more for the children of hexes all of whose edges were cut. The field is there (adapt.cpp).
+void raise_levels(const Lineage& lineage, Mesh& refined) {
+  const auto field = std::ranges::find_if(refined.fields, [](const Field& each) {
+    return each.name == level_field && each.on == Field::On::hex && each.components == 1;
+  });
+  if (field == refined.fields.end()) return;
+  for (const CutHex& cut : lineage.hexes) {
+    const HexTemplate& pieces = lineage.table->hex(cut.code);
+    if (std::ranges::count(pieces.edge_code, 0) > 0) continue;
+    for (std::size_t i = 0; i < pieces.children.size(); ++i)
+      ++field->values[static_cast<std::size_t>(cut.first_child) + i];
+  }
+}
 
 }  // namespace
 
@@ -29,6 +44,7 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
   stages_.begin("carry", fraction());
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
+  if (request_.levels != Levels::ignored) raise_levels(parts.lineage, next.mesh);
   if (!request_.dry_run) {
     stages_.begin("place", fraction());
     if (next.model && !next.association.empty())

@@ -13,6 +13,12 @@
 
 namespace hextwist {
 
+/// Marks more nodes (all of some hexes), so that trisecting keeps levels graded (Levels::graded) where they are; with
+/// Concave::fill what that fills as well. Returns how many hexes more are marked as a whole.
+Index grade_marks(const Mesh& mesh, Concave concave, std::span<std::uint8_t> marked);
+/// Tells of them.
+void say_graded(Index n_hexes, std::vector<std::string>& notices);
+
 class Pipeline {
  public:
   Pipeline(const MeshedModel& input, const Request& request, Report& report, const Progress& progress)

@@ -10,8 +10,6 @@
 namespace hextwist {
 namespace {
 
-constexpr int max_numsplit = 8;
-
 bool is_directional(const Request& request) {
   return request.through_thickness || request.layers || request.sheets;
 }

@@ -45,6 +45,17 @@ enum class Method {
 /// "auto", "single", "parallel", "combination".
 const char* name(Method method);
 
+/// Request::numsplit is at most this where not all volumes of the model are refined together: 3^8 pieces per edge.
+inline constexpr int max_numsplit = 8;
+
+/// What to do about the hex field of levels (adapt.h), which says how often hexes were cut in all directions at once.
+enum class Levels {
+  ignored,  ///< children have the value of their parent, like that of any other field
+  counted,  ///< children of a hex that is cut in all directions are one above it
+  graded,   ///< and more hexes are cut so that none shares a node with one more than one level below its own (sizes by
+            ///< threes, and numsplit of whole hexes)
+};
+
 /// Instead of targets: the hex sheets (mesh/sheets.h) that edges belong to. Their edges are cut in three, once; nothing
 /// else is.
 struct SheetRequest {
@@ -68,8 +79,8 @@ struct Request {
   /// Mesh entities by index (0-based; edges and faces as numbered by edges() and faces()), CAD entities by id.
   /// Ascending, each once.
   std::vector<Index> targets = {};
-  /// How often each target edge is cut in three. 1 .. 8. All volumes of the model together are refined uniformly
-  /// instead: every edge in numsplit + 1 pieces, 1 .. 29.
+  /// How often each target edge is cut in three. 1 .. max_numsplit. All volumes of the model together are refined
+  /// uniformly instead: every edge in numsplit + 1 pieces, 1 .. 29.
   int numsplit = 1;
   /// Layers of hexes around the target that are refined fully too: 0 exactly the target (for nodes, edges, faces and
   /// what the CAD calls so: the combination technique), 1 every hex that touches it, ... Default: 0; 1 for
@@ -100,6 +111,7 @@ struct Request {
 
   Method method = Method::automatic;
   Concave concave = Concave::templates;
+  Levels levels = Levels::ignored;
   bool smooth = false;            ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
   std::vector<Index> fixed = {};  ///< nodes (0-based) that neither smoothing nor the repair of children moves
   bool dry_run = false;           ///< count only: the result holds no mesh

@@ -170,6 +170,7 @@ Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish
   mark_wishing_nodes(mesh, missed(), wish, most_too_long, marked);
   mark_nodes(mesh.hexes, missed(), marked);
   if (request.concave == Concave::fill) report.filled_hexes += fill_concave(mesh, marked);
+  if (request.levels == Levels::graded) say_graded(grade_marks(mesh, request.concave, marked), report.notices);
   step.codes = trisect_codes(mesh.hexes, marked);
   return step;
 }

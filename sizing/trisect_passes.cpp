@@ -15,6 +15,8 @@ void trisect_passes(Pipeline& run) {
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);
     mark_nodes(mesh.hexes, targets, marked);
     if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
+    if (run.request().levels == Levels::graded)
+      say_graded(grade_marks(mesh, run.request().concave, marked), run.report().notices);
     run.pass(trisect_table(), trisect_codes(mesh.hexes, marked));
     if (i + 1 < run.request().numsplit) targets = children_of(run.lineage(), targets);
   }

@@ -95,7 +95,8 @@ TEST(adapt, without_gradation_cuts_exactly_what_was_flagged) {
   EXPECT_TRUE(graded(kept.refined.mesh));
   EXPECT_GT(kept.refined.mesh.n_hexes(), free.refined.mesh.n_hexes());
   ASSERT_FALSE(kept.report.notices.empty());
-  EXPECT_NE(kept.report.notices.back().find("hexes more than flagged"), std::string::npos);
+  EXPECT_NE(kept.report.notices.back().find("hexes more than asked for, to keep neighbours within one level"),
+            std::string::npos);
 }
 
 TEST(adapt, closing_flags_equals_brute_force_on_random_levels) {
@@ -137,6 +138,67 @@ TEST(adapt, takes_a_wished_size_for_each_hex) {
     EXPECT_LE(size, std::sqrt(3.0) * sizes[result.origin[h]]) << h;
   }
   EXPECT_EQ(result.report.sizes->n_coarser, 0);
+}
+
+TEST(adapt, wished_sizes_raise_levels_as_flags_do) {
+  const MeshedModel input = brick(4, 4, 4);
+  std::vector<double> sizes(64, std::numeric_limits<double>::infinity());
+  sizes[21] = sizes[22] = 0.4;
+  std::vector<std::uint8_t> flags(64, 0);
+  flags[21] = flags[22] = 1;
+  const Mesh by_size = adapt(input, sizes).refined.mesh, by_flag = adapt(input, flags).refined.mesh;
+  EXPECT_TRUE(by_size == by_flag) << "the same mesh, the same levels";
+  EXPECT_EQ(std::ranges::count(levels(by_size), 1), 54);
+  // Two passes at once: graded, and exactly without gradation.
+  sizes[22] = 0.12;
+  const Mesh twice = adapt(input, sizes).refined.mesh;
+  EXPECT_EQ(std::ranges::max(levels(twice)), 2);
+  EXPECT_TRUE(graded(twice));
+  const AdaptResult free = adapt(input, sizes, {.keep_gradation = false});
+  EXPECT_EQ(std::ranges::count(levels(free.refined.mesh), 2), 729);
+  EXPECT_FALSE(graded(free.refined.mesh));
+  for (Index h = 0; h < free.refined.mesh.n_hexes(); ++h)
+    if (levels(free.refined.mesh)[h] == 2) {
+      EXPECT_EQ(free.origin[h], 22);
+    }
+}
+
+TEST(adapt, a_hex_between_flagged_ones_is_cut_as_they_are_and_rises_with_them) {
+  const MeshedModel input = brick(3, 3, 3);
+  std::vector<std::uint8_t> flags(27, 1);
+  flags[13] = 0;
+  const Mesh mesh = adapt(input, flags).refined.mesh;
+  EXPECT_EQ(mesh.n_hexes(), 27 * 27);
+  EXPECT_EQ(levels(mesh), std::vector<int>(27 * 27, 1));
+}
+
+TEST(adapt, neighbours_stay_within_one_level_over_mixed_calls) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+    std::mt19937 random(seed);
+    MeshedModel mesh = brick(4, 4, 3);
+    for (int call = 0; call < 4 && mesh.mesh.n_hexes() < 3000; ++call) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + " call " + std::to_string(call));
+      AdaptOptions options;
+      options.concave = random() % 3 == 0 ? Concave::fill : Concave::templates;
+      const auto n = mesh.mesh.hexes.size();
+      AdaptResult result;
+      if (random() % 2) {
+        std::vector<std::uint8_t> flags(n, 0);
+        for (int i = 0; i < 4; ++i) flags[random() % n] = 1;
+        result = adapt(mesh, flags, options);
+      } else {
+        std::vector<double> sizes(n, std::numeric_limits<double>::infinity());
+        const auto h = static_cast<Index>(random() % n);
+        sizes[h] = std::cbrt(volume(mesh.mesh, h)) / (random() % 2 ? 2.5 : 6);
+        options.bias = random() % 2 ? 1 : 1.6;
+        result = adapt(mesh, sizes, options);
+      }
+      EXPECT_TRUE(graded(result.refined.mesh));
+      EXPECT_TRUE(test::conformal(result.refined.mesh));
+      EXPECT_TRUE(test::uninverted(result.refined.mesh));
+      mesh = std::move(result.refined);
+    }
+  }
 }
 
 TEST(adapt, without_flags_returns_the_mesh_as_it_was) {
