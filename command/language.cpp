@@ -165,7 +165,7 @@ const std::vector<CommandSpec> table = {
      "'method parallel' makes one into eight instead of 27 wherever the sheets of a region allow it. 'smooth' moves the new nodes, and those of two "
      "layers around them, to better shapes. "
      "'size' cuts until the elements at the target are about as large, each edge within a factor of sqrt(3), by threes, or by "
-     "twos as well where 'method auto' finds that nearer; with a "
+     "twos as well, or by the combination in the last passes, where 'method auto' finds that nearer; with a "
      "'bias' above 1 the wished size grows with the distance from the target by about that factor from element to "
      "element, and all hexes are looked at. 'sizing_function' takes the size from a function of place, in the hexes of the "
      "target; with a 'bias' it is lowered until sizes grow by no more than that. 'radius' takes the hexes whose centroid is that near to the target. "
@@ -191,7 +191,7 @@ const std::vector<CommandSpec> table = {
       {"second", Kind::integer, 1, 9e15, false, "id of the node at the other end of the edge"},
       {"length", Kind::number, 0, 1e100, false, "only edges longer than this"},
       {"multiple", Kind::number, 0, 1e100, false, "only edges longer than this times the shortest"}},
-     {"refine curve 3", "refine curve 3 size 0.5 bias 1.5", "refine vertex 2 radius 4 numsplit 2",
+     {"refine curve 3", "refine curve 3 size 0.5 bias 1.5", "refine curve 3 size 0.5 depth 0", "refine vertex 2 radius 4 numsplit 2",
       "refine volume all sizing_function \"0.5 + 0.1*abs(x)\"", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
       "refine volume all numsplit 1", "refine sheet edge 12 greater_than 0.5", "refine sheet node 1 2",
       "refine surface 3 direction layers 4 growth 1.3", "refine hex in field \"error\" top 5 % graded"}},

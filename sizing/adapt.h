@@ -45,8 +45,8 @@ AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const
 /// Level of every hex: the field, or zeros.
 std::vector<int> levels(const Mesh& mesh);
 
-/// Flags of hexes that are cut in all directions and of those that have to go with them so that levels stay graded: a neighbour of a flagged hex that
-/// is of a lower level is flagged too, and so on. Returns how many were added.
+/// Flags of hexes that are cut in all directions and of those that have to go with them so that levels stay graded: a
+/// neighbour of a flagged hex that is of a lower level is flagged too, and so on. Returns how many were added.
 Index close_flags(const Mesh& mesh, std::span<const int> level, std::span<std::uint8_t> flags);
 
 }  // namespace hextwist

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hextwist/refine/combine.h"
 #include "hextwist/refine/eight.h"
 #include "hextwist/refine/split_table.h"
 #include "hextwist/sizing/request.h"
@@ -94,12 +95,20 @@ std::vector<Index> eight_round(Pipeline& run, EightPlan plan, std::vector<Index>
 void sheet_passes(Pipeline& run);
 void thickness_passes(Pipeline& run);
 void layer_passes(Pipeline& run);
-/// Hexes cut until they have the wished size: in three, or with `halves` one into eight in regions that come nearer to
-/// the wish by factors of two and where that can be. Returns whether there were such.
-bool size_passes(Pipeline& run, bool halves);
-/// Sizes with Method::automatic: tries both, takes what is better.
+/// What too large hexes are cut by besides threes.
+enum class SizeTechnique {
+  thirds,       ///< nothing
+  halves,       ///< one into eight in regions that come nearer to the wish by factors of two and where that can be
+  combination,  ///< at the target, once all that are too large touch it: they are refined towards it only
+};
+/// Hexes cut until they have the wished size. Returns whether there was anything for the technique to do.
+bool size_passes(Pipeline& run, SizeTechnique technique);
+/// Sizes with Method::automatic: tries threes and what else there is, takes what is better.
 void nearest_sizes(Pipeline& run);
 /// Around nodes, edges and faces: parallel or combination (section 5).
 void sub_element_passes(Pipeline& run, Method method);
+/// One round of the combination around these nodes, edges and faces of the current mesh. after_pass is called after
+/// each pass.
+void combination_round(Pipeline& run, CombinationTarget target, const std::function<void()>& after_pass);
 
 }  // namespace hextwist

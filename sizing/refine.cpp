@@ -58,10 +58,10 @@ void check_options(const Request& request) {
   if (request.size && !positive(*request.size)) throw Error("size must be a positive number");
   if (request.numsplit != 1) throw Error("give numsplit or a size, not both");
   if (request.max_passes < 1 || request.max_passes > 30) throw Error("max_passes must be from 1 to 30");
-  if (request.method == Method::combination)
-    throw Error("sizes need whole hexes to be cut: method auto, single or parallel, not combination");
-  if (request.depth && *request.depth == 0 && !is_solid(request.kind))
-    throw Error("sizes need whole hexes to be cut: depth 1 or more");
+  if (request.depth && *request.depth == 0 && !is_solid(request.kind) && request.method == Method::parallel)
+    throw Error("sizes by one into eight need whole hexes to be cut: depth 1 or more");
+  if (request.levels == Levels::graded && request.method == Method::combination)
+    throw Error("graded levels need whole hexes to be cut: not the combination");
 }
 
 void check(const MeshedModel& input, const Request& request) {
@@ -161,10 +161,13 @@ RefineResult run_passes(Pipeline& run) {
   } else if (request.layers) {
     layer_passes(run);
   } else if (is_size_driven(request)) {
-    if (request.method == Method::automatic)
+    const bool at_target = request.depth && *request.depth == 0 && !is_solid(request.kind);
+    if (method == Method::combination && (request.method == method || at_target))
+      size_passes(run, SizeTechnique::combination);
+    else if (request.method == Method::automatic)
       nearest_sizes(run);
     else
-      size_passes(run, request.method == Method::parallel);
+      size_passes(run, request.method == Method::parallel ? SizeTechnique::halves : SizeTechnique::thirds);
   } else if (is_whole_model(run.input(), request) && method == Method::single && !request.radius) {
     const int pieces = request.numsplit + 1;
     run.report().notices.push_back("all volumes: uniform, every edge in " + std::to_string(pieces) + " equal pieces");

@@ -36,7 +36,7 @@ enum class Concave { templates, fill };
 /// Which technique of the paper (table 1).
 enum class Method {
   automatic,    ///< single for hexes and volumes and for depth >= 1; combination for all else; with sizes single or
-                ///< parallel, whichever comes nearer to them (docs/commands.md has the rule)
+                ///< parallel or combination, whichever comes nearer to them (docs/commands.md has the rule)
   single,       ///< trisecting: section 4
   parallel,     ///< enclosing at half: section 5.1 to 5.3; hexes, volumes and depth >= 1 one into eight (eight.h)
   combination,  ///< enclosing at a third, then trisecting along the target: section 5.4

@@ -1,10 +1,11 @@
-// Which factors come nearer to wished sizes: threes, or twos and threes.
+// What comes nearer to wished sizes: threes alone, or with twos, or with the combination at the target.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/pipeline_internal.h"
+#include "hextwist/sizing/targets.h"
 
 namespace hextwist {
 namespace {
@@ -19,14 +20,14 @@ struct Candidate {
   double distance = 0;  ///< average of |log(actual / wished size)| at the target
   double worst_shape = 0;
   bool sound = true;
-  bool has_halved = false;
+  bool has_done = false;  ///< more than threes alone would have
 };
 
-Candidate attempt(const Pipeline& from, const Report& start, bool halves) {
+Candidate attempt(const Pipeline& from, const Report& start, SizeTechnique technique) {
   Candidate candidate;
   candidate.report = start;
   Pipeline run(from.input(), from.request(), candidate.report, from.progress());
-  candidate.has_halved = size_passes(run, halves);
+  candidate.has_done = size_passes(run, technique);
   candidate.result = run.take_result();
   return candidate;
 }
@@ -56,19 +57,24 @@ std::string rounded(double value) {
 }  // namespace
 
 void nearest_sizes(Pipeline& run) {
-  // Where the wish changes from place to place, halved regions have steps for sides, which twos meet badly.
-  if (run.request().bias > 1 || run.request().size_field) {
-    size_passes(run, false);
+  const Request& request = run.request();
+  // Where the wish changes from place to place, halved regions have steps for sides, which twos meet badly. What is
+  // refined towards the target alone then comes nearer; where the wish does not change, it is for whole hexes.
+  const bool varies = request.bias > 1 || request.size_field;
+  const bool may_combine = request.size && request.bias > 1 && !is_solid(request.kind) && !request.depth &&
+                           !request.radius && request.levels == Levels::ignored;
+  if (varies && !may_combine) {
+    size_passes(run, SizeTechnique::thirds);
     return;
   }
   run.stages().close();  // those of the candidates count
   const Report start = run.report();
-  Candidate mixed = attempt(run, start, true);
-  if (!mixed.has_halved) {
+  Candidate mixed = attempt(run, start, varies ? SizeTechnique::combination : SizeTechnique::halves);
+  if (!mixed.has_done) {
     run.report() = std::move(mixed.report);
     return run.adopt(std::move(mixed.result));
   }
-  Candidate thirds = attempt(run, start, false);
+  Candidate thirds = attempt(run, start, SizeTechnique::thirds);
   judge(mixed);
   judge(thirds);
   const bool takes_mixed = is_better(mixed, thirds);
@@ -79,9 +85,11 @@ void nearest_sizes(Pipeline& run) {
   const double wasted = other.report.total_seconds - start.total_seconds;
   report.seconds.push_back({"other technique", wasted});
   report.total_seconds += wasted;
-  report.notices.push_back(std::string(takes_mixed ? "one into eight where that comes nearer, else one into 27"
-                                                   : "one into 27 alone, not one into eight as well") +
-                           ": sizes are off by a factor of " + rounded(std::exp(better.distance)) +
+  const char* taken = varies ? takes_mixed ? "the combination for the last passes at the target, else whole hexes"
+                                           : "whole hexes alone, not the combination at the target as well"
+                      : takes_mixed ? "one into eight where that comes nearer, else one into 27"
+                                    : "one into 27 alone, not one into eight as well";
+  report.notices.push_back(std::string(taken) + ": sizes are off by a factor of " + rounded(std::exp(better.distance)) +
                            " on average, not " + rounded(std::exp(other.distance)) + "; the worst shape is " +
                            rounded(better.worst_shape) + ", not " + rounded(other.worst_shape));
   run.adopt(std::move(better.result));

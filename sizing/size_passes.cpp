@@ -203,6 +203,28 @@ std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_l
   return halved;
 }
 
+/// Nodes, edges and faces of the target at these hexes.
+CombinationTarget part_at(const CombinationTarget& target, const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<std::uint8_t> chosen(mesh.points.size(), 0);
+  mark_nodes(mesh.hexes, hexes, chosen);
+  const auto is_chosen = [&](Index n) { return chosen[n] != 0; };
+  CombinationTarget part;
+  std::ranges::copy_if(target.nodes, std::back_inserter(part.nodes), is_chosen);
+  std::ranges::copy_if(target.edges, std::back_inserter(part.edges),
+                       [&](const Edge& edge) { return std::ranges::all_of(edge, is_chosen); });
+  std::ranges::copy_if(target.faces, std::back_inserter(part.faces),
+                       [&](const Quad& quad) { return std::ranges::all_of(quad, is_chosen); });
+  return part;
+}
+
+/// Per hex: does it have a node of the target?
+std::vector<std::uint8_t> touching(const CombinationTarget& target, const Mesh& mesh) {
+  std::vector<std::uint8_t> on_it(mesh.points.size(), 0), result(mesh.hexes.size(), 0);
+  for (const Index n : target.nodes) on_it[n] = 1;
+  for (const Index h : touching_hexes(mesh.hexes, on_it)) result[h] = 1;
+  return result;
+}
+
 }  // namespace
 
 SizeFieldPtr wish_of(const MeshedModel& input, const Request& request) {
@@ -218,8 +240,9 @@ SizeFieldPtr wish_of(const MeshedModel& input, const Request& request) {
   return smallest_of(std::move(fields));
 }
 
-bool size_passes(Pipeline& run, bool halves) {
+bool size_passes(Pipeline& run, SizeTechnique technique) {
   const Request& request = run.request();
+  const bool halves = technique == SizeTechnique::halves, combines = technique == SizeTechnique::combination;
   const SizeFieldPtr wish = wish_of(run.input(), request);
   const bool everywhere = request.bias > 1 && !request.depth && !request.radius;
   const AtTarget target(run.input(), request);
@@ -242,8 +265,17 @@ bool size_passes(Pipeline& run, bool halves) {
     in_zone = std::move(zone);
     in_report = std::move(reported);
   };
+  CombinationTarget at;
+  if (combines) at = sub_element_target(run.input(), request, run.report().notices);
+  const auto carry_all = [&] {
+    carry_zones();
+    if (!combines) return;
+    at = carried_target(at, run.lineage(), run.current().mesh);
+    // Depth 0: what touches the target now is all that is wished for.
+    if (!everywhere) in_zone = in_report = touching(at, run.current().mesh);
+  };
   int n_passes = 0;
-  bool has_halved = false;
+  bool has_done = false;
   std::vector<Index> unmet;
   while (true) {
     run.stages().begin("sizes", run.fraction());
@@ -254,7 +286,17 @@ bool size_passes(Pipeline& run, bool halves) {
       if (std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish, plan); !halved.empty()) {
         eight_round(run, std::move(plan), std::move(halved), carry_zones);
         ++n_passes;
-        has_halved = true;
+        has_done = true;
+        continue;
+      }
+    }
+    if (combines && !too_large.empty() && n_passes < request.max_passes) {
+      const std::vector<std::uint8_t> touches = touching(at, mesh);
+      if (std::ranges::all_of(too_large, [&](Index h) { return touches[h] != 0; })) {
+        if (n_passes > 0) run.smooth_between_passes();
+        combination_round(run, part_at(at, run.current().mesh, too_large), carry_all);
+        ++n_passes;
+        has_done = true;
         continue;
       }
     }
@@ -267,7 +309,7 @@ bool size_passes(Pipeline& run, bool halves) {
     if (n_passes > 0) run.smooth_between_passes();
     run.pass(step.table, step.codes);
     ++n_passes;
-    carry_zones();
+    carry_all();
   }
   if (n_passes == 0) run.keep();
   SizeReport report = size_report(
@@ -275,7 +317,7 @@ bool size_passes(Pipeline& run, bool halves) {
   report.n_passes = n_passes;
   report.unmet = std::move(unmet);
   run.report().sizes = std::move(report);
-  return has_halved;
+  return has_done;
 }
 
 }  // namespace hextwist

@@ -20,7 +20,8 @@ struct Enclosed {
 };
 
 /// Encloses the target's nodes, in parts where they can't be all at once. uncut: loses the edges that get cut.
-void enclose(Pipeline& run, EncloseAt at, CombinationTarget& target, std::vector<Edge>& uncut, Enclosed& done) {
+void enclose(Pipeline& run, EncloseAt at, CombinationTarget& target, std::vector<Edge>& uncut, Enclosed& done,
+             const std::function<void()>& after_pass = {}) {
   std::vector<Index> rest = target.nodes;
   while (!rest.empty()) {
     run.stages().begin("close", run.fraction());
@@ -32,6 +33,7 @@ void enclose(Pipeline& run, EncloseAt at, CombinationTarget& target, std::vector
     std::erase_if(rest, [&](Index n) { return part[n] != 0; });
     if (!rest.empty()) done.n_first += static_cast<Index>(std::ranges::count(part, 1));
     run.pass(enclose_table(at), enclose_codes(mesh.hexes, part));
+    if (after_pass) after_pass();
     target = carried_target(target, run.lineage(), run.current().mesh);
     std::erase_if(uncut, [&](const Edge& edge) {
       return std::ranges::binary_search(run.lineage().edges, edge, {}, [](const CutEdge& cut) {
@@ -48,6 +50,17 @@ void say(const Enclosed& done, std::vector<std::string>& notices) {
 }
 
 }  // namespace
+
+void combination_round(Pipeline& run, CombinationTarget target, const std::function<void()>& after_pass) {
+  Enclosed done;
+  std::vector<Edge> uncut = target_edges(target);
+  enclose(run, EncloseAt::third, target, uncut, done, after_pass);
+  say(done, run.report().notices);
+  if (uncut.empty()) return;
+  run.stages().begin("close", run.fraction());
+  run.pass(trisect_table(), combination_codes(run.current().mesh, target, uncut));
+  after_pass();
+}
 
 void sub_element_passes(Pipeline& run, Method method) {
   CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "hextwist/geom/analytic_model.h"
 #include "hextwist/sizing/request.h"
+#include "hextwist/sizing/size_field.h"
+#include "hextwist/sizing/targets.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"
@@ -73,6 +76,81 @@ TEST(size_mix, both_are_told_when_both_were_tried) {
   request.method = Method::automatic;
   request.size = 1.0 / 3;  // a factor of three: nothing to choose
   EXPECT_EQ(notices(checked(input, request)), "");
+}
+
+/// Node, edge and face in the middle of a grid of 5 x 5 x 5 unit cubes; vertex, curve and surface of the brick.
+std::vector<std::pair<TargetKind, Index>> targets_of(const MeshedModel& input) {
+  const auto node = [](int i, int j, int k) { return i + 6 * (j + 6 * k); };
+  return {
+      {TargetKind::node, node(2, 2, 2)},
+      {TargetKind::edge, find_edge(edges(input.mesh), node(2, 2, 2), node(3, 2, 2))},
+      {TargetKind::face, find_face(faces(input.mesh), {node(2, 2, 2), node(3, 2, 2), node(2, 3, 2), node(3, 3, 2)})},
+      {TargetKind::vertex, 1},
+      {TargetKind::curve, 1},
+      {TargetKind::surface, 5}};
+}
+
+TEST(size_mix, at_depth_0_only_what_touches_the_target_gets_the_size_within_the_first_layer) {
+  const MeshedModel input = brick(5, 5, 5);
+  for (const auto& [kind, target] : targets_of(input))
+    for (const double size : {0.4, 0.12}) {
+      SCOPED_TRACE(std::string(name(kind)) + " " + std::to_string(size));
+      const RefineResult result = checked(input, {.kind = kind, .targets = {target}, .depth = 0, .size = size});
+      const SizeReport& sizes = *result.report.sizes;
+      EXPECT_EQ(sizes.n_coarser, 0);
+      EXPECT_TRUE(sizes.unmet.empty());
+      EXPECT_EQ(sizes.n_passes, size > 0.2 ? 1 : 2);
+      // Hexes that did not touch the target are there as they were.
+      const RefineResult by_count = checked(input, {.kind = kind, .targets = {target}});
+      for (Index h = 0; h < input.mesh.n_hexes(); ++h)
+        EXPECT_EQ(find_hex(result.refined.mesh, h + 1) >= 0, find_hex(by_count.refined.mesh, h + 1) >= 0);
+      EXPECT_EQ(sizes.n_passes == 1, result.refined.mesh == by_count.refined.mesh);
+      const RefineResult said =
+          checked(input, {.kind = kind, .targets = {target}, .size = size, .method = Method::combination});
+      EXPECT_TRUE(said.refined.mesh == result.refined.mesh) << "the same request";
+    }
+}
+
+TEST(size_mix, the_combination_with_a_bias_leaves_nothing_too_large_anywhere) {
+  const MeshedModel input = brick(5, 5, 5);
+  for (const auto& [kind, target] : targets_of(input)) {
+    SCOPED_TRACE(name(kind));
+    const Request request{.kind = kind, .targets = {target}, .size = 0.12, .bias = 1.4, .method = Method::combination};
+    const RefineResult result = checked(input, request);
+    const SizeFieldPtr wish =
+        growing_size(0.12, 1.4, std::make_shared<TargetDistance>(input, kind, std::span(&target, 1)));
+    const std::vector<Vec3> centres = centroids(result.refined.mesh);
+    std::vector<double> wished(centres.size());
+    wish->evaluate(centres, wished);
+    for (Index h = 0; h < result.refined.mesh.n_hexes(); ++h)
+      EXPECT_LE(std::cbrt(volume(result.refined.mesh, h)), std::numbers::sqrt3 * wished[h] * (1 + 1e-9)) << h;
+  }
+}
+
+TEST(size_mix, auto_takes_the_combination_at_a_curve_where_it_comes_nearer) {
+  const MeshedModel input = test::shipped("plate_hole");
+  int n_combined = 0, n_whole = 0;
+  for (const Index curve : {2, 5, 9, 10})
+    for (const double size : {1.0, 0.5}) {
+      SCOPED_TRACE(std::to_string(curve) + " " + std::to_string(size));
+      Request request{.kind = TargetKind::curve, .targets = {curve}, .size = size, .bias = 1.5};
+      const RefineResult by_auto = checked(input, request);
+      request.method = Method::single;
+      const RefineResult by_threes = checked(input, request);
+      request.method = Method::combination;
+      const RefineResult combined = checked(input, request);
+      const bool takes_combination = by_auto.refined.mesh == combined.refined.mesh;
+      EXPECT_TRUE(takes_combination || by_auto.refined.mesh == by_threes.refined.mesh);
+      EXPECT_GE(by_auto.report.sizes->met(), by_threes.report.sizes->met() - 0.05);
+      EXPECT_GE(by_auto.report.sizes->met(), combined.report.sizes->met() - 0.05);
+      if (combined.refined.mesh == by_threes.refined.mesh) continue;
+      const char* said = takes_combination ? "the combination for the last passes at the target, else whole hexes"
+                                           : "whole hexes alone, not the combination at the target as well";
+      EXPECT_NE(notices(by_auto).find(said), std::string::npos) << notices(by_auto);
+      ++(takes_combination ? n_combined : n_whole);
+    }
+  EXPECT_GE(n_combined, 1);
+  EXPECT_GE(n_whole, 1);
 }
 
 TEST(size_mix, an_edge_is_left_alone_until_it_is_longer_than_the_wish_by_sqrt_3) {

@@ -186,9 +186,16 @@ TEST(size, options_that_make_no_sense_together_are_refused) {
   EXPECT_EQ(with([](Request& r) { r.radius = 1, r.depth = 1; }), "give a depth or a radius, not both");
   EXPECT_EQ(with([](Request& r) { r.radius = 1, r.method = Method::combination; }),
             "a radius chooses whole hexes, the combination technique refines around nodes, edges and faces");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.method = Method::combination; }),
-            "sizes need whole hexes to be cut: method auto, single or parallel, not combination");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0; }), "sizes need whole hexes to be cut: depth 1 or more");
+  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0, r.method = Method::parallel; }),
+            "sizes by one into eight need whole hexes to be cut: depth 1 or more");
+  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0, r.method = Method::single; }),
+            "the single sheet technique refines whole hexes: it needs depth 1 or more");
+  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 1, r.method = Method::combination; }),
+            "the combination technique has depth 0");
+  EXPECT_EQ(with([](Request& r) { r.size = 1, r.levels = Levels::graded, r.method = Method::combination; }),
+            "graded levels need whole hexes to be cut: not the combination");
+  EXPECT_EQ(with([](Request& r) { r.kind = TargetKind::volume, r.size = 1, r.method = Method::combination; }),
+            "the combination technique refines around nodes, edges and faces, not a volume");
   EXPECT_EQ(with([](Request& r) { r.size = 1, r.max_passes = 0; }), "max_passes must be from 1 to 30");
   EXPECT_EQ(with([](Request& r) { r.radius = 0.1; }),
             "no hex has its centroid within 0.100000 of the target: the nearest is 0.707107 away");
