@@ -103,6 +103,7 @@ bool is_complete(const MeshedModel& input, const Request& request) {
 
 bool is_local(const MeshedModel& input, const Request& request) {
   if (request.sheets || request.through_thickness || request.layers || request.size || request.size_field) return false;
+  if (request.levels == Levels::graded) return false;  // takes coarser neighbours along, however far that goes
   const Method method = technique(request);
   if (method == Method::parallel) return !is_solid(request.kind) && request.depth.value_or(0) == 0 && !request.radius;
   return method == Method::combination || request.radius || !is_whole_model(input, request);

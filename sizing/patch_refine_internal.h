@@ -29,8 +29,8 @@ struct PatchResult {
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
                                         const Progress& progress, const RingsOf& rings_of = rings_by_place);
 
-/// Does the request cut only what lies around its targets? Not so: sheets, directions, sizes, one into eight (planned
-/// by sheets), all volumes.
+/// Does the request cut only what lies around its targets? Not so: sheets, directions, sizes, graded levels, one into
+/// eight (planned by sheets), all volumes.
 bool is_local(const MeshedModel& input, const Request& request);
 
 /// Lineage and origin in numbers of the whole.
