@@ -251,8 +251,30 @@ py::array_t<std::int64_t> ids(PySession& session, const std::string& kind, const
   return array_of(session.run([&](Session& s) { return s.ids(kind, range); }));
 }
 
+/// The session of an object, null while it is being made.
+PySession* session_in(PyObject* object) {
+  const auto place = reinterpret_cast<py::detail::instance*>(object)->get_value_and_holder();
+  return place.holder_constructed() ? place.value_ptr<PySession>() : nullptr;
+}
+int visit_session(PyObject* object, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(object));
+  if (PySession* session = session_in(object))
+    for (const py::object* callback : session->callbacks()) Py_VISIT(callback->ptr());
+  return 0;
+}
+int clear_session(PyObject* object) {
+  if (PySession* session = session_in(object))
+    for (py::object* callback : session->callbacks()) *callback = py::none();
+  return 0;
+}
+
 void bind_session(py::module_& m) {
-  py::class_<PySession>(m, "Session",
+  const py::custom_type_setup collected([](PyHeapTypeObject* heap) {
+    heap->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+    heap->ht_type.tp_traverse = visit_session;
+    heap->ht_type.tp_clear = clear_session;
+  });
+  py::class_<PySession>(m, "Session", collected,
                         "A mesh on its model, changed by commands. Callbacks (any may be None): output(line) what "
                         "commands print, notice(line) remarks, progress(stage, fraction) now and then; returning "
                         "False cancels. Ctrl-C cancels too. One call at a time; other Python threads run meanwhile.")

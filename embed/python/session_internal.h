@@ -1,6 +1,7 @@
 // A session as Python holds it: one call at a time, callbacks, Ctrl-C.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -46,6 +47,9 @@ class PySession {
     const Busy busy(busy_);
     return f(session_);
   }
+
+  /// The garbage collector follows these: a callback may hold the session that it is of.
+  std::array<py::object*, 3> callbacks() { return {&output_, &notice_, &progress_}; }
 
  private:
   struct Busy {

@@ -227,6 +227,52 @@ class Gmsh(unittest.TestCase):
         self.assertLess(np.abs(np.hypot(coord[0::3], coord[1::3]) - 6).max(), 1e-9)
         self.check()
 
+    def test_hexes_from_subdivided_tetrahedra(self):
+        occ = gmsh.model.occ
+        occ.addBox(0, 0, 0, 20, 20, 6)
+        occ.addCylinder(10, 10, -1, 0, 0, 8, 4)
+        occ.cut([(3, 1)], [(3, 2)])
+        occ.synchronize()
+        gmsh.option.setNumber("Mesh.SubdivisionAlgorithm", 2)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 4)
+        gmsh.model.mesh.generate(3)
+        before = n_hexes()
+        self.refine("curve in surface 7")
+        self.assertGreater(n_hexes(), before)
+        self.check()
+        self.check_written()
+
+    def test_touching_volumes_with_meshes_of_their_own(self):
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.addBox(1, 0, 0, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        structured(3)
+        self.refine("surface 2")
+        self.check()
+        self.assertEqual(len(gmsh.model.mesh.getElements(3, 2)[1][0]), 27)
+        self.assertGreater(len(gmsh.model.mesh.getElements(3, 1)[1][0]), 27)
+
+    def test_a_volume_without_a_mesh_is_left_alone(self):
+        occ = gmsh.model.occ
+        occ.addBox(0, 0, 0, 1, 1, 1)
+        occ.addBox(1, 0, 0, 1, 1, 1)
+        occ.fragment([(3, 1)], [(3, 2)])
+        occ.synchronize()
+        structured(3)
+        gmsh.model.mesh.clear([(3, 2)])
+        before = snapshot()
+        with self.assertRaisesRegex(hextwist.Error, "is no edge of a hex|is no side of a hex"):
+            self.refine("surface 2")
+        self.assertEqual(snapshot(), before)
+        for dim in (2, 1, 0):
+            for entity in gmsh.model.getEntities(dim):
+                if gmsh.model.getBoundingBox(*entity)[3] > 1.5:
+                    gmsh.model.mesh.clear([entity])
+        self.refine("surface 2")
+        self.assertGreater(n_hexes(), 27)
+        self.check()
+        self.assertTrue(any("volume has no hex" in line for line in self.notices), self.notices)
+
     def test_two_volumes_share_their_surface(self):
         occ = gmsh.model.occ
         occ.addBox(0, 0, 0, 1, 1, 1)

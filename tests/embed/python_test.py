@@ -7,6 +7,7 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import numpy as np
 
@@ -295,6 +296,19 @@ class Callbacks(unittest.TestCase):
         session = hextwist.Session(output=output)
         with self.assertRaises(ZeroDivisionError):
             session.cmd("create brick x 1 y 1 z 1 interval 2 2 2")
+
+    def test_that_hold_their_session_go_with_it(self):
+        class Listener:
+            def __call__(self, line):
+                pass
+
+        listener = Listener()
+        listener.session = hextwist.Session(output=listener)
+        listener.session.cmd("create brick x 1 y 1 z 1 interval 2 2 2")
+        gone = weakref.ref(listener)
+        del listener
+        gc.collect()
+        self.assertIsNone(gone())
 
     def test_calls_from_within_are_refused(self):
         errors = []
