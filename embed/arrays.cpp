@@ -127,6 +127,7 @@ void read_owners(const hextwist_arrays& in, MeshFile& file) {
   on_curves.erase(std::ranges::unique(on_curves, {}, [](const auto& each) { return each.first; }).begin(),
                   on_curves.end());
   std::vector<Edge> pairs;
+  pairs.reserve(on_curves.size());
   for (const auto& [edge, curve] : on_curves) pairs.push_back(edge);
   const std::vector<char> good = io::are_edges(mesh, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -129,6 +129,7 @@ class Reading {
   void elements(const GmshEntity& entity, const std::vector<std::size_t>& tags, const std::vector<std::size_t>& nodes) {
     const std::size_t width = entity.dim == 0 ? 1 : entity.dim == 1 ? 2 : 4;
     std::vector<Index> at;
+    at.reserve(nodes.size());
     for (const std::size_t node : nodes) at.push_back(find(node));
     for (std::size_t i = 0; i < tags.size(); ++i) {
       const std::span<const Index> one(at.data() + width * i, width);
@@ -182,6 +183,7 @@ class Reading {
   template <class T>
   static void reorder(std::vector<T>& values, const std::vector<std::size_t>& order) {
     std::vector<T> sorted;
+    sorted.reserve(order.size());
     for (const std::size_t i : order) sorted.push_back(values[i]);
     values = std::move(sorted);
   }
