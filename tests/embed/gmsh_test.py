@@ -61,6 +61,10 @@ def snapshot():
     return result, groups
 
 
+def entities_with_elements():
+    return [e for e in gmsh.model.getEntities() if len(gmsh.model.mesh.getElements(*e)[0])]
+
+
 def n_hexes():
     return len(gmsh.model.mesh.getElementsByType(5)[0])
 
@@ -75,8 +79,10 @@ class Gmsh(unittest.TestCase):
         gmsh.finalize()
 
     def refine(self, commands):
-        self.notices = []
-        return hextwist.gmsh.refine(commands, notice=self.notices.append)
+        self.notices, had = [], entities_with_elements()
+        session = hextwist.gmsh.refine(commands, notice=self.notices.append)
+        self.assertEqual(entities_with_elements(), had)
+        return session
 
     def check(self, on_cad=True):
         """What must hold of any mesh that was put back."""
@@ -206,6 +212,21 @@ class Gmsh(unittest.TestCase):
         self.check_orientation(signs)
         self.check_written()
 
+    def test_commands_mean_tags_whatever_the_order_in_the_CAD(self):
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1, 2)
+        gmsh.model.occ.addBox(5, 0, 0, 1, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        structured(3)
+        far = [tag for _, tag in gmsh.model.getEntities(2) if gmsh.model.getBoundingBox(2, tag)[0] > 4]
+        self.assertNotIn(1, far)  # in the order of the CAD, volume 1 comes first, and its surfaces
+        for tag in (far[0], 1):
+            before = {volume: len(gmsh.model.mesh.getElements(3, volume)[1][0]) for volume in (1, 2)}
+            self.refine(f"surface {tag}")
+            grown = [volume for volume, n in before.items() if len(gmsh.model.mesh.getElements(3, volume)[1][0]) > n]
+            self.assertEqual(grown, [1 if tag in far else 2])
+            self.assertEqual(self.notices, [])
+            self.check()
+
     def test_tags_with_gaps_can_be_named_and_are_told(self):
         swept_plate(gap=True)
         volumes = [tag for _, tag in gmsh.model.getEntities(3)]
@@ -241,6 +262,17 @@ class Gmsh(unittest.TestCase):
         self.assertGreater(n_hexes(), before)
         self.check()
         self.check_written()
+
+    def test_a_sphere_of_subdivided_tetrahedra(self):
+        gmsh.model.occ.addSphere(0, 0, 0, 10)
+        gmsh.model.occ.synchronize()
+        gmsh.option.setNumber("Mesh.SubdivisionAlgorithm", 2)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 6)
+        gmsh.model.mesh.generate(3)
+        self.refine("vertex 1")
+        self.check()
+        self.refine("curve in surface 1")
+        self.check()
 
     def test_touching_volumes_with_meshes_of_their_own(self):
         gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
