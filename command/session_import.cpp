@@ -7,6 +7,7 @@
 #include <set>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/geom/occ_model.h"
 #include "hextwist/mesh/association.h"
 #include "hextwist/mesh/io.h"
@@ -112,6 +113,10 @@ void import_cad(Execution& run, const std::filesystem::path& file) {
 
 /// On the model, or on its own skin where that is null.
 MeshedModel associated(const Execution& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
+  const Interruptible interruptible([&] {
+    const auto& progress = run.core.callbacks.progress;
+    if (progress && !progress("associate", 0)) throw Cancelled();
+  });
   if (!model) {
     FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
@@ -169,6 +174,8 @@ void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::st
   MeshedModel result;
   try {
     result = associated(run, std::move(mesh), std::move(model), tags);
+  } catch (const Cancelled&) {
+    throw;
   } catch (const Error& error) {
     if (!tangled) throw;
     throw Error(what + ": " + wrong + "; untangling did not help (" + error.what() + ")");

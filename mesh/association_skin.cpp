@@ -5,6 +5,7 @@
 
 #include "hextwist/mesh/association_internal.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist::detail {
@@ -139,6 +140,7 @@ std::vector<Projection> project_all(const Model& model, int dim, std::span<const
         std::array<Parameters, batch> seed;
         std::array<Projection, batch> out;
         for (Index b = from; b < to; ++b) {
+          may_go_on();
           const std::size_t n = batches[b].end - batches[b].begin;
           for (std::size_t i = 0; i < n; ++i) {
             at[i] = points[order[batches[b].begin + i]];

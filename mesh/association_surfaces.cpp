@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist::detail {
@@ -69,6 +70,7 @@ Lists near_surfaces(const ModelFacts& facts, const Skin& skin, Wanted wanted) {
   Lists lists;
   lists.first.assign(skin.nodes.size() + 1, 0);
   parallel_chunks(skin.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
+    may_go_on();
     for (Index n = begin; n < end; ++n) {
       if (!needed[n]) continue;
       const auto ids = facts.model.near(2, skin.points[n], reach);

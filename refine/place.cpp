@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/origin.h"
 
@@ -104,6 +105,7 @@ void place_on_curves(Work& work) {
   const auto& edges = work.lineage.edges;
   const auto owner = [&](std::size_t i) { return work.association.node_owner[edges[i].first_node]; };
   parallel_each(edges.size(), [&](std::size_t i) {
+    if (i % grain == 0) may_go_on();
     if (owner(i).dim != 1) return;
     const int curve = owner(i).id;
     const auto [a, b] = curve_interval(work, edges[i], curve);
@@ -175,6 +177,7 @@ struct Batch {
 void project_batch(Work& work, int surface, const Batch& batch) {
   std::vector<Projection> result(batch.nodes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), grain), [&](const auto& range) {
+    may_go_on();
     const std::size_t first = range.begin(), n = range.size();
     work.model.project({2, surface}, std::span(batch.points).subspan(first, n),
                        std::span(batch.seeds).subspan(first, n), std::span(result).subspan(first, n));
@@ -316,6 +319,7 @@ void place_faces_on_surfaces(Work& work, const RimParameters& parameters_of) {
 
 void place_inner_faces(Work& work) {
   parallel_each(work.lineage.faces.size(), [&](std::size_t i) {
+    if (i % grain == 0) may_go_on();
     const CutFace& face = work.lineage.faces[i];
     if (work.association.node_owner[face.first_node].dim != 3) return;
     const Cell cell{work, work.split.cut_index(face.side.hex), work.old_mesh.hexes[face.side.hex]};
@@ -329,6 +333,7 @@ void place_inner_faces(Work& work) {
 
 void place_inside_hexes(Work& work) {
   parallel_each(work.lineage.hexes.size(), [&](std::size_t i) {
+    if (i % grain == 0) may_go_on();
     const CutHex& hex = work.lineage.hexes[i];
     const auto& inside = work.table.hex(hex.code).inside;
     if (inside.empty()) return;

@@ -6,6 +6,7 @@
 #include <ranges>
 #include <utility>
 
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/quality.h"
 #include "hextwist/mesh/smooth.h"
@@ -47,8 +48,12 @@ void Pipeline::pass(std::shared_ptr<const SplitTable> table, std::span<const std
   if (request_.levels != Levels::ignored) raise_levels(parts.lineage, next.mesh);
   if (!request_.dry_run) {
     stages_.begin("place", fraction());
-    if (next.model && !next.association.empty())
+    if (next.model && !next.association.empty()) {
+      const Interruptible interruptible([&] {
+        if (!stages_.report("place", fraction())) throw Cancelled();
+      });
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
+    }
     stages_.begin("improve", fraction());
     bool stopped = false;
     const auto keep_going = [&](const char* stage, double) {
