@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist {
 namespace {
@@ -33,19 +34,14 @@ std::vector<int> edge_tags(const Skin& skin, const SkinEdges& edges, const Tags&
 }
 
 std::vector<Index> boundary(const Faces& faces) {
-  std::vector<Index> result;
-  for (std::size_t f = 0; f < faces.sides.size(); ++f)
-    if (faces.sides[f][1].hex < 0) result.push_back(static_cast<Index>(f));
-  return result;
+  return where(static_cast<Index>(faces.sides.size()), [&](Index f) { return faces.sides[f][1].hex < 0; });
 }
 
 std::vector<Index> faces_between(const Faces& faces, std::span<const int> hex_volume) {
-  std::vector<Index> result;
-  for (std::size_t f = 0; f < faces.sides.size(); ++f) {
+  return where(static_cast<Index>(faces.sides.size()), [&](Index f) {
     const auto& [first, second] = faces.sides[f];
-    if (second.hex >= 0 && hex_volume[first.hex] != hex_volume[second.hex]) result.push_back(static_cast<Index>(f));
-  }
-  return result;
+    return second.hex >= 0 && hex_volume[first.hex] != hex_volume[second.hex];
+  });
 }
 
 /// The skin with its surfaces, and the volumes.

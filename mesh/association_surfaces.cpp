@@ -231,10 +231,9 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
         for (const int s : facts.model.near(2, p, reach)) near[n] |= between[s];
     }
   });
-  std::vector<Index> candidate_faces;
-  for (Index f = 0; f < static_cast<Index>(faces.nodes.size()); ++f)
-    if (faces.sides[f][1].hex >= 0 && std::ranges::all_of(faces.nodes[f], [&](Index n) { return near[n]; }))
-      candidate_faces.push_back(f);
+  const std::vector<Index> candidate_faces = where(static_cast<Index>(faces.nodes.size()), [&](Index f) {
+    return faces.sides[f][1].hex >= 0 && std::ranges::all_of(faces.nodes[f], [&](Index n) { return near[n] != 0; });
+  });
   const Skin skin = make_skin(mesh, faces, candidate_faces);
   const Hits on = hits(facts, skin, near_surfaces(facts, skin, [](Index) { return true; }));
   std::vector<Candidate> candidates;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/union_find_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -13,24 +14,16 @@ namespace {
 std::vector<Index> parts(const Mesh& mesh, const Faces& faces, std::span<const Index> walls, Index& n_parts) {
   std::vector<char> wall(faces.nodes.size(), 0);
   for (const Index face : walls) wall[face] = 1;
-  std::vector<Index> part(mesh.hexes.size(), -1), stack;
+  std::vector<Index> joined = singletons(mesh.n_hexes());
+  parallel_each(faces.sides.size(), [&](std::size_t face) {
+    const auto& [first, second] = faces.sides[face];
+    if (!wall[face] && second.hex >= 0) join(joined, first.hex, second.hex);
+  });
+  std::vector<Index> part(mesh.hexes.size());
   n_parts = 0;
-  for (Index seed = 0; seed < mesh.n_hexes(); ++seed) {
-    if (part[seed] >= 0) continue;
-    part[seed] = n_parts;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const Index hex = stack.back();
-      stack.pop_back();
-      for (const Index face : faces.of_hex[hex])
-        if (!wall[face])
-          for (const Side& side : faces.sides[face])
-            if (side.hex >= 0 && part[side.hex] < 0) {
-              part[side.hex] = n_parts;
-              stack.push_back(side.hex);
-            }
-    }
-    ++n_parts;
+  for (Index hex = 0; hex < mesh.n_hexes(); ++hex) {  // a root is the lowest of its tree: numbered before the others
+    const Index root = find_root(joined, hex);
+    part[hex] = root == hex ? n_parts++ : part[root];
   }
   return part;
 }

@@ -2,15 +2,25 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist {
+
+/// Threads that a loop can have. For choosing how to cut work; results must not depend on it.
+inline int n_threads() {
+  const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(limit)));
+}
 
 /// Calls f(begin, end) for pieces of 0..n, on all threads. What f writes must not depend on how the range is cut.
 template <class F>
@@ -61,6 +71,31 @@ std::vector<Index> where(Index n, Wanted&& wanted) {
   std::vector<Index> found;
   for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
   return found;
+}
+
+/// Prefix sums: calls place(i, start + count(0) + ... + count(i - 1)) for every i in 0..n and returns the sum of all.
+/// count is called twice where there are several threads.
+template <class Count, class Place>
+std::int64_t running_sums(Index n, std::int64_t start, Count&& count, Place&& place) {
+  const auto walk = [&](Index begin, Index end, std::int64_t sum) {
+    for (Index i = begin; i < end; ++i) {
+      const std::int64_t n_here = count(i);
+      place(i, sum);
+      sum += n_here;
+    }
+    return sum;
+  };
+  constexpr Index size = 1 << 14;
+  if (n <= 2 * size || n_threads() == 1) return walk(0, n, start);
+  std::vector<std::int64_t> of_chunk(n_chunks(n, size));
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    std::int64_t sum = 0;
+    for (Index i = begin; i < end; ++i) sum += count(i);
+    of_chunk[chunk] = sum;
+  });
+  for (std::int64_t& sum : of_chunk) sum = std::exchange(start, start + sum);
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) { walk(begin, end, of_chunk[chunk]); });
+  return start;
 }
 
 /// Lowers target to value if that is less; order of callers does not matter.

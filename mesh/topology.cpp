@@ -2,9 +2,6 @@
 // sort); an edge or face belongs to its lowest node, so each node can then sort and number its own few on its own.
 #include "hextwist/mesh/topology.h"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -21,12 +18,9 @@ constexpr Index max_hexes = std::numeric_limits<Index>::max() / 12;  // edge use
 
 /// Turns counts into starts: first[i] = sum of the counts before i. The last entry must be 0 and gets the total.
 void counts_to_starts(std::vector<Index>& first) {
-  Index sum = 0;
-  for (Index& entry : first) {
-    const Index count = entry;
-    entry = sum;
-    sum += count;
-  }
+  running_sums(
+      static_cast<Index>(first.size()), 0, [&](Index i) { return first[i]; },
+      [&](Index i, std::int64_t sum) { first[i] = static_cast<Index>(sum); });
 }
 
 /// Counts to ends, for scattering backwards: every item then lowers the entry of its list by one, after which the
@@ -122,12 +116,6 @@ void check_nodes(const Mesh& mesh) {
     throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
 }
 
-/// Threads that a loop can have. For choosing how to cut work; results must not depend on it.
-static int n_threads() {
-  const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(limit)));
-}
-
 Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
   // Each thread has a range of nodes and walks along all hexes: no counter is shared, every list comes out ascending.
   const auto n_parts = static_cast<Index>(n_threads());
@@ -169,7 +157,7 @@ Lists node_corners(const Mesh& mesh) {
 Edges edges(const Mesh& mesh) {
   const Lists corners = node_corners(mesh);
   Edges result;
-  result.first_of_node.assign(mesh.points.size() + 1, 0);
+  resize_large(result.first_of_node, mesh.points.size() + 1);
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<EdgeUse> uses;
     for (Index node = begin; node < end; ++node) {
@@ -178,8 +166,8 @@ Edges edges(const Mesh& mesh) {
     }
   });
   counts_to_starts(result.first_of_node);
-  result.nodes.resize(result.first_of_node.back());
-  result.of_hex.resize(mesh.hexes.size());
+  resize_large(result.nodes, static_cast<std::size_t>(result.first_of_node.back()));
+  resize_large(result.of_hex, mesh.hexes.size());
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<EdgeUse> uses;
     for (Index node = begin; node < end; ++node) {
@@ -207,7 +195,7 @@ LooseFaces loose_faces(const Mesh& mesh) {
 LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
   LooseFaces result;
   Faces& faces = result.faces;
-  faces.first_of_node.assign(mesh.points.size() + 1, 0);
+  resize_large(faces.first_of_node, mesh.points.size() + 1);
   std::atomic<bool> crowded = false;
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
@@ -220,9 +208,9 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
     }
   });
   counts_to_starts(faces.first_of_node);
-  faces.nodes.resize(faces.first_of_node.back());
-  faces.sides.resize(faces.first_of_node.back());
-  faces.of_hex.resize(mesh.hexes.size());
+  resize_large(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
+  resize_large(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
+  resize_large(faces.of_hex, mesh.hexes.size());
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
     for (Index node = begin; node < end; ++node) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hextwist/geom/interrupt.h"
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/origin.h"
 
@@ -19,13 +20,17 @@ constexpr std::size_t grain = 256;
 struct ByOwner {
   std::vector<Index> items;
   std::vector<std::size_t> run;  // starts of the runs, and the end
+
+  std::span<const Index> operator[](std::size_t g) const {
+    return std::span(items).subspan(run[g], run[g + 1] - run[g]);
+  }
 };
 
 template <typename OwnerOf>
 ByOwner group_by_owner(std::size_t n, int dim, const OwnerOf& owner_of) {
   ByOwner groups;
-  for (std::size_t i = 0; i < n; ++i)
-    if (owner_of(i).dim == dim) groups.items.push_back(static_cast<Index>(i));
+  groups.items =
+      where(static_cast<Index>(n), [&](Index i) { return owner_of(static_cast<std::size_t>(i)).dim == dim; });
   std::ranges::stable_sort(groups.items, {}, [&](Index i) { return owner_of(i).id; });
   for (std::size_t i = 0; i < groups.items.size(); ++i)
     if (i == 0 || owner_of(groups.items[i]).id != owner_of(groups.items[i - 1]).id) groups.run.push_back(i);
@@ -166,13 +171,24 @@ struct Batch {
   std::vector<Vec3> points;
   std::vector<Parameters> seeds;
   std::vector<double> reach;  // size of the parent edge or face: a projection does not move a node by much of it
-  void add(Index node, const Vec3& point, Parameters seed, double size) {
-    nodes.push_back(node);
-    points.push_back(point);
-    seeds.push_back(seed);
-    reach.push_back(size);
+
+  explicit Batch(std::size_t n) : nodes(n), points(n), seeds(n), reach(n) {}
+  void set(std::size_t at, Index node, const Vec3& point, Parameters seed, double size) {
+    nodes[at] = node;
+    points[at] = point;
+    seeds[at] = seed;
+    reach[at] = size;
   }
 };
+
+/// Where the nodes of each item of a group begin in its batch, and the end.
+template <class NodesOf>
+std::vector<std::size_t> batch_starts(std::span<const Index> items, const NodesOf& n_nodes_of) {
+  std::vector<std::size_t> starts{0};
+  starts.reserve(items.size() + 1);
+  for (const Index item : items) starts.push_back(starts.back() + n_nodes_of(item));
+  return starts;
+}
 
 void project_batch(Work& work, int surface, const Batch& batch) {
   std::vector<Projection> result(batch.nodes.size());
@@ -199,19 +215,22 @@ void place_edges_on_surfaces(Work& work, const RimParameters& parameters_of) {
     return work.table.edge[edge.code].at.empty() ? Owner{} : work.association.node_owner[edge.first_node];
   });
   for (std::size_t g = 0; g + 1 < groups.run.size(); ++g) {
-    const int surface = work.association.node_owner[edges[groups.items[groups.run[g]]].first_node].id;
-    Batch batch;
-    for (std::size_t i = groups.run[g]; i < groups.run[g + 1]; ++i) {
-      const CutEdge& edge = edges[groups.items[i]];
+    const int surface = work.association.node_owner[edges[groups[g].front()].first_node].id;
+    const std::span<const Index> items = groups[g];
+    const auto starts = batch_starts(items, [&](Index i) { return work.table.edge[edges[i].code].at.size(); });
+    Batch batch(starts.back());
+    parallel_each(items.size(), [&](std::size_t i) {
+      const CutEdge& edge = edges[items[i]];
       const double size = (work.old_mesh.points[edge.a] - work.old_mesh.points[edge.b]).norm();
       Index node = edge.first_node;
+      std::size_t next = starts[i];
       for (const double at : work.table.edge[edge.code].at) {
         Parameters seed = parameters_of(surface, at < 0.5 ? edge.a : edge.b);
         if (std::isnan(seed.u)) seed = parameters_of(surface, at < 0.5 ? edge.b : edge.a);
-        batch.add(node, work.mesh.points[node], seed, size);
+        batch.set(next++, node, work.mesh.points[node], seed, size);
         ++node;
       }
-    }
+    });
     project_batch(work, surface, batch);
   }
 }
@@ -298,10 +317,13 @@ void place_faces_on_surfaces(Work& work, const RimParameters& parameters_of) {
   const ByOwner groups =
       group_by_owner(faces.size(), 2, [&](std::size_t i) { return work.association.node_owner[faces[i].first_node]; });
   for (std::size_t g = 0; g + 1 < groups.run.size(); ++g) {
-    const int surface = work.association.node_owner[faces[groups.items[groups.run[g]]].first_node].id;
-    Batch batch;
-    for (std::size_t i = groups.run[g]; i < groups.run[g + 1]; ++i) {
-      const Side side = faces[groups.items[i]].side;
+    const int surface = work.association.node_owner[faces[groups[g].front()].first_node].id;
+    const std::span<const Index> items = groups[g];
+    const auto starts = batch_starts(items, [&](Index i) { return work.table.face[faces[i].code].at.size(); });
+    Batch batch(starts.back());
+    parallel_each(items.size(), [&](std::size_t i) {
+      const Side side = faces[items[i]].side;
+      std::size_t next = starts[i];
       const Cell cell{work, work.split.cut_index(side.hex), work.old_mesh.hexes[side.hex]};
       const auto corners = face_nodes(cell.hex, side.face);
       const double size = std::max((work.old_mesh.points[corners[0]] - work.old_mesh.points[corners[3]]).norm(),
@@ -310,9 +332,9 @@ void place_faces_on_surfaces(Work& work, const RimParameters& parameters_of) {
         const Index nearest = corners[(u > 0.5) | (v > 0.5) << 1];
         Parameters seed = parameters_of(surface, nearest);
         for (int k = 0; k < 4 && std::isnan(seed.u); ++k) seed = parameters_of(surface, corners[k]);
-        batch.add(node, work.mesh.points[node] + cell.rim(side.face, u, v), seed, size);
+        batch.set(next++, node, work.mesh.points[node] + cell.rim(side.face, u, v), seed, size);
       });
-    }
+    });
     project_batch(work, surface, batch);
   }
 }
@@ -380,8 +402,9 @@ void place(const Mesh& old_mesh, const Association& old_association, const Split
             model,
             mesh,
             association,
-            std::vector<Vec3>(mesh.points.size() - lineage.n_old_nodes, Vec3::Zero()),
+            {},
             std::vector<std::uint8_t>(lineage.edges.size(), 0)};
+  resize_large(work.moved, mesh.points.size() - static_cast<std::size_t>(lineage.n_old_nodes), Vec3(Vec3::Zero()));
   const RimParameters parameters_of(work);
   place_on_curves(work);
   place_edges_on_surfaces(work, parameters_of);

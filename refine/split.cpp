@@ -24,8 +24,9 @@ struct CutList {
   std::vector<Index> hex;
   std::vector<const HexTemplate*> of;  ///< template per cut hex
   /// Their nodes, renumbered in the same order without those that no cut hex has, when these are many.
-  std::vector<Hex> nodes;
+  std::span<const Hex> nodes;
   Index n_nodes = 0;
+  std::vector<Hex> own_nodes;  ///< what `nodes` is of, unless all hexes are cut
 };
 
 CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& table,
@@ -33,18 +34,19 @@ CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& t
   CutList cut;
   cut.hex = where(static_cast<Index>(codes.size()), [&](Index h) { return codes[h] != 0; });
   cut.of.resize(cut.hex.size());
-  cut.nodes.resize(cut.hex.size());
+  parallel_each(cut.hex.size(), [&](std::size_t i) { cut.of[i] = &table.hex(codes[cut.hex[i]]); });
+  cut.nodes = hexes;
   cut.n_nodes = n_nodes;
-  parallel_each(cut.hex.size(), [&](std::size_t i) {
-    cut.of[i] = &table.hex(codes[cut.hex[i]]);
-    cut.nodes[i] = hexes[cut.hex[i]];
-  });
+  if (cut.hex.size() == hexes.size()) return cut;
+  resize_large(cut.own_nodes, cut.hex.size());
+  cut.nodes = cut.own_nodes;
+  parallel_each(cut.hex.size(), [&](std::size_t i) { cut.own_nodes[i] = hexes[cut.hex[i]]; });
   if (cut.hex.size() > static_cast<std::size_t>(n_nodes) / 100) return cut;
   std::vector<Index> used;
-  for (const Hex& hex : cut.nodes) used.insert(used.end(), hex.begin(), hex.end());
+  for (const Hex& hex : cut.own_nodes) used.insert(used.end(), hex.begin(), hex.end());
   std::ranges::sort(used);
   used.erase(std::ranges::unique(used).begin(), used.end());
-  for (Hex& hex : cut.nodes)
+  for (Hex& hex : cut.own_nodes)
     for (Index& node : hex) node = static_cast<Index>(std::ranges::lower_bound(used, node) - used.begin());
   cut.n_nodes = static_cast<Index>(used.size());
   return cut;
@@ -66,33 +68,43 @@ constexpr bool is_first(Index entry) {
 template <class Key>
 class Ranking {
  public:
-  void clear() {
-    uses_.clear();
-    keys_.clear();
+  /// n: of how many uses there may be before finish().
+  void begin(std::size_t n) {
+    if (n > uses_.size()) {
+      uses_.resize(n);
+      keys_.resize(n);
+      ranks_.resize(n);
+    }
+    n_uses_ = n_keys_ = 0;
   }
   /// entry: where the rank of this use goes. Uses come in the order of hexes.
   void add(const Key& key, Index& entry) {
-    const auto at = static_cast<std::size_t>(std::ranges::find(keys_, key) - keys_.begin());
-    uses_.push_back({&entry, at, at == keys_.size()});
-    if (at == keys_.size()) keys_.push_back(key);
+    std::size_t at = 0;
+    while (at < n_keys_ && keys_[at] != key) ++at;
+    uses_[n_uses_++] = {&entry, at, at == n_keys_};
+    if (at == n_keys_) keys_[n_keys_++] = key;
   }
   /// Writes all entries; returns how many different keys there were.
   Index finish() {
-    for (const Use& use : uses_) {
-      const auto rank = std::ranges::count_if(keys_, [&](const Key& other) { return other < keys_[use.key]; });
-      *use.entry = ranked(static_cast<Index>(rank), use.first);
+    for (std::size_t i = 0; i < n_keys_; ++i) {
+      Index rank = 0;
+      for (std::size_t j = 0; j < n_keys_; ++j) rank += keys_[j] < keys_[i];
+      ranks_[i] = rank;
     }
-    return static_cast<Index>(keys_.size());
+    for (std::size_t i = 0; i < n_uses_; ++i) *uses_[i].entry = ranked(ranks_[uses_[i].key], uses_[i].first);
+    return static_cast<Index>(n_keys_);
   }
 
  private:
   struct Use {
-    Index* entry;
-    std::size_t key;
-    bool first;
+    Index* entry = nullptr;
+    std::size_t key = 0;
+    bool first = false;
   };
   std::vector<Use> uses_;
   std::vector<Key> keys_;
+  std::vector<Index> ranks_;
+  std::size_t n_uses_ = 0, n_keys_ = 0;
 };
 
 /// Which face of its lowest node: the node across and the lower neighbour.
@@ -114,12 +126,9 @@ struct Starts {
 };
 
 void counts_to_starts(std::vector<Index>& counts) {
-  std::int64_t sum = 0;
-  for (Index& entry : counts) {
-    const Index count = entry;
-    entry = checked(sum);
-    sum += count;
-  }
+  checked(running_sums(
+      static_cast<Index>(counts.size()), 0, [&](Index i) { return counts[i]; },
+      [&](Index i, std::int64_t sum) { counts[i] = static_cast<Index>(sum); }));
 }
 
 /// Walks along the nodes; hex_edges and hex_faces get ranks.
@@ -135,21 +144,22 @@ Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& 
     Ranking<Index> edges;
     Ranking<std::uint64_t> faces;
     for (Index node = begin; node < end; ++node) {
-      edges.clear();
-      faces.clear();
+      edges.begin(3 * corners[node].size());
+      faces.begin(3 * corners[node].size());
       for (const Index corner : corners[node]) {
         const Index i = corner >> 3;
         const int c = corner & 7;
         const Hex& hex = cut.nodes[i];
         const HexTemplate& of = *cut.of[i];
+        const std::array<Index, 3> next = {hex[c ^ 1], hex[c ^ 2], hex[c ^ 4]};
         for (int axis = 0; axis < 3; ++axis) {
           const int e = edge_between(c, c ^ 1 << axis);
-          if (const Index other = hex[c ^ 1 << axis]; other > node && n_on_edge[of.edge_code[e]] > 0)
-            edges.add(other, split.hex_edges[i][e]);
-          const int f = 2 * axis + (c >> axis & 1), u = axis == 0 ? 2 : 1, v = axis == 2 ? 2 : 4;
-          const Index a = hex[c ^ u], b = hex[c ^ v], diagonal = hex[c ^ u ^ v];
-          if (a > node && b > node && diagonal > node && n_in_face[of.face_code[f]] > 0)
-            faces.add(face_key(diagonal, std::min(a, b)), split.hex_faces[i][f]);
+          if (next[axis] > node && n_on_edge[of.edge_code[e]] > 0) edges.add(next[axis], split.hex_edges[i][e]);
+          const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+          if (next[u] < node || next[v] < node) continue;
+          const int f = 2 * axis + (c >> axis & 1);
+          if (const Index diagonal = hex[c ^ 1 << u ^ 1 << v]; diagonal > node && n_in_face[of.face_code[f]] > 0)
+            faces.add(face_key(diagonal, std::min(next[u], next[v])), split.hex_faces[i][f]);
         }
       }
       starts.edges[node] = edges.finish();
@@ -211,23 +221,23 @@ void number_edges_and_faces(std::span<const Hex> hexes, const CutList& cut, cons
 Index number_nodes_and_children(const CutList& cut, std::span<const std::uint16_t> codes, Split& split) {
   Lineage& lineage = split.lineage;
   const std::vector<Index> n_on_edge = n_nodes_of(lineage.table->edge), n_in_face = n_nodes_of(lineage.table->face);
-  std::int64_t node = lineage.n_old_nodes, child = lineage.n_old_hexes - std::ssize(cut.hex);
-  for (CutEdge& edge : lineage.edges) {
-    edge.first_node = checked(node);
-    node += n_on_edge[edge.code];
-  }
-  for (CutFace& face : lineage.faces) {
-    face.first_node = checked(node);
-    node += n_in_face[face.code];
-  }
+  const auto number = [](auto& cut_ones, std::int64_t node, const std::vector<Index>& n_nodes_of_code) {
+    return running_sums(
+        static_cast<Index>(cut_ones.size()), node, [&](Index i) { return n_nodes_of_code[cut_ones[i].code]; },
+        [&](Index i, std::int64_t first) { cut_ones[i].first_node = static_cast<Index>(first); });
+  };
+  const std::int64_t in_faces = number(lineage.edges, lineage.n_old_nodes, n_on_edge);
+  const std::int64_t in_hexes = number(lineage.faces, in_faces, n_in_face);
+  const auto n_cut = static_cast<Index>(cut.hex.size());
   resize_large(lineage.hexes, cut.hex.size());
-  for (std::size_t i = 0; i < cut.hex.size(); ++i) {
-    lineage.hexes[i] = {cut.hex[i], checked(child), checked(node), codes[cut.hex[i]]};
-    child += std::ssize(cut.of[i]->children);
-    node += std::ssize(cut.of[i]->inside);
-  }
-  split.n_nodes = checked(node);
-  return checked(child);
+  split.n_nodes = checked(running_sums(
+      n_cut, in_hexes, [&](Index i) { return std::ssize(cut.of[i]->inside); },
+      [&](Index i, std::int64_t first) {
+        lineage.hexes[i] = {cut.hex[i], 0, static_cast<Index>(first), codes[cut.hex[i]]};
+      }));
+  return checked(running_sums(
+      n_cut, lineage.n_old_hexes - n_cut, [&](Index i) { return std::ssize(cut.of[i]->children); },
+      [&](Index i, std::int64_t first) { lineage.hexes[i].first_child = static_cast<Index>(first); }));
 }
 
 /// Hexes that are not cut move together, in their order.

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <string>
+#include <utility>
 
 namespace hextwist::bench {
 
@@ -18,18 +19,21 @@ class Threads {
   tbb::global_control control_;
 };
 
-/// Registers `name`: make() is run five times on one thread; items(result) is what it made, for the rate. make() is
-/// first run once so that its own inputs (static locals) exist.
-template <class Make, class Items>
-void add_rate(const std::string& name, Make make, Items items, int threads = 1) {
+/// Registers `name`: make(prepare()) is run five times on `threads` threads, prepare() outside of the clock;
+/// items(result) is what it made, for the rate. It is first run once so that its own inputs (static locals) exist.
+template <class Prepare, class Make, class Items>
+void add_prepared_rate(const std::string& name, Prepare prepare, Make make, Items items, int threads = 1) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [=](benchmark::State& state) {
                                  const Threads limit(threads);
                                  tbb::task_arena arena(threads);  // the implicit one keeps the size that it began with
-                                 arena.execute(make);
+                                 arena.execute([&] { return make(prepare()); });
                                  double n = 0;
                                  for ([[maybe_unused]] auto _ : state) {
-                                   auto result = arena.execute(make);
+                                   state.PauseTiming();
+                                   auto input = prepare();
+                                   state.ResumeTiming();
+                                   auto result = arena.execute([&] { return make(std::move(input)); });
                                    benchmark::DoNotOptimize(result);
                                    state.PauseTiming();
                                    n += static_cast<double>(items(result));
@@ -42,6 +46,13 @@ void add_rate(const std::string& name, Make make, Items items, int threads = 1) 
       ->Repetitions(5)
       ->MeasureProcessCPUTime()
       ->Unit(benchmark::kMillisecond);
+}
+
+/// The same with nothing to prepare: make().
+template <class Make, class Items>
+void add_rate(const std::string& name, Make make, Items items, int threads = 1) {
+  add_prepared_rate(
+      name, [] { return 0; }, [=](int) { return make(); }, items, threads);
 }
 
 /// The same where only the time counts.

@@ -89,8 +89,10 @@ const Ball& ball() {
   }();
   return made;
 }
-Carried place_ball() {
-  Carried result = ball().carried;
+Carried straight_ball() {
+  return ball().carried;
+}
+Carried place_ball(Carried result) {
   place(ball().coarse.mesh, ball().coarse.association, ball().parts, *ball().coarse.model, result.mesh,
         result.association);
   return result;
@@ -107,11 +109,11 @@ void add_place() {
   add_surface("torus", "torus", [] { return BRepPrimAPI_MakeTorus(5, 2).Shape(); });
   add_surface("bspline", "bspline surface",
               [] { return BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeTorus(5, 2).Shape()).Shape(); });
-  add_rate("place/ball", place_ball, new_nodes);
+  add_prepared_rate("place/ball", straight_ball, place_ball, new_nodes);
 }
 
 void add_place_threads() {
-  add_rate("place/ball/2", place_ball, new_nodes, 2);
+  add_prepared_rate("place/ball/2", straight_ball, place_ball, new_nodes, 2);
 }
 
 }  // namespace hextwist::bench
