@@ -59,19 +59,31 @@ void for_each_child_side(const Split& split, Side old_side, const Use& use) {
 /// The old hexes of an ascending list that were not cut, then the children of those that were: ascending.
 std::vector<Index> carried_hexes(const std::vector<Index>& old_hexes, const Split& split) {
   const std::vector<CutHex>& cut = split.lineage.hexes;
+  const auto end_of = [&](auto at) {
+    return at + 1 == cut.end() ? static_cast<Index>(split.lineage.parent.size()) : std::next(at)->first_child;
+  };
+  // Calls use(entry of cut) for the members that were cut.
+  const auto for_each_cut = [&](const auto& use) {
+    auto at = cut.begin();
+    for (const Index h : old_hexes) {
+      if (!split.is_cut(h)) continue;
+      if (at->hex != h) at = std::lower_bound(at, cut.end(), h, [](const CutHex& a, Index hex) { return a.hex < hex; });
+      use(at);
+      if (at + 1 != cut.end()) ++at;
+    }
+  };
+  std::size_t n = 0, n_cut = 0;
+  for_each_cut([&](auto at) {
+    n += static_cast<std::size_t>(end_of(at) - at->first_child);
+    ++n_cut;
+  });
   std::vector<Index> carried;
-  carried.reserve(old_hexes.size());
+  reserve_large(carried, old_hexes.size() - n_cut + n);
   for (const Index h : old_hexes)
     if (!split.is_cut(h)) carried.push_back(split.first_child[h]);
-  if (carried.size() == old_hexes.size()) return carried;
-  auto at = cut.begin();
-  for (const Index h : old_hexes) {
-    if (!split.is_cut(h)) continue;
-    at = std::lower_bound(at, cut.end(), h, [](const CutHex& a, Index hex) { return a.hex < hex; });
-    const Index end =
-        at + 1 == cut.end() ? static_cast<Index>(split.lineage.parent.size()) : std::next(at)->first_child;
-    for (Index child = at->first_child; child < end; ++child) carried.push_back(child);
-  }
+  for_each_cut([&](auto at) {
+    for (Index child = at->first_child; child < end_of(at); ++child) carried.push_back(child);
+  });
   return carried;
 }
 

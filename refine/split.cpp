@@ -177,12 +177,13 @@ CutEdge cut_edge(const SplitTable& table, const Hex& hex, Index h, int e, std::u
   return {b, a, -1, h, table.edge[code].reversed};
 }
 
-CutFace cut_face(const SplitTable& table, const Hex& hex, Index h, int f, std::uint16_t code) {
-  const auto nodes = face_nodes(hex, f);
+/// Written in place: a copy would wait for its own writes.
+void describe_face(const SplitTable& table, const Hex& hex, Side side, std::uint16_t code, CutFace& face) {
+  const auto nodes = face_nodes(hex, side.face);
   const int symmetry = face_symmetry(nodes);
-  CutFace face{{h, f}, {}, -1, table.face[code].turned[symmetry]};
+  face.side = side;
   for (int k = 0; k < 4; ++k) face.corners[k] = nodes[turned_corner(symmetry, k)];
-  return face;
+  face.code = table.face[code].turned[symmetry];
 }
 
 /// Turns ranks into numbers, and has the first hex of each edge and face describe it.
@@ -212,7 +213,7 @@ void number_edges_and_faces(std::span<const Hex> hexes, const CutList& cut, cons
         continue;
       }
       entry = starts.faces[std::ranges::min(face_nodes(cut.nodes[i], f))] + rank_of(found);
-      if (is_first(found)) lineage.faces[entry] = cut_face(table, hexes[h], h, f, cut.of[i]->face_code[f]);
+      if (is_first(found)) describe_face(table, hexes[h], {h, f}, cut.of[i]->face_code[f], lineage.faces[entry]);
     }
   });
 }
@@ -263,6 +264,7 @@ void fill_kept(std::span<const Hex> hexes, const CutList& cut, Split& split) {
 /// Children: the nodes of each template looked up, then its hexes written.
 void fill_children(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table, Split& split) {
   Lineage& lineage = split.lineage;
+  const std::vector<Index> n_on_edge = n_nodes_of(table.edge);
   parallel_ranges(
       static_cast<Index>(cut.hex.size()),
       [&](Index begin, Index end) {
@@ -276,7 +278,7 @@ void fill_children(std::span<const Hex> hexes, const CutList& cut, const SplitTa
             const Index number = split.hex_edges[i][e];
             if (number < 0) continue;
             const CutEdge& shared = lineage.edges[number];
-            const int n = static_cast<int>(table.edge[shared.code].at.size());
+            const int n = n_on_edge[shared.code];
             const bool backwards = hex[edge_corner(e, 0)] > hex[edge_corner(e, 1)];
             assert((backwards ? table.edge[shared.code].reversed : shared.code) == of.edge_code[e]);
             for (int s = 0; s < n; ++s) local[table.edge_node(e, s)] = shared.first_node + (backwards ? n - 1 - s : s);
