@@ -61,34 +61,6 @@ void collect_edges(const Mesh& mesh, Index node, std::span<const Index> corners,
   std::ranges::sort(uses);
 }
 
-/// One use of a face by a hex, at the face's lowest node.
-struct FaceUse {
-  Index diagonal, low, high;  ///< node across; the two neighbours, lower first
-  Index corner;               ///< 8 * hex + corner of the lowest node
-  int axis;                   ///< normal axis
-
-  auto key() const { return std::tie(diagonal, low, high); }
-  auto operator<=>(const FaceUse&) const = default;
-  Side side() const { return {corner >> 3, 2 * axis + (corner >> axis & 1)}; }
-};
-
-void collect_faces(const Mesh& mesh, Index node, std::span<const Index> corners, std::vector<FaceUse>& uses) {
-  uses.clear();
-  for (const Index corner : corners) {
-    const Hex& hex = mesh.hexes[corner >> 3];
-    const int c = corner & 7;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
-      const std::array<int, 3> at = {c ^ u, c ^ v, c ^ u ^ v};
-      // A node that the face names twice keeps the face where it stands first.
-      if (!std::ranges::all_of(at, [&](int d) { return hex[d] > node || (hex[d] == node && d > c); })) continue;
-      const auto [low, high] = std::minmax(hex[at[0]], hex[at[1]]);
-      uses.push_back({hex[at[2]], low, high, corner, axis});
-    }
-  }
-  std::ranges::sort(uses);
-}
-
 /// Calls f(first, last) for each run of equal items in a sorted list.
 template <class T, class Same, class F>
 void for_runs(const std::vector<T>& items, Same same, F f) {
@@ -101,6 +73,23 @@ constexpr auto same_edge = [](EdgeUse a, EdgeUse b) { return a >> 32 == b >> 32;
 constexpr auto same_face = [](const FaceUse& a, const FaceUse& b) { return a.key() == b.key(); };
 
 }  // namespace
+
+void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index> corners, std::vector<FaceUse>& uses) {
+  uses.clear();
+  for (const Index corner : corners) {
+    const Hex& hex = hexes[corner >> 3];
+    const int c = corner & 7;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
+      const std::array<int, 3> at = {c ^ u, c ^ v, c ^ u ^ v};
+      // A node that the face names twice keeps the face where it stands first.
+      if (!std::ranges::all_of(at, [&](int d) { return hex[d] > node || (hex[d] == node && d > c); })) continue;
+      const auto [low, high] = std::minmax(hex[at[0]], hex[at[1]]);
+      uses.push_back({hex[at[2]], low, high, corner, axis});
+    }
+  }
+  std::ranges::sort(uses);
+}
 
 void check_nodes(const Mesh& mesh) {
   if (mesh.hexes.size() > max_hexes)
@@ -116,17 +105,18 @@ void check_nodes(const Mesh& mesh) {
     throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
 }
 
-Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
+Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   // Each thread has a range of nodes and walks along all hexes: no counter is shared, every list comes out ascending.
   const auto n_parts = static_cast<Index>(n_threads());
+  const Index n_nodes = end - begin;
   const auto for_each_part = [&](auto&& each) {
     parallel_ranges(
         n_parts,
-        [&](Index begin, Index end) {
-          for (Index part = begin; part < end; ++part) {
+        [&](Index from, Index to) {
+          for (Index part = from; part < to; ++part) {
             const auto low = static_cast<std::int64_t>(n_nodes) * part / n_parts;
             const auto high = static_cast<std::int64_t>(n_nodes) * (part + 1) / n_parts;
-            each(static_cast<Index>(low), static_cast<std::uint32_t>(high - low));
+            each(static_cast<Index>(begin + low), static_cast<std::uint32_t>(high - low));
           }
         },
         1);
@@ -136,17 +126,21 @@ Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
   for_each_part([&](Index low, std::uint32_t width) {
     for (const Hex& hex : hexes)
       for (const Index node : hex)
-        if (static_cast<std::uint32_t>(node - low) < width) ++corners.first[node];
+        if (static_cast<std::uint32_t>(node - low) < width) ++corners.first[node - begin];
   });
   counts_to_ends(corners.first);
-  resize_large(corners.items, 8 * hexes.size());
+  resize_large(corners.items, static_cast<std::size_t>(corners.first.back()));
   for_each_part([&](Index low, std::uint32_t width) {
     for (Index h = static_cast<Index>(hexes.size()) - 1; h >= 0; --h)
       for (int c = 7; c >= 0; --c)
         if (const Index node = hexes[h][c]; static_cast<std::uint32_t>(node - low) < width)
-          corners.items[--corners.first[node]] = 8 * h + c;
+          corners.items[--corners.first[node - begin]] = 8 * h + c;
   });
   return corners;
+}
+
+Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
+  return node_corners(hexes, 0, n_nodes);
 }
 
 Lists node_corners(const Mesh& mesh) {
@@ -200,7 +194,7 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
     for (Index node = begin; node < end; ++node) {
-      collect_faces(mesh, node, corners[node], uses);
+      collect_faces(mesh.hexes, node, corners[node], uses);
       for_runs(uses, same_face, [&](auto run) {
         ++faces.first_of_node[node];
         if (run.size() > 2) crowded = true;
@@ -214,7 +208,7 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
     for (Index node = begin; node < end; ++node) {
-      collect_faces(mesh, node, corners[node], uses);
+      collect_faces(mesh.hexes, node, corners[node], uses);
       Index face = faces.first_of_node[node];
       for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
         for (std::size_t i = 0; i < run.size(); ++i) {

@@ -1,6 +1,9 @@
 // Topology of meshes that may be broken, for validate() and for the makers of the public arrays.
 #pragma once
 
+#include <compare>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,21 @@ void check_nodes(const Mesh& mesh);
 Lists node_corners(const Mesh& mesh);
 /// The same without the check.
 Lists node_corners(std::span<const Hex> hexes, Index n_nodes);
+/// The same for the nodes begin .. end - 1 alone: the list of node i is [i - begin].
+Lists node_corners(std::span<const Hex> hexes, Index begin, Index end);
+
+/// One use of a face by a hex, at the face's lowest node.
+struct FaceUse {
+  Index diagonal, low, high;  ///< node across; the two neighbours, lower first
+  Index corner;               ///< 8 * hex + corner of the lowest node
+  int axis;                   ///< normal axis
+
+  auto key() const { return std::tie(diagonal, low, high); }
+  auto operator<=>(const FaceUse&) const = default;
+  Side side() const { return {corner >> 3, 2 * axis + (corner >> axis & 1)}; }
+};
+/// The uses of all faces whose lowest node this is, sorted: those of one face follow each other, by hex.
+void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index> corners, std::vector<FaceUse>& uses);
 
 /// Faces of a mesh that may have faces with more than two hexes: those stand in `more`, ascending by (face, side).
 struct LooseFaces {

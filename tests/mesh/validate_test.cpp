@@ -20,15 +20,22 @@ namespace {
 
 using Kind = ViolationKind;
 
+/// validate(), and the quick answer beside it: a mesh is in order for both or neither.
+std::vector<Violation> validated(const Mesh& mesh, const ValidateOptions& options = {}) {
+  auto found = validate(mesh, options);
+  EXPECT_EQ(has_only_warnings(mesh), std::ranges::all_of(found, is_warning, &Violation::kind));
+  return found;
+}
+
 /// Joined lines: what one reads in a failure.
 std::string texts(const Mesh& mesh, const ValidateOptions& options = {}) {
   std::string all;
-  for (const Violation& v : validate(mesh, options)) all += std::string(name(v.kind)) + ": " + v.text + "\n";
+  for (const Violation& v : validated(mesh, options)) all += std::string(name(v.kind)) + ": " + v.text + "\n";
   return all;
 }
 
 std::vector<Violation> only(Kind kind, const Mesh& mesh) {
-  auto found = validate(mesh);
+  auto found = validated(mesh);
   std::erase_if(found, [&](const Violation& v) { return v.kind != kind; });
   return found;
 }
@@ -138,7 +145,7 @@ TEST(validate, tells_hexes_on_the_same_nodes_as_one_group) {
   Hex turned;
   for (int c = 0; c < 8; ++c) turned[c] = mesh.hexes[0][(c >> 2) | (c & 3) << 1];
   mesh.hexes.push_back(turned);
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].kind, Kind::duplicate_hex);
   EXPECT_EQ(found[0].hexes, (std::vector<Index>{0, 2, 3}));
@@ -178,7 +185,7 @@ TEST(validate, finds_exactly_the_nodes_that_are_near_wherever_they_lie) {
     if ((mesh.points[n + 1] - p).norm() <= tolerance * size) expected.push_back({n, n + 1});
   }
   std::vector<std::vector<Index>> found;
-  for (const Violation& v : validate(mesh, {.relative_tolerance = tolerance}))
+  for (const Violation& v : validated(mesh, {.relative_tolerance = tolerance}))
     if (v.kind == Kind::duplicate_node) found.push_back(v.nodes);
   // Distinct pairs are further apart than the tolerance here, but for the unlucky few.
   std::size_t n_equal = 0;
@@ -191,7 +198,7 @@ TEST(validate, finds_exactly_the_nodes_that_are_near_wherever_they_lie) {
 TEST(validate, many_nodes_at_one_place_are_one_violation_and_quick) {
   Mesh mesh = test::grid(1, 1, 1);
   mesh.points.resize(200008, Vec3(0.5, 0.5, 0.5));
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   EXPECT_EQ(found[0].kind, Kind::duplicate_node);
   EXPECT_EQ(found[0].nodes.size(), 200000u);
   EXPECT_EQ(found[0].text, "nodes 9, 10, 11, 12, 13 and 199995 more are at the same place");
@@ -260,7 +267,7 @@ TEST(validate, tells_hanging_nodes_of_cuts_in_three_and_of_an_edge_alone) {
 
 TEST(validate, tells_parts_in_contact_apart_from_hanging_nodes) {
   const Mesh mesh = joined(test::grid(1, 1, 1), moved(test::grid(1, 1, 1, Vec3::Constant(0.5)), Vec3(1, 0.25, 0.25)));
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   ASSERT_EQ(found.size(), 4u) << texts(mesh);
   for (const Violation& v : found) EXPECT_EQ(v.kind, Kind::touching_part);
   EXPECT_EQ(found[0].text, "node 9 lies inside a face of hex 1, a part of the mesh that it is not joined to");
@@ -273,7 +280,7 @@ TEST(validate, tells_faces_of_three_hexes) {
   Hex third = mesh.hexes[1];
   for (int i = 0; i < 4; ++i) third[2 * i + 1] = 12 + i;
   mesh.hexes.push_back(third);
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   ASSERT_GE(found.size(), 1u);
   const auto crowded = std::ranges::find(found, Kind::crowded_face, &Violation::kind);
   ASSERT_NE(crowded, found.end()) << texts(mesh);
@@ -288,7 +295,7 @@ TEST(validate, tells_two_hexes_on_the_same_side_of_their_face) {
   Hex second = mesh.hexes[0];
   for (int i = 0; i < 4; ++i) second[2 * i + 1] = 8 + i;
   mesh.hexes.push_back(second);
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   const auto folded = std::ranges::find(found, Kind::folded_face, &Violation::kind);
   ASSERT_NE(folded, found.end()) << texts(mesh);
   EXPECT_EQ(folded->text, "hexes 1 and 2 lie on the same side of their face of nodes 1, 3, 5 and 7");
@@ -299,7 +306,7 @@ TEST(validate, tells_two_hexes_on_the_same_side_of_their_face) {
 TEST(validate, tells_hexes_that_join_a_face_in_different_order) {
   Mesh mesh = test::grid(2, 1, 1);
   std::swap(mesh.hexes[1][4], mesh.hexes[1][6]);  // two corners of its x = 0 face
-  const auto found = validate(mesh);
+  const auto found = validated(mesh);
   const auto folded = std::ranges::find(found, Kind::folded_face, &Violation::kind);
   ASSERT_NE(folded, found.end()) << texts(mesh);
   EXPECT_EQ(folded->text, "hexes 1 and 2 join the four nodes 2, 5, 8 and 11 of a face in different order");
@@ -361,7 +368,7 @@ TEST(validate, nonsense_meshes_are_told_without_a_crash_and_the_same_on_any_numb
       runs.push_back(texts(mesh));
     }
     EXPECT_EQ(runs[0], runs[1]);
-    const auto found = validate(mesh);
+    const auto found = validated(mesh);
     EXPECT_TRUE(std::ranges::is_sorted(found, {}, &Violation::kind));
     for (const Violation& v : found) {
       EXPECT_TRUE(std::ranges::is_sorted(v.hexes));
@@ -395,7 +402,7 @@ TEST(validate, DISABLED_of_a_million_hexes_is_quick) {
     for (const int threads : {1, 2}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       const auto start = std::chrono::steady_clock::now();
-      EXPECT_TRUE(validate(mesh).empty());
+      EXPECT_TRUE(validated(mesh).empty());
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       std::printf("  %d threads, validate %.3f s\n", threads, seconds.count());
     }
