@@ -60,7 +60,12 @@ void grow_large(std::vector<T>& list, std::size_t n) {
 }
 /// list.resize(n) likewise.
 template <class T>
-void resize_large(std::vector<T>& list, std::size_t n, const T& value = {}) {
+void resize_large(std::vector<T>& list, std::size_t n) {
+  reserve_large(list, n);
+  list.resize(n);
+}
+template <class T>
+void resize_large(std::vector<T>& list, std::size_t n, const T& value) {
   reserve_large(list, n);
   list.resize(n, value);
 }
