@@ -141,7 +141,9 @@ std::vector<Index> Execution::chosen(const Item& range) const {
 
 void run_command(Session::Core& core, const Command& command) {
   const Clock::time_point start = Clock::now();
-  const SessionState before = core.state;
+  const bool is_playback = command.spec->name == "playback";
+  // What a playback did is not put back; and what holds a mesh keeps it from being changed in place.
+  const SessionState before = is_playback ? SessionState() : core.state;
   // A playback appends records of its own, so this one is found by its place.
   const std::size_t place = core.records.size();
   core.records.emplace_back();
@@ -149,7 +151,6 @@ void run_command(Session::Core& core, const Command& command) {
   record.command = text_of(command.statement);
   record.before = core.state.mesh_state;
   core.records[place] = record;
-  const bool is_playback = command.spec->name == "playback";
   const auto finish = [&] {
     close_record(record, core.state, start);
     core.records[place] = std::move(record);

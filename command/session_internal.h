@@ -13,6 +13,8 @@
 #include "hextwist/command/session_state_internal.h"
 #include "hextwist/command/syntax.h"
 #include "hextwist/command/undo_internal.h"
+#include "hextwist/sizing/neighbours_internal.h"
+#include "hextwist/sizing/patch_refine_internal.h"
 
 namespace hextwist {
 
@@ -32,6 +34,8 @@ struct Session::Core {
   int nesting = 0;      ///< of playback
   std::shared_ptr<const MeshedModel> topology_of;
   std::shared_ptr<DerivedTopology> topology;
+  std::unique_ptr<Neighbours> neighbours;  ///< of that mesh, if they are there
+  std::weak_ptr<const MeshedModel> neighbours_of;
   std::shared_ptr<void> thread_limit;
   History history;
   std::shared_ptr<Recording> recording;                ///< null: none
@@ -46,6 +50,12 @@ struct Session::Core {
 
 /// A broken file can have a violation per hex; nobody reads more rows than this, and the count says the rest.
 inline constexpr std::size_t max_violation_rows = 1000;
+
+/// A step from mesh to mesh.
+struct SpliceStep {
+  std::shared_ptr<const Splice> splice;
+  bool forward = true;
+};
 
 /// One command on its way: where its function finds and leaves things.
 struct Execution {
@@ -66,6 +76,9 @@ struct Execution {
   std::vector<Index> chosen(const Item& range) const;
   /// Gives the mesh these blocks and sets, in place: no other array is copied. The last thing that a command does.
   void change_sets(Mesh lists);
+  /// Makes the mesh another one by splices, in place if nobody else holds it, and the state the next (but for its
+  /// mesh). The last thing that a command does, but for these lines: where saying them throws, nothing has changed.
+  void splice(std::span<const SpliceStep> steps, ModelState next, const std::vector<std::string>& lines);
   /// What change_sets() left to be undone.
   std::optional<Step> step;
   bool is_history = false;  ///< undo and redo, which leave no step of their own
@@ -75,6 +88,8 @@ struct Execution {
   std::chrono::steady_clock::time_point since_;
 };
 
+/// What a small refinement would do to the mesh; nothing where it is not small.
+std::optional<PatchResult> refine_in_patch(const Execution& run, const Measured& known, const Request& request);
 /// The mesh and model of a state changed: checks nothing, measures everything that the records want.
 void take_meshed(SessionState& state, MeshedModel meshed);
 /// The result of a refinement becomes the mesh of the session, unless it is no good: then throws Error.

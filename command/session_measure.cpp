@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "hextwist/command/session_internal.h"
+#include "hextwist/sizing/verify.h"
 
 namespace hextwist {
 namespace {
@@ -61,17 +62,15 @@ void take_meshed(SessionState& state, MeshedModel meshed) {
   state.mesh_state = {};
   state.mesh_state.hexes = mesh.n_hexes();
   state.mesh_state.nodes = mesh.n_nodes();
-  if (mesh.n_hexes() > 0) {
-    state.mesh_state.shape = quality_row(mesh, summarize(quality(Metric::shape, mesh)));
-    state.mesh_state.scaled_jacobian = quality_row(mesh, summarize(quality(Metric::scaled_jacobian, mesh)));
-    state.mesh_state.volume = volume(mesh);
-  }
-  state.off_cad = {};
+  const Measured found = mesh.n_hexes() > 0 ? measured(meshed) : Measured();
+  state.mesh_state.shape = quality_row(mesh, found.shape);
+  state.mesh_state.scaled_jacobian = quality_row(mesh, found.scaled_jacobian);
+  state.mesh_state.volume = found.volume;
+  state.off_cad = found.off_cad;
+  state.outliers = found.outliers;
   state.cad_volume = 0;
-  if (meshed.model) {
+  if (meshed.model)
     for (int id = 1; id <= meshed.model->count(3); ++id) state.cad_volume += meshed.model->measure({3, id});
-    if (!meshed.association.empty()) state.off_cad = off_model(mesh, meshed.association, *meshed.model);
-  }
   state.meshed = std::make_shared<MeshedModel>(std::move(meshed));
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <iterator>
 
 #include "hextwist/command/session_internal.h"
@@ -166,7 +167,7 @@ Measured known_of(const SessionState& state) {
         find_hex(mesh, row.max_hex)};
   };
   return {summary(state.mesh_state.shape), summary(state.mesh_state.scaled_jacobian), state.mesh_state.volume,
-          state.off_cad};
+          state.off_cad, state.outliers};
 }
 
 std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
@@ -180,28 +181,72 @@ std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
   return line + ", " + short_number(report.total_seconds) + " s";
 }
 
-}  // namespace
+/// What nodes and hexes of a result are called.
+struct Ids {
+  std::function<std::int64_t(Index)> hex, node;
 
-void accept_refined(Execution& run, MeshedModel refined, const Report& report) {
-  SessionState& state = run.state;
-  const Mesh& mesh = refined.mesh;
-  const std::string wrong = record_violations(run.record, mesh, report.violations);
-  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
+  QualityRow row(const Summary& of) const {
+    if (of.count == 0) return {};
+    return {of.count, of.min, of.max, of.average, of.std_dev, hex(of.min_hex), hex(of.max_hex)};
+  }
+};
+
+/// The state after a refinement, but for the mesh and its size, and what is to be said of nodes off the CAD. The engine
+/// measured the result already.
+ModelState state_after(const Execution& run, const Report& report, const Ids& ids) {
   if (!report.off_nodes.empty()) {
     const auto worst = std::ranges::max_element(report.off_nodes, {}, &Disappointment::distance);
     run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +
-             " could not be put where they belong; the worst is node " + std::to_string(node_id(mesh, worst->node)) +
-             ", " + short_number(worst->distance) + " from " + to_string(worst->owner));
+             " could not be put where they belong; the worst is node " + std::to_string(ids.node(worst->node)) + ", " +
+             short_number(worst->distance) + " from " + to_string(worst->owner));
   }
-  // The engine measured the result already.
-  state.mesh_state.hexes = mesh.n_hexes();
-  state.mesh_state.nodes = mesh.n_nodes();
-  state.mesh_state.shape = quality_row(mesh, report.shape_after);
-  state.mesh_state.scaled_jacobian = quality_row(mesh, report.scaled_jacobian_after);
+  ModelState state = run.state;
+  state.mesh_state.shape = ids.row(report.shape_after);
+  state.mesh_state.scaled_jacobian = ids.row(report.scaled_jacobian_after);
   state.mesh_state.volume = report.volume_after;
   state.off_cad = report.off_cad;
+  state.outliers = report.outliers;
   state.tags = nullptr;
-  state.meshed = std::make_shared<MeshedModel>(std::move(refined));
+  return state;
+}
+
+/// Notes and what goes on record; returns the line that is said in the end.
+std::string tell(Execution& run, const Report& report, bool dry_run) {
+  run.record.filled_hexes = report.filled_hexes;
+  run.record.seconds.insert(run.record.seconds.end(), report.seconds.begin(), report.seconds.end());
+  for (const std::string& line : report.notices) run.note(line);
+  return text_of(run.command.statement) + ": " + summary_of(report, run.state.has_cad, dry_run);
+}
+
+/// Puts a refined patch into the mesh.
+void splice_in(Execution& run, PatchResult patch) {
+  const Mesh& mesh = run.state.meshed->mesh;
+  const std::shared_ptr<const Splice> splice = std::move(patch.splice);
+  const Report& report = patch.result.report;
+  const std::string line = tell(run, report, false);
+  ModelState next = state_after(
+      run, report,
+      {[&](Index h) { return splice->new_hex_id(mesh, h); }, [&](Index n) { return splice->new_node_id(mesh, n); }});
+  next.mesh_state.hexes = report.hexes_after;
+  next.mesh_state.nodes = report.nodes_after;
+  next.meshed = nullptr;
+  Step back(text_of(run.command.statement), run.state, splice, false);
+  run.splice(std::vector{SpliceStep{splice, true}}, std::move(next), {line});
+  run.step = std::move(back);
+}
+
+}  // namespace
+
+void accept_refined(Execution& run, MeshedModel refined, const Report& report) {
+  const Mesh& mesh = refined.mesh;
+  const std::string wrong = record_violations(run.record, mesh, report.violations);
+  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
+  ModelState next =
+      state_after(run, report, {[&](Index h) { return hex_id(mesh, h); }, [&](Index n) { return node_id(mesh, n); }});
+  next.mesh_state.hexes = mesh.n_hexes();
+  next.mesh_state.nodes = mesh.n_nodes();
+  next.meshed = std::make_shared<MeshedModel>(std::move(refined));
+  static_cast<ModelState&>(run.state) = std::move(next);
 }
 
 void do_refine(Execution& run) {
@@ -211,14 +256,17 @@ void do_refine(Execution& run) {
   run.stage("select");
   const Request request = request_of(run);
   run.close_stage();
-  RefineResult result = run.command.has("graded")
-                            ? refine_graded(run, request)
-                            : refine(*state.meshed, known_of(state), request, run.core.callbacks.progress);
+  RefineResult result;
+  if (run.command.has("graded")) {
+    result = refine_graded(run, request);
+  } else {
+    const Measured known = known_of(state);
+    std::optional<PatchResult> patch = refine_in_patch(run, known, request);
+    if (patch && patch->is_verified) return splice_in(run, std::move(*patch));
+    result = finish(std::move(patch), *state.meshed, known, request, run.core.callbacks.progress);
+  }
   const Report& report = result.report;
-  run.record.filled_hexes = report.filled_hexes;
-  run.record.seconds.insert(run.record.seconds.end(), report.seconds.begin(), report.seconds.end());
-  for (const std::string& line : report.notices) run.note(line);
-  const std::string line = text_of(run.command.statement) + ": " + summary_of(report, state.has_cad, request.dry_run);
+  const std::string line = tell(run, report, request.dry_run);
   if (request.dry_run) {
     run.record.dry_run = true;
     run.record.after.hexes = report.hexes_after;

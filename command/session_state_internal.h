@@ -18,7 +18,7 @@ namespace hextwist {
 enum class Glue { automatic, on, off };
 
 /// Mesh and model: what commands change and `undo` brings back. The heavy parts are shared and never changed in place
-/// (but for the lists of blocks and sets, see Execution::change_sets).
+/// but as the last thing that a command does (Execution::change_sets, Execution::splice).
 struct ModelState {
   std::shared_ptr<const MeshedModel> meshed = std::make_shared<MeshedModel>();
   std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
@@ -27,6 +27,7 @@ struct ModelState {
   bool glued = false;
   MeshState mesh_state;
   OffModel off_cad;
+  std::shared_ptr<const Outliers> outliers;  ///< of the mesh; null: not known, as after undo
   double cad_volume = 0;
   /// Nodes that smoothing leaves where they are, ascending; null: none.
   std::shared_ptr<const std::vector<Index>> fixed_nodes;

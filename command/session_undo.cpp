@@ -23,10 +23,31 @@ std::size_t n_steps(const Execution& run, const std::vector<Step>& steps, const 
 }
 
 std::string mesh_text(const ModelState& state) {
-  const Mesh& mesh = state.meshed->mesh;
-  if (mesh.n_hexes() == 0) return "no mesh";
-  return counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
-         ", smallest shape " + short_number(state.mesh_state.shape.min);
+  const MeshState& mesh = state.mesh_state;
+  if (mesh.hexes == 0) return "no mesh";
+  return counted(mesh.hexes, EntityKind::hex) + ", " + counted(mesh.nodes, EntityKind::node) + ", smallest shape " +
+         short_number(state.mesh_state.shape.min);
+}
+
+/// travel() through small refinements alone, in place.
+void travel_splices(Execution& run, std::vector<Step>& from, std::vector<Step>& to, std::size_t n, const char* done) {
+  ModelState state = run.state;
+  std::vector<SpliceStep> splices;
+  std::vector<Step> back;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Step& step = from[from.size() - 1 - i];
+    splices.push_back({step.splice(), step.forward()});
+    back.emplace_back(step.command(), state, step.splice(), !step.forward());
+    lines.push_back(std::string(done) + " '" + step.command() + "'");
+    state = step.state();
+  }
+  lines.back() += ": " + mesh_text(state);
+  to.reserve(to.size() + n);
+  run.splice(splices, std::move(state), lines);
+  // Nothing below throws.
+  std::ranges::move(back, std::back_inserter(to));
+  from.resize(from.size() - n);
 }
 
 /// Takes steps from the end of one list and puts those that lead back onto the other.
@@ -44,13 +65,19 @@ void travel(Execution& run, std::vector<Step>& from, std::vector<Step>& to, cons
     from.pop_back();
     return run.say(line);
   }
+  const std::span<const Step> taken = std::span(from).last(n);
+  if (std::ranges::all_of(taken, [](const Step& step) { return step.splice() != nullptr; }))
+    return travel_splices(run, from, to, n, done);
   ModelState state = run.state;
   std::vector<Step> back;
   for (std::size_t i = 0; i < n; ++i) {
     run.stage(verb);
     const Step& step = from[from.size() - 1 - i];
     ModelState next = step.apply(state);
-    back.emplace_back(step.command(), next, state);
+    if (step.splice())
+      back.emplace_back(step.command(), state, step.splice(), !step.forward());
+    else
+      back.emplace_back(step.command(), next, state);
     state = std::move(next);
   }
   to.reserve(to.size() + n);

@@ -276,6 +276,7 @@ struct Step::Arrays {
 
 Step::Step(std::string command, const ModelState& from, const ModelState& to)
     : command_(std::move(command)), state_(to), bytes_(sizeof(Step) + command_.capacity()) {
+  state_.outliers = nullptr;  // not worth the memory
   if (to.tags && from.tags != to.tags) bytes_ += bytes_of(*to.tags);
   if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes_ += bytes_of(*to.fixed_nodes);
   if (to.schemes && from.schemes != to.schemes) bytes_ += bytes_of(*to.schemes);
@@ -308,6 +309,18 @@ Step::Step(std::string command, const ModelState& state, SetsDelta sets)
   bytes_ += sizeof(Arrays) + bytes_of(arrays.sets);
   arrays_ = std::make_shared<const Arrays>(std::move(arrays));
   state_.meshed = nullptr;
+  state_.outliers = nullptr;
+}
+
+Step::Step(std::string command, const ModelState& to, std::shared_ptr<const Splice> splice, bool forward)
+    : command_(std::move(command)),
+      state_(to),
+      splice_(std::move(splice)),
+      forward_(forward),
+      bytes_(sizeof(Step) + command_.capacity() + splice_->bytes()) {
+  if (to.tags) bytes_ += bytes_of(*to.tags);
+  state_.meshed = nullptr;
+  state_.outliers = nullptr;
 }
 
 const SetsDelta& Step::sets() const {
@@ -317,6 +330,7 @@ const SetsDelta& Step::sets() const {
 ModelState Step::apply(const ModelState& from) const {
   ModelState result = state_;
   if (!result.meshed) result.meshed = from.meshed;
+  if (splice_) result.meshed = std::make_shared<MeshedModel>(spliced(*from.meshed, *splice_, forward_));
   if (arrays_) result.meshed = std::make_shared<MeshedModel>(arrays_->apply(*from.meshed));
   return result;
 }

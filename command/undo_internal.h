@@ -2,7 +2,7 @@
 //
 // An array is told from another by the pieces that differ. That finds nodes that moved (the same places), hexes that
 // were split (gone from the middle, children at the end) and members that joined a set; where nothing fits, the array
-// is kept whole.
+// is kept whole. A small refinement says itself what it changed (sizing/splice_internal.h), and nothing is compared.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hextwist/command/session_state_internal.h"
+#include "hextwist/sizing/splice_internal.h"
 
 namespace hextwist {
 
@@ -68,6 +69,8 @@ class Step {
   Step(std::string command, const ModelState& from, const ModelState& to);
   /// For a change of blocks and sets alone; the model state is otherwise the same.
   Step(std::string command, const ModelState& state, SetsDelta sets);
+  /// To a state whose mesh a splice, forward or back, makes of the one that it is kept beside.
+  Step(std::string command, const ModelState& to, std::shared_ptr<const Splice> splice, bool forward);
 
   const std::string& command() const { return command_; }
   void swap_command(Step& other) noexcept { command_.swap(other.command_); }
@@ -75,6 +78,10 @@ class Step {
   /// Blocks and sets alone differ.
   bool only_sets() const { return only_sets_; }
   const SetsDelta& sets() const;
+  /// Null unless it was made with one. The state it leads to, without its mesh.
+  const std::shared_ptr<const Splice>& splice() const { return splice_; }
+  bool forward() const { return forward_; }
+  const ModelState& state() const { return state_; }
   /// Precondition: the `from` it was made with.
   ModelState apply(const ModelState& from) const;
 
@@ -83,6 +90,8 @@ class Step {
   std::string command_;
   ModelState state_;  // meshed: the mesh where it shares too little with that of `from`, else null
   std::shared_ptr<const Arrays> arrays_;
+  std::shared_ptr<const Splice> splice_;
+  bool forward_ = false;
   bool only_sets_ = false;
   std::size_t bytes_ = 0;
 };

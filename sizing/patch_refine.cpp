@@ -6,6 +6,7 @@
 #include "hextwist/mesh/topology.h"
 #include "hextwist/sizing/gaps_internal.h"
 #include "hextwist/sizing/pipeline_internal.h"
+#include "hextwist/sizing/stages_internal.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/verify_internal.h"
 
@@ -128,12 +129,15 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
   int n_rings = last_ring_cut(asked, technique(asked)) + enough_rings;
   constexpr int max_rings = 100;
   for (; n_rings <= max_rings; n_rings *= 2) {
+    Report report = before;
+    Stages stages(report, progress);
+    stages.begin("patch", 0);
     std::optional<Rings> rings = rings_of(mesh, around.nodes, around.hexes, n_rings, limit);
     if (!rings) return std::nullopt;
     PatchResult made;
     made.patch = make_patch(input, std::move(rings->hexes));
     const Request local = request_in(made.patch, asked, around);
-    Report report = before;
+    stages.close();
     {
       Pipeline run(made.patch.meshed, local, report, progress);
       made.result = run_passes(run);
@@ -148,6 +152,11 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
       if (!request.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
     }
+    report.hexes_before = mesh.n_hexes();
+    report.nodes_before = mesh.n_nodes();
+    report.hexes_after = made.splice->n_hexes(true);
+    report.nodes_after = made.splice->n_nodes(true);
+    report.peak_memory_bytes = peak_memory();
     made.result.report = std::move(report);
     return made;
   }

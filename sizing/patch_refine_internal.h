@@ -13,8 +13,7 @@ namespace hextwist {
 using RingsOf = std::function<std::optional<Rings>(const Mesh& mesh, std::span<const Index> nodes,
                                                    std::span<const Index> at, int n_rings, std::size_t limit)>;
 
-/// What came of it. The lineage and the mesh of `result` are those of the patch; the report is that of the whole, its
-/// counts and times apart.
+/// What came of it. The lineage and the mesh of `result` are those of the patch; the report is that of the whole.
 struct PatchResult {
   Patch patch;
   RefineResult result;
@@ -28,6 +27,12 @@ struct PatchResult {
 /// be run. The request has been checked. Throws what they throw.
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
                                         const Progress& progress, const RingsOf& rings_of = rings_by_place);
+
+/// The same after checking the request; and what refine() does with it, or without.
+std::optional<PatchResult> try_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                     const Progress& progress, const RingsOf& rings_of = rings_by_place);
+RefineResult finish(std::optional<PatchResult> made, const MeshedModel& input, const Measured& known,
+                    const Request& request, const Progress& progress);
 
 /// Does the request cut only what lies around its targets? Not so: sheets, directions, sizes, graded levels, one into
 /// eight (planned by sheets), all volumes.

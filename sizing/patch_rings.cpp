@@ -106,8 +106,8 @@ std::optional<Rings> rings_by_place(const Mesh& mesh, std::span<const Index> nod
     first = touching_hexes(mesh.hexes, marked);
   }
   double reach = n_rings * longest_edge(mesh, first);
-  constexpr int max_tries = 3;  // hexes may grow outwards
-  for (int i = 0; i < max_tries && reach > 0; ++i, reach *= 2) {
+  constexpr int max_tries = 5;  // hexes may be larger outwards
+  for (int i = 0; i < max_tries && reach > 0; ++i, reach *= 3) {
     const Neighbourhood near(mesh, nodes, reach);
     parallel_each(
         mesh.points.size(), [&](std::size_t n) { marked[n] = near.has(mesh.points[n]); }, 1 << 14);

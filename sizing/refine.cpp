@@ -88,8 +88,7 @@ RefineResult whole_result(PatchResult made, const MeshedModel& input, const Meas
     stages.begin("verify", 0.9);
     if (!made.is_verified) verify_all(result.refined, known, report);
   }
-  report.hexes_after = made.splice->n_hexes(true);
-  report.nodes_after = made.splice->n_nodes(true);
+  report.peak_memory_bytes = peak_memory();
   result.report = std::move(report);
   return result;
 }
@@ -104,25 +103,16 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
     result = run_passes(run);
     if (!request.dry_run) verify(input, known, result.refined, report);
   }
+  report.hexes_before = input.mesh.n_hexes();
+  report.nodes_before = input.mesh.n_nodes();
   report.hexes_after = result.refined.mesh.n_hexes();
   report.nodes_after = result.refined.mesh.n_nodes();
+  report.peak_memory_bytes = peak_memory();
   if (request.dry_run) {
     result = {};
     report.sizes.reset();
   }
   result.report = std::move(report);
-  return result;
-}
-
-RefineResult run_request(const MeshedModel& input, const Measured* known, const Request& request,
-                         const Progress& progress) {
-  check(input, request);
-  std::optional<PatchResult> made = known ? refine_patch(input, *known, request, progress) : std::nullopt;
-  RefineResult result =
-      made ? whole_result(std::move(*made), input, *known, request) : refine_whole(input, known, request, progress);
-  result.report.hexes_before = input.mesh.n_hexes();
-  result.report.nodes_before = input.mesh.n_nodes();
-  result.report.peak_memory_bytes = peak_memory();
   return result;
 }
 
@@ -197,11 +187,23 @@ const char* name(Method method) {
 }
 
 RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress) {
-  return run_request(input, nullptr, request, progress);
+  check(input, request);
+  return refine_whole(input, nullptr, request, progress);
 }
 
 RefineResult refine(const MeshedModel& input, const Measured& known, const Request& request, const Progress& progress) {
-  return run_request(input, &known, request, progress);
+  return finish(try_patch(input, known, request, progress), input, known, request, progress);
+}
+
+std::optional<PatchResult> try_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                     const Progress& progress, const RingsOf& rings_of) {
+  check(input, request);
+  return refine_patch(input, known, request, progress, rings_of);
+}
+
+RefineResult finish(std::optional<PatchResult> made, const MeshedModel& input, const Measured& known,
+                    const Request& request, const Progress& progress) {
+  return made ? whole_result(std::move(*made), input, known, request) : refine_whole(input, &known, request, progress);
 }
 
 }  // namespace hextwist

@@ -18,6 +18,7 @@
 
 namespace hextwist {
 
+struct Outliers;
 class SizeField;
 
 /// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
@@ -148,6 +149,7 @@ struct Report {
   Summary shape_before, shape_after;
   Summary scaled_jacobian_before, scaled_jacobian_after;
   OffModel off_cad;
+  std::shared_ptr<const Outliers> outliers;  ///< of the result (outliers.h), for who refines it again
   double volume_before = 0, volume_after = 0;
   std::vector<Disappointment> off_nodes;  ///< nodes that were left off their owner
   std::vector<Violation> violations;      ///< of the result; empty unless something is wrong with it

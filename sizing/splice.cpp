@@ -142,11 +142,20 @@ Splice::Splice(const MeshedModel& whole, const PatchNumbers& numbers, const Mesh
                            after.edge_curve, [](const Edge& edge) { return std::optional(edge); });
 }
 
+std::int64_t Splice::new_node_id(const Mesh& before, Index node) const {
+  if (node < n_nodes_) return node_id(before, node);
+  return new_node_ids_.empty() ? std::int64_t{node} + 1 : new_node_ids_[node - n_nodes_];
+}
+
+std::int64_t Splice::new_hex_id(const Mesh& before, Index hex) const {
+  return hex < n_kept() ? hex_id(before, before_gaps(gone_, hex)) : new_hex_ids_[hex - n_kept()];
+}
+
 namespace {
 
 template <class T>
 void reserve_more(std::vector<T>& array, std::size_t n) {
-  if (array.capacity() < n) array.reserve(n + n / 64 + 1024);
+  if (array.capacity() < n) array.reserve(n + n / 16 + 1024);
 }
 
 template <class T>
@@ -237,7 +246,7 @@ void Splice::apply(MeshedModel& whole, bool forward) const noexcept {
     std::iota(mesh.hex_ids.begin(), mesh.hex_ids.end(), std::int64_t{1});
   }
   if (!mesh.hex_ids.empty()) exchange(mesh.hex_ids, gone_, gone_hex_ids_, new_hex_ids_, forward);
-  if (!forward && makes_hex_ids_) mesh.hex_ids = {};
+  if (!forward && makes_hex_ids_) mesh.hex_ids.clear();  // it has room for coming back
   for (std::size_t f = 0; f < mesh.fields.size(); ++f) {
     Field& field = mesh.fields[f];
     const auto width = static_cast<std::size_t>(field.components);
@@ -268,7 +277,7 @@ std::size_t Splice::bytes() const {
   return sum;
 }
 
-MeshedModel spliced(const MeshedModel& whole, const Splice& splice) {
+MeshedModel spliced(const MeshedModel& whole, const Splice& splice, bool forward) {
   const auto n_nodes = static_cast<std::size_t>(splice.n_nodes(true));
   const auto n_hexes = static_cast<std::size_t>(std::max(splice.n_hexes(false), splice.n_hexes(true)));
   const Mesh& mesh = whole.mesh;
@@ -292,8 +301,8 @@ MeshedModel spliced(const MeshedModel& whole, const Splice& splice) {
                           association.face_surface,
                           copy_large(association.hex_volume, n_hexes)};
   }
-  splice.make_room(result, true);
-  splice.apply(result, true);
+  splice.make_room(result, forward);
+  splice.apply(result, forward);
   return result;
 }
 

@@ -45,7 +45,13 @@ class Splice {
   Index n_nodes(bool after) const { return n_nodes_ + (after ? static_cast<Index>(new_points_.size()) : 0); }
   Index n_hexes(bool after) const { return after ? n_kept() + static_cast<Index>(new_hexes_.size()) : n_hexes_; }
   Index n_kept() const { return n_hexes_ - static_cast<Index>(gone_.size()); }
+  /// Hexes that were cut, by their index before, and with their nodes; their children.
   const std::vector<Index>& gone() const { return gone_; }
+  const std::vector<Hex>& gone_hexes() const { return gone_hexes_; }
+  const std::vector<Hex>& new_hexes() const { return new_hexes_; }
+  /// Ids that nodes and hexes of the changed mesh have; before: the mesh before.
+  std::int64_t new_node_id(const Mesh& before, Index node) const;
+  std::int64_t new_hex_id(const Mesh& before, Index hex) const;
 
   /// Room in all arrays, so that apply() throws nothing. forward: else back.
   void make_room(MeshedModel& whole, bool forward) const;
@@ -76,7 +82,7 @@ class Splice {
   std::vector<ListEdit<Side>> side_sets_;
 };
 
-/// A copy of the mesh, refined.
-MeshedModel spliced(const MeshedModel& whole, const Splice& splice);
+/// A copy of the mesh, changed.
+MeshedModel spliced(const MeshedModel& whole, const Splice& splice, bool forward = true);
 
 }  // namespace hextwist

@@ -85,6 +85,12 @@ struct Difference {
     if (hex < change.n_kept) return after_gaps(whole_gone, change.whole_hex(before_gaps(change.gone, hex)));
     return hex - change.n_kept + change.input.mesh.n_hexes() - static_cast<Index>(change.gone.size());
   }
+  std::int64_t id_after(Index hex) const {
+    const Mesh &input = change.input.mesh, &before = change.before.mesh;
+    if (hex < change.n_kept) return hex_id(input, change.whole_hex(before_gaps(change.gone, hex)));
+    // New ids follow the highest one.
+    return hex_id(change.after.mesh, hex) - hex_id(before, before.n_hexes() - 1) + hex_id(input, input.n_hexes() - 1);
+  }
 };
 
 /// A hex with its value; the lowest hex of those with the best value.
@@ -98,53 +104,51 @@ struct Extreme {
   }
 };
 
-/// Smallest or largest value of the hexes that the mesh had and still has, by its new number. Only if the one known is
-/// gone they are searched, until one is as good; none is better.
-Extreme common_extreme(Extreme known, bool largest, Metric metric, const Difference& difference) {
-  if (!std::ranges::binary_search(difference.whole_taken, known.hex))
-    return {known.value, after_gaps(difference.whole_gone, known.hex)};
-  const Mesh& mesh = difference.change.input.mesh;
-  constexpr Index block = 4096;
-  Extreme best{known.value, -1};
-  std::vector<Index> hexes;
-  for (Index begin = 0; begin < mesh.n_hexes(); begin += block) {
-    const auto all = std::views::iota(begin, std::min(mesh.n_hexes(), begin + block));
-    hexes.clear();
-    std::ranges::set_difference(all, difference.whole_taken, std::back_inserter(hexes));
-    const std::vector<double> values = quality(metric, mesh, hexes);
-    for (std::size_t i = 0; i < hexes.size(); ++i) best.offer(values[i], hexes[i], largest);
-    if (best.hex >= 0 && best.value == known.value) break;
-  }
-  if (best.hex >= 0) best.hex = after_gaps(difference.whole_gone, best.hex);
-  return best;
-}
-
-/// Summary after some hexes were taken away and others added.
-Summary updated(const Summary& before, Metric metric, const Difference& difference) {
-  Extreme smallest = common_extreme({before.min, before.min_hex}, false, metric, difference);
-  Extreme largest = common_extreme({before.max, before.max_hex}, true, metric, difference);
+/// Summary after some hexes were taken away and others added; the outliers (least, largest) change with them. Where
+/// these don't know the next one, all hexes are asked.
+Summary updated(const Summary& before, Metric metric, const Difference& difference, std::array<OutlierList, 2>& lists) {
+  const ChangedPart& change = difference.change;
+  const Mesh& input = change.input.mesh;
   // Deviations from the old average keep sums small.
   double sum = 0, squares = before.std_dev * before.std_dev * before.count;
-  for (const double value : quality(metric, difference.change.before.mesh, difference.taken)) {
+  for (const double value : quality(metric, change.before.mesh, difference.taken)) {
     sum -= value - before.average;
     squares -= (value - before.average) * (value - before.average);
   }
-  const std::vector<double> values = quality(metric, difference.change.after.mesh, difference.added);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum += values[i] - before.average;
-    squares += (values[i] - before.average) * (values[i] - before.average);
-    smallest.offer(values[i], difference.whole_after(difference.added[i]), false);
-    largest.offer(values[i], difference.whole_after(difference.added[i]), true);
+  const std::vector<double> values = quality(metric, change.after.mesh, difference.added);
+  for (const double value : values) {
+    sum += value - before.average;
+    squares += (value - before.average) * (value - before.average);
+  }
+  std::vector<std::int64_t> gone;
+  for (const Index h : difference.whole_taken) gone.push_back(hex_id(input, h));
+
+  std::array<Extreme, 2> extremes{Extreme{before.min, before.min_hex}, Extreme{before.max, before.max_hex}};
+  for (const bool largest : {false, true}) {
+    OutlierList& list = lists[largest];
+    Extreme& extreme = extremes[largest];
+    OutlierList come;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      come.emplace_back(largest ? -values[i] : values[i], difference.id_after(difference.added[i]));
+    const bool is_gone = std::ranges::binary_search(difference.whole_taken, extreme.hex);
+    OutlierList kept = changed(list, gone, {});
+    if (kept.empty() && is_gone) list = kept = outliers(input, quality(metric, input), largest, difference.whole_taken);
+    if (is_gone && !kept.empty())
+      extreme = {largest ? -kept.front().first : kept.front().first, find_hex(input, kept.front().second)};
+    extreme.hex = is_gone && kept.empty() ? -1 : after_gaps(difference.whole_gone, extreme.hex);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      extreme.offer(values[i], difference.whole_after(difference.added[i]), largest);
+    list = changed(list, gone, come);
   }
   const Index n = difference.n_whole;
   const double shift = sum / n;
   return {.count = n,
           .average = before.average + shift,
           .std_dev = std::sqrt(std::max(0.0, squares / n - shift * shift)),
-          .min = smallest.value,
-          .max = largest.value,
-          .min_hex = smallest.hex,
-          .max_hex = largest.hex};
+          .min = extremes[0].value,
+          .max = extremes[1].value,
+          .min_hex = extremes[0].hex,
+          .max_hex = extremes[1].hex};
 }
 
 Box box_of(const Mesh& mesh, const Quad& nodes) {
@@ -246,9 +250,16 @@ OffModel off_after(const OffModel& before, const ChangedPart& change) {
 
 Measured measured_without_cad(const Mesh& mesh) {
   Measured result;
-  result.shape = summarize(quality(Metric::shape, mesh));
-  result.scaled_jacobian = summarize(quality(Metric::scaled_jacobian, mesh));
+  auto lists = std::make_shared<Outliers>();
+  const auto summary = [&](Metric metric, std::array<OutlierList, 2>& of) {
+    const std::vector<double> values = quality(metric, mesh);
+    of = {outliers(mesh, values, false), outliers(mesh, values, true)};
+    return summarize(values);
+  };
+  result.shape = summary(Metric::shape, lists->shape);
+  result.scaled_jacobian = summary(Metric::scaled_jacobian, lists->scaled_jacobian);
   result.volume = volume(mesh);
+  result.outliers = std::move(lists);
   return result;
 }
 
@@ -262,7 +273,7 @@ Measured measured(const MeshedModel& meshed) {
 }
 
 Measured measured_after(const Report& report) {
-  return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad};
+  return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad, report.outliers};
 }
 
 Index ChangedPart::whole_node(Index node) const {
@@ -292,8 +303,11 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
   report.shape_before = known.shape;
   report.scaled_jacobian_before = known.scaled_jacobian;
   report.volume_before = known.volume;
-  report.shape_after = updated(known.shape, Metric::shape, difference);
-  report.scaled_jacobian_after = updated(known.scaled_jacobian, Metric::scaled_jacobian, difference);
+  auto lists = std::make_shared<Outliers>(known.outliers ? *known.outliers : Outliers());
+  report.shape_after = updated(known.shape, Metric::shape, difference, lists->shape);
+  report.scaled_jacobian_after =
+      updated(known.scaled_jacobian, Metric::scaled_jacobian, difference, lists->scaled_jacobian);
+  report.outliers = std::move(lists);
   report.volume_after = report.volume_before;
   for (const double v : quality(Metric::volume, change.before.mesh, difference.taken)) report.volume_after -= v;
   for (const double v : quality(Metric::volume, change.after.mesh, difference.added)) report.volume_after += v;
@@ -310,6 +324,7 @@ void verify_all(const MeshedModel& refined, const Measured& before, Report& repo
   report.scaled_jacobian_after = after.scaled_jacobian;
   report.volume_after = after.volume;
   report.off_cad = after.off_cad;
+  report.outliers = after.outliers;
   if (has_only_warnings(refined.mesh)) return;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));

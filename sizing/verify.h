@@ -1,6 +1,9 @@
 // The last stage of a refinement: measures the result and finds out whether it is what was promised.
 #pragma once
 
+#include <memory>
+
+#include "hextwist/sizing/outliers.h"
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {
@@ -10,6 +13,7 @@ struct Measured {
   Summary shape, scaled_jacobian;
   double volume = 0;
   OffModel off_cad;
+  std::shared_ptr<const Outliers> outliers = nullptr;  ///< may be left out
 };
 Measured measured(const MeshedModel& meshed);
 /// Of the result of a refinement without violations.

@@ -225,7 +225,6 @@ py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::
   }
   const std::vector<std::int64_t> given = integers<std::int64_t>(flags, "flags", 0);
   std::vector<std::uint8_t> values;
-  values.reserve(given.size());
   for (const std::int64_t flag : given) values.push_back(flag != 0);
   return array_of(session.run([&](Session& s) { return s.adapt(values, options).origin; }));
 }
@@ -410,7 +409,7 @@ void bind_errors(py::module_& m) {
       PyErr_SetObject(type.ptr(), value.ptr());
     };
     try {
-      if (pointer) std::rethrow_exception(std::move(pointer));
+      if (pointer) std::rethrow_exception(pointer);
     } catch (const CommandError& e) {
       const bool stopped = e.message() == Cancelled().what();
       raise(stopped ? cancelled : error, e.what(), e.message(), e.line(), e.column());

@@ -1,4 +1,9 @@
 // Goal 3: a small change of a large mesh, by everything that refine() does: targets to verification.
+#include <algorithm>
+#include <ctime>
+#include <string>
+#include <vector>
+
 #include "groups.h"
 #include "hextwist/command/session.h"
 #include "hextwist/refine/carry.h"
@@ -33,14 +38,45 @@ RefineResult refined(TargetKind kind, Index target, int depth) {
   return refine(input(), known, request);
 }
 
-/// Wall milliseconds of the second of two commands in a session.
-double second_command() {
+/// Median and worst of some commands.
+struct Times {
+  double median = 0, worst = 0;
+};
+
+/// CPU milliseconds of commands in a session that has done one small refinement before.
+Times later_commands(const std::vector<std::string>& commands) {
   const Threads limit(1);
   Session session;
   session.take(input().mesh, input().model);
   session.run("refine hex 505051");
-  session.run("refine hex 707071");
-  return 1e3 * session.records().back().total_seconds;
+  std::vector<double> times;
+  for (const std::string& command : commands) {
+    const std::clock_t start = std::clock();
+    session.run(command);
+    times.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  std::ranges::sort(times);
+  return {times[times.size() / 2], times.back()};
+}
+
+const Times& later_hexes() {
+  static const Times times = [] {
+    std::vector<std::string> commands;
+    for (int id = 5; id < side * side * side; id += 90910) commands.push_back("refine hex " + std::to_string(id));
+    return later_commands(commands);
+  }();
+  return times;
+}
+
+/// Curves that have no vertex in common: what one refines, the others do not touch.
+const Times& later_curves(int depth) {
+  static const auto made = [](const std::string& options) {
+    std::vector<std::string> commands;
+    for (const int id : {1, 6, 12}) commands.push_back("refine curve " + std::to_string(id) + options);
+    return later_commands(commands);
+  };
+  static const Times of_depth[] = {made(" depth 0"), made(" depth 1")};
+  return of_depth[depth];
 }
 
 }  // namespace
@@ -56,7 +92,12 @@ void add_small_change() {
   add_time("small/hex", [] { return refined(TargetKind::hex, middle_hex(side), 0); });
   add_time("small/curve", [] { return refined(TargetKind::curve, 1, 1); });
   add_time("small/curve_combination", [] { return refined(TargetKind::curve, 1, 0); });
-  add_value("small/second_command", second_command);
+  add_value("small/later_hex", [] { return later_hexes().median; });
+  add_value("small/later_hex_worst", [] { return later_hexes().worst; });
+  add_value("small/later_curve", [] { return later_curves(1).median; });
+  add_value("small/later_curve_worst", [] { return later_curves(1).worst; });
+  add_value("small/later_curve_combination", [] { return later_curves(0).median; });
+  add_value("small/later_curve_combination_worst", [] { return later_curves(0).worst; });
 }
 
 }  // namespace hextwist::bench

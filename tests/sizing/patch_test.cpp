@@ -7,11 +7,12 @@
 #include "hextwist/geom/occ_model.h"
 #include "hextwist/mesh/io.h"
 #include "hextwist/mesh/validate.h"
+#include "hextwist/sizing/neighbours_internal.h"
 #include "hextwist/sizing/patch_refine_internal.h"
 #include "hextwist/sizing/verify.h"
-#include "same_meshed.h"
 #include "support/grids.h"
 #include "support/meshed.h"
+#include "support/same_meshed.h"
 
 namespace hextwist::test {
 namespace {
@@ -284,6 +285,84 @@ TEST(patch, requests_that_look_farther_than_their_target_do_not_use_one) {
   EXPECT_FALSE(refine_patch(meshed, known, curve, {}).has_value());
   EXPECT_FALSE(refine_patch(brick(3, 3, 3), known, hex, {}).has_value());
   EXPECT_THROW(refine(meshed, known, with(hex, [](Request& r) { r.targets = {100000}; })), Error);
+}
+
+/// Per node its hexes, as asked for and as they are.
+void expect_neighbours_of(const Mesh& mesh, const Neighbours& neighbours) {
+  const Lists lists = node_hexes(mesh);
+  for (Index n = 0; n < mesh.n_nodes(); ++n) {
+    std::vector<Index> found;
+    neighbours.hexes_at({&n, 1}, found);
+    std::ranges::sort(found);
+    ASSERT_TRUE(std::ranges::equal(found, lists[n])) << n;
+  }
+}
+
+TEST(splice, neighbours_follow_the_mesh_there_and_back) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const Rule rule(0, 1);
+  MeshedModel meshed = brick(7, 6, 5);
+  decorate(meshed, random);
+  Neighbours neighbours(meshed.mesh);
+  std::vector<MeshedModel> states = {meshed};
+  std::vector<std::unique_ptr<const Splice>> done;
+  for (int i = 0; i < 40; ++i) {
+    if (!done.empty() && random() % 3 == 0) {
+      done.back()->make_room(meshed, false);
+      done.back()->apply(meshed, false);
+      ASSERT_TRUE(neighbours.apply(*done.back(), false));
+      done.pop_back();
+      states.pop_back();
+      ASSERT_TRUE(same_bits(meshed, states.back()));
+    } else {
+      Request request{.kind = TargetKind::hex};
+      request.targets = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
+      request.smooth = random() % 4 == 0;
+      auto made = refine_patch(meshed, measured(meshed), request, {});
+      ASSERT_TRUE(made.has_value());
+      EXPECT_GT(made->splice->bytes(), 1000u);
+      states.push_back(spliced(meshed, *made->splice));
+      made->splice->make_room(meshed, true);
+      made->splice->apply(meshed, true);
+      ASSERT_TRUE(neighbours.apply(*made->splice, true));
+      done.push_back(std::move(made->splice));
+      ASSERT_TRUE(same_bits(meshed, states.back()));
+    }
+    expect_neighbours_of(meshed.mesh, neighbours);
+  }
+  // A list that was made later does not know what was there before.
+  if (done.empty()) return;
+  Neighbours later(meshed.mesh);
+  EXPECT_FALSE(later.apply(*done.back(), false));
+}
+
+TEST(outliers, know_who_is_next_when_the_extremes_are_cut) {
+  const Mesh mesh = grid(30, 30, 30);
+  std::mt19937 random(3);
+  std::vector<double> values(mesh.hexes.size());
+  for (double& value : values) value = static_cast<double>(random() % 5000);
+  for (const bool largest : {false, true}) {
+    OutlierList list = outliers(mesh, values, largest);
+    std::vector<std::pair<double, std::int64_t>> all;
+    for (Index h = 0; h < mesh.n_hexes(); ++h) all.emplace_back(largest ? -values[h] : values[h], hex_id(mesh, h));
+    std::ranges::sort(all);
+    for (int round = 0; round < 100 && !list.empty(); ++round) {
+      ASSERT_TRUE(std::ranges::equal(list, std::span(all).first(list.size()))) << round;
+      // Some of the best and some others go, some come.
+      std::vector<std::int64_t> gone;
+      for (int i = 0; i < 30; ++i) gone.push_back(all[random() % (i % 2 ? 100 : all.size())].second);
+      std::ranges::sort(gone);
+      std::erase_if(all, [&](const auto& item) { return std::ranges::binary_search(gone, item.second); });
+      OutlierList come;
+      for (int i = 0; i < 5; ++i)
+        come.emplace_back((largest ? -1.0 : 1.0) * static_cast<double>(random() % 5000), 100000 + 5 * round + i);
+      all.insert(all.end(), come.begin(), come.end());
+      std::ranges::sort(all);
+      list = changed(list, gone, come);
+    }
+  }
 }
 
 TEST(patch, a_cancelled_one_is_cancelled) {

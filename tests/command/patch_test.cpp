@@ -1,0 +1,183 @@
+// Small refinements that change the mesh of a session in place: nobody can tell.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <regex>
+
+#include "command/session_fixture.h"
+#include "hextwist/sizing/patch_internal.h"
+#include "support/meshed.h"
+#include "support/same_meshed.h"
+
+namespace hextwist::test {
+namespace {
+
+constexpr PatchRule always{0, 1}, never{std::numeric_limits<Index>::max(), 1};
+
+/// Puts the rule back that it found.
+struct Rule {
+  explicit Rule(const PatchRule& rule) { patch_rule = rule; }
+  ~Rule() { patch_rule = before; }
+  const PatchRule before = patch_rule;
+};
+
+std::string without_times(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  // Seconds differ, and so does what undo takes.
+  return std::regex_replace(text, std::regex(", [0-9.e+-]+ s\n|\\([0-9.]+ (bytes|kB|MB)\\)|together .*\n"), "\n");
+}
+
+void expect_same_row(const QualityRow& a, const QualityRow& b) {
+  EXPECT_EQ(std::tie(a.count, a.min, a.max, a.average, a.std_dev, a.min_hex, a.max_hex),
+            std::tie(b.count, b.min, b.max, b.average, b.std_dev, b.min_hex, b.max_hex));
+}
+
+void expect_same_state(const MeshState& a, const MeshState& b) {
+  EXPECT_EQ(std::tie(a.hexes, a.nodes, a.volume), std::tie(b.hexes, b.nodes, b.volume));
+  expect_same_row(a.shape, b.shape);
+  expect_same_row(a.scaled_jacobian, b.scaled_jacobian);
+}
+
+/// Two sessions that do the same, one of them without patches.
+struct Pair {
+  Fixture patched, plain;
+  int n_in_place = 0;
+
+  explicit Pair(const MeshedModel& meshed) {
+    for (Fixture* one : {&patched, &plain}) one->session.take(meshed.mesh, meshed.model);
+  }
+  void expect_same() const {
+    EXPECT_TRUE(same_bits(patched.session.meshed(), plain.session.meshed()) || !patched.session.meshed().model);
+    const CommandRecord &a = patched.last(), &b = plain.last();
+    expect_same_state(a.before, b.before);
+    expect_same_state(a.after, b.after);
+    EXPECT_EQ(std::tie(a.ok, a.error, a.filled_hexes, a.notices, a.off_cad.max, a.off_cad.node, a.off_cad_node),
+              std::tie(b.ok, b.error, b.filled_hexes, b.notices, b.off_cad.max, b.off_cad.node, b.off_cad_node));
+    EXPECT_EQ(without_times(patched.output), without_times(plain.output));
+  }
+  void run(const std::string& command) {
+    SCOPED_TRACE(command);
+    const MeshedModel* const before = &patched.session.meshed();
+    const Index n_before = before->mesh.n_hexes();
+    std::string error;
+    {
+      const Rule rule(always);
+      error = patched.error(command);
+    }
+    n_in_place += before == &patched.session.meshed() && before->mesh.n_hexes() != n_before;
+    const Rule rule(never);
+    EXPECT_EQ(error, plain.error(command));
+    expect_same();
+  }
+};
+
+std::string random_command(const Mesh& mesh, std::mt19937& random) {
+  if (mesh.n_hexes() == 0) return "redo";  // the taking of the mesh was undone
+  const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
+  const auto hex = [&] { return std::to_string(hex_id(mesh, below(mesh.n_hexes()))); };
+  const auto node = [&] { return std::to_string(node_id(mesh, below(mesh.n_nodes()))); };
+  const auto options = [&] {
+    return std::string(below(4) ? "" : " numsplit 2") + (below(4) ? "" : " depth 1") + (below(4) ? "" : " smooth") +
+           (below(4) ? "" : " concave fill") + (below(12) ? "" : " dry_run");
+  };
+  switch (below(16)) {
+    case 0:
+      return "undo";
+    case 1:
+      return "undo " + std::to_string(1 + below(3));
+    case 2:
+      return "redo";
+    case 3:
+      return "redo " + std::to_string(1 + below(2));
+    case 4:
+      return "block " + std::to_string(1 + below(3)) + " hex " + hex() + " " + hex();
+    case 5:
+      return "nodeset " + std::to_string(1 + below(3)) + " node " + node() + " " + node();
+    case 6:
+      return "sideset " + std::to_string(1 + below(3)) + " surface " + std::to_string(1 + below(6));
+    case 7:
+      return "list undo";
+    case 8:
+      return "smooth hex " + hex();
+    case 9:
+      return "refine curve " + std::to_string(1 + below(14)) + options();
+    case 10:
+      return "refine vertex " + std::to_string(1 + below(9)) + options();
+    case 11:
+      return "refine node " + node() + options();
+    case 12:
+      return "refine edge " + std::to_string(1 + below(500)) + options();
+    default:
+      return "refine hex " + hex() + (below(2) ? "" : " " + hex()) + options();
+  }
+}
+
+TEST(PatchedSession, DoesWhatOneWithoutPatchesDoes) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (MeshedModel meshed : {brick(13, 12, 12), shipped("inclusion")}) {
+    meshed.mesh.fields.push_back({"number", Field::On::hex, 1, std::vector<double>(meshed.mesh.hexes.size(), 3)});
+    Pair pair(meshed);
+    std::shared_ptr<const MeshedModel> held;
+    MeshedModel as_it_was;
+    for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
+      if (random() % 10 == 0) {  // a program looks at the mesh
+        held = pair.patched.session.share();
+        as_it_was = *held;
+      }
+      if (random() % 10 == 0) {
+        if (held) {
+          EXPECT_TRUE(same_bits(*held, as_it_was));
+        }
+        held = nullptr;
+      }
+      pair.run(random_command(pair.plain.session.meshed().mesh, random));
+    }
+    EXPECT_GT(pair.n_in_place, 0);
+  }
+}
+
+TEST(PatchedSession, IsAsItWasAfterACommandThatIsCancelledOrFails) {
+  Fixture f;
+  const MeshedModel meshed = brick(14, 13, 12);
+  f.session.take(meshed.mesh, meshed.model);
+  const Rule rule(always);
+  f.session.run("refine hex 200");
+  const MeshedModel before = f.session.meshed();
+  f.go_on = false;
+  EXPECT_EQ(f.error("refine hex 100"), "cancelled");
+  EXPECT_EQ(f.error("undo"), "cancelled");
+
+  f.go_on = true;
+  EXPECT_TRUE(same_bits(f.session.meshed(), before));
+  // Whoever is told of a result may throw.
+  SessionCallbacks throws;
+  throws.output = [](const std::string&) { throw Error("no paper"); };
+  f.session.set_callbacks(throws);
+  for (const char* command : {"refine hex 100", "undo"}) {
+    EXPECT_EQ(f.error(command), "no paper");
+    EXPECT_TRUE(same_bits(f.session.meshed(), before));
+  }
+  f.session.set_callbacks({});
+  f.session.run("undo");
+  EXPECT_TRUE(same_bits(f.session.meshed(), MeshedModel{meshed.mesh, meshed.model, f.session.meshed().association}));
+}
+
+TEST(PatchedSession, ChangesTheMeshInPlaceAlsoInAJournal) {
+  const auto journal = written("small.jou", "refine hex 100\nrefine hex 200\nundo\nrefine node 9\n");
+  Fixture f;
+  const MeshedModel meshed = brick(14, 13, 12);
+  f.session.take(meshed.mesh, meshed.model);
+  const Rule rule(always);
+  const MeshedModel* const before = &f.session.meshed();
+  f.session.run("playback \"" + journal.string() + "\"");
+  EXPECT_EQ(before, &f.session.meshed());
+  EXPECT_GT(before->mesh.n_hexes(), 14 * 13 * 12 + 30);
+  f.session.run("undo; undo");
+  EXPECT_EQ(before->mesh.n_hexes(), 14 * 13 * 12);
+}
+
+}  // namespace
+}  // namespace hextwist::test
