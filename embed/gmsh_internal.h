@@ -14,8 +14,9 @@ namespace hextwist::gmsh_detail {
 /// The ids of an element's nodes, ascending, 0 where there are fewer than four.
 inline std::array<std::int64_t, 4> element_key(const Mesh& mesh, std::span<const Index> nodes) {
   std::array<std::int64_t, 4> key{};
-  for (std::size_t i = 0; i < nodes.size(); ++i) key[i] = node_id(mesh, nodes[i]);
-  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  const std::size_t n = std::min(nodes.size(), key.size());
+  for (std::size_t i = 0; i < n; ++i) key[i] = node_id(mesh, nodes[i]);
+  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n));
   return key;
 }
 
