@@ -69,6 +69,9 @@ class Matcher {
     std::vector<std::size_t> of_word;
     for (std::size_t i = 0; i < node.choices.size(); ++i) first_words(node.choices[i], i, words, of_word);
     for (std::size_t w = 0; w < words.size() && !said.empty(); ++w) words[w].shown &= !said[of_word[w]];
+    // Written out, such a word would be one more kind: so it is none when cut short either.
+    if (behind_open_range())
+      for (Keyword& word : words) word.may_be_short &= !is_entity_kind(word.word);
     if (const auto found = reader_.match(words)) return of_word[*found];
     for (std::size_t i = 0; i < node.choices.size(); ++i) {
       const PatternNode& first = node.choices[i].front();
@@ -127,15 +130,26 @@ class Matcher {
     }
   }
 
+  /// Right behind a range that ends with `in` or `common_to`, which kinds of entities go on.
+  bool behind_open_range() const {
+    if (out_.items.empty() || out_.items.back().is_word) return false;
+    const auto& filters = out_.items.back().range.filters;
+    return !filters.empty() &&
+           (filters.back().kind == RangeFilter::Kind::in || filters.back().kind == RangeFilter::Kind::common_to);
+  }
+  static bool is_entity_kind(std::string_view word) {
+    for (int k = 0; k < n_entity_kinds; ++k)
+      if (word == name(static_cast<EntityKind>(k))) return true;
+    return false;
+  }
+
   /// Whether one more kind follows a range. It may be cut to three letters, fewer could be meant for an option; behind
   /// `in` all that are written out have been read, and others would be printed as if they belonged there too.
   bool goes_on(const Pattern& once) {
-    const auto& filters = out_.items.back().range.filters;
-    const bool open = !filters.empty() && (filters.back().kind == RangeFilter::Kind::in ||
-                                           filters.back().kind == RangeFilter::Kind::common_to);
     std::vector<Keyword> words;
     std::vector<std::size_t> ignored;
     first_words(once, 0, words, ignored);
+    const bool open = behind_open_range();
     for (Keyword& word : words) word.may_be_short = !open && reader_.peek().text.size() >= 3;
     return reader_.match(words).has_value();
   }

@@ -14,9 +14,12 @@ namespace hextwist::gmsh_detail {
 /// The ids of an element's nodes, ascending, 0 where there are fewer than four.
 inline std::array<std::int64_t, 4> element_key(const Mesh& mesh, std::span<const Index> nodes) {
   std::array<std::int64_t, 4> key{};
-  const std::size_t n = std::min(nodes.size(), key.size());
-  for (std::size_t i = 0; i < n; ++i) key[i] = node_id(mesh, nodes[i]);
-  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n));
+  for (std::size_t n = 0; n < std::min(nodes.size(), key.size()); ++n) {
+    std::size_t at = n;
+    const std::int64_t id = node_id(mesh, nodes[n]);
+    for (; at > 0 && key[at - 1] > id; --at) key[at] = key[at - 1];
+    key[at] = id;
+  }
   return key;
 }
 

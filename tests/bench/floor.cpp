@@ -2,7 +2,7 @@
 
 namespace hextwist::bench {
 
-Emitted emit_structured(int n, int pieces, bool with_points) {
+Emitted emit_structured(int n, int pieces, bool with_mesh) {
   Emitted out;
   Split& split = out.split;
   Lineage& lineage = split.lineage;
@@ -38,11 +38,17 @@ Emitted emit_structured(int n, int pieces, bool with_points) {
           lineage.faces.push_back({{h, axis}, {h, h + 1, h + 2, h + 3}, h, 1});
         }
       }
-  if (!with_points) return out;
+  if (!with_mesh) return out;
   out.points.reserve(static_cast<std::size_t>(split.n_nodes));
   for (int k = 0; k <= m; ++k)
     for (int j = 0; j <= m; ++j)
       for (int i = 0; i <= m; ++i) out.points.emplace_back(i, j, k);
+  out.hex_ids.reserve(n_hexes);
+  out.block.reserve(n_hexes);
+  for (std::size_t h = 0; h < n_hexes; ++h) {
+    out.hex_ids.push_back(static_cast<std::int64_t>(n_old + h + 1));
+    out.block.push_back(static_cast<Index>(h));
+  }
   return out;
 }
 

@@ -8,9 +8,12 @@ namespace hextwist::bench {
 
 struct Emitted {
   Split split;  ///< all arrays of their true sizes; hexes as they should be, node ids counted through the grid
-  std::vector<Vec3> points;  ///< empty when not asked for
+  /// What carry() adds: points, ids and one block; empty when not asked for.
+  std::vector<Vec3> points;
+  std::vector<std::int64_t> hex_ids;
+  std::vector<Index> block;
 };
 /// cube(n) with every edge in `pieces`.
-Emitted emit_structured(int n, int pieces, bool with_points);
+Emitted emit_structured(int n, int pieces, bool with_mesh);
 
 }  // namespace hextwist::bench

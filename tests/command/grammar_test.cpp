@@ -80,6 +80,11 @@ TEST(Grammar, WordsMayBeShortAndInAnyCase) {
   }
 }
 
+TEST(Grammar, AMetricThatIsAKindOfEntityIsNotCutShortWhereTheKindCouldStand) {
+  EXPECT_EQ(to_string(parsed("quality hex 9 volum histogram")), "quality hex 9 volume histogram");
+  EXPECT_EQ(error_of("quality hex in hex 9 volum histogram").column(), 22);
+}
+
 TEST(Grammar, ValuesArriveWithTheirNames) {
   const Command command = parsed("refine curve 3 to 9 by 2 except 5 in surface 1 numsplit 2");
   EXPECT_TRUE(command.has("numsplit"));
