@@ -77,6 +77,21 @@ MeshedModel glued_bricks(int n) {
   return result;
 }
 
+MeshedModel layered_bricks(int n) {
+  const double side = n;
+  const gp_Pnt low(-side / 2, -side / 2, -side / 2), above(1 - side / 2, -side / 2, -side / 2);
+  TopoDS_Compound bricks;
+  BRep_Builder builder;
+  builder.MakeCompound(bricks);
+  builder.Add(bricks, BRepPrimAPI_MakeBox(low, 1, side, side).Shape());
+  builder.Add(bricks, BRepPrimAPI_MakeBox(above, side - 1, side, side).Shape());
+  CadOptions options;
+  options.glue = true;
+  MeshedModel result{cube(n), cad_from_shape(bricks, options).model, {}};
+  result.association = associate(result.mesh, *result.model, nullptr).association;
+  return result;
+}
+
 namespace {
 template <class T>
 std::size_t size_of(const std::vector<T>& list) {

@@ -21,6 +21,8 @@ Index middle_hex(int n);
 
 /// A shipped model with its mesh refined uniformly, each edge in so many pieces, and complete association.
 MeshedModel shipped(const char* name, int pieces);
+/// The same cube as two bricks, one of them a single layer of hexes: four curves are one edge long.
+MeshedModel layered_bricks(int n);
 /// Eight bricks, glued to an assembly of 36 surfaces, filled by cube(n); n even.
 MeshedModel glued_bricks(int n);
 

@@ -29,6 +29,26 @@ Split split_one() {
   return split(mesh.hexes, mesh.n_nodes(), trisect_table(), trisect_codes(mesh.hexes, marked));
 }
 
+/// A mesh with curves of one edge.
+const MeshedModel& layered() {
+  static const MeshedModel made = layered_bricks(side);
+  return made;
+}
+std::vector<int> short_curves() {
+  std::vector<int> ids;
+  for (int id = 1; id <= layered().model->count(1); ++id)
+    if (layered().model->measure({1, id}) < 1.5) ids.push_back(id);
+  return ids;
+}
+RefineResult refined_short_curve(int depth) {
+  Request request;
+  request.kind = TargetKind::curve;
+  request.depth = depth;
+  request.targets = {short_curves().front()};
+  static const Measured known = measured(layered());
+  return refine(layered(), known, request);
+}
+
 RefineResult refined(TargetKind kind, Index target, int depth) {
   Request request;
   request.kind = kind;
@@ -44,10 +64,10 @@ struct Times {
 };
 
 /// CPU milliseconds of commands in a session that has done one small refinement before.
-Times later_commands(const std::vector<std::string>& commands) {
+Times later_commands(const MeshedModel& meshed, const std::vector<std::string>& commands) {
   const Threads limit(1);
   Session session;
-  session.take(input().mesh, input().model);
+  session.take(meshed.mesh, meshed.model);
   session.run("refine hex 505051");
   std::vector<double> times;
   for (const std::string& command : commands) {
@@ -63,7 +83,7 @@ const Times& later_hexes() {
   static const Times times = [] {
     std::vector<std::string> commands;
     for (int id = 5; id < side * side * side; id += 90910) commands.push_back("refine hex " + std::to_string(id));
-    return later_commands(commands);
+    return later_commands(input(), commands);
   }();
   return times;
 }
@@ -73,7 +93,17 @@ const Times& later_curves(int depth) {
   static const auto made = [](const std::string& options) {
     std::vector<std::string> commands;
     for (const int id : {1, 6, 12}) commands.push_back("refine curve " + std::to_string(id) + options);
-    return later_commands(commands);
+    return later_commands(input(), commands);
+  };
+  static const Times of_depth[] = {made(" depth 0"), made(" depth 1")};
+  return of_depth[depth];
+}
+
+const Times& later_short_curves(int depth) {
+  static const auto made = [](const std::string& options) {
+    std::vector<std::string> commands;
+    for (const int id : short_curves()) commands.push_back("refine curve " + std::to_string(id) + options);
+    return later_commands(layered(), commands);
   };
   static const Times of_depth[] = {made(" depth 0"), made(" depth 1")};
   return of_depth[depth];
@@ -90,10 +120,16 @@ void add_small_change() {
     return carry(input().mesh, input().association, parts);
   });
   add_time("small/hex", [] { return refined(TargetKind::hex, middle_hex(side), 0); });
+  add_time("small/short_curve", [] { return refined_short_curve(1); });
+  add_time("small/short_curve_combination", [] { return refined_short_curve(0); });
   add_time("small/curve", [] { return refined(TargetKind::curve, 1, 1); });
   add_time("small/curve_combination", [] { return refined(TargetKind::curve, 1, 0); });
   add_value("small/later_hex", [] { return later_hexes().median; });
   add_value("small/later_hex_worst", [] { return later_hexes().worst; });
+  add_value("small/later_short_curve", [] { return later_short_curves(1).median; });
+  add_value("small/later_short_curve_worst", [] { return later_short_curves(1).worst; });
+  add_value("small/later_short_curve_combination", [] { return later_short_curves(0).median; });
+  add_value("small/later_short_curve_combination_worst", [] { return later_short_curves(0).worst; });
   add_value("small/later_curve", [] { return later_curves(1).median; });
   add_value("small/later_curve_worst", [] { return later_curves(1).worst; });
   add_value("small/later_curve_combination", [] { return later_curves(0).median; });
