@@ -59,6 +59,7 @@ std::vector<Index> nodes_on(const Association& association, const Model& model, 
   std::vector<Index> nodes;
   for (std::size_t n = 0; n < association.node_owner.size(); ++n) {
     const Owner owner = association.node_owner[n];
+    if (owner.dim > entity.dim) continue;  // most nodes of most meshes
     if (owner && wanted[owner.dim][owner.id]) nodes.push_back(static_cast<Index>(n));
   }
   return nodes;

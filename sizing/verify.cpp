@@ -156,10 +156,6 @@ Box box_of(const Mesh& mesh, const Quad& nodes) {
   for (const Index n : nodes) box.add(mesh.points[n]);
   return box;
 }
-bool overlap(const Box& a, const Box& b, double margin) {
-  return !a.empty() && !b.empty() && (a.min.array() <= b.max.array() + margin).all() &&
-         (b.min.array() <= a.max.array() + margin).all();
-}
 
 /// Changed hexes of the part, and all that share a node with them; ascending.
 std::vector<Index> hexes_around(const ChangedPart& change) {
@@ -188,9 +184,20 @@ std::vector<Index> hexes_near_new_boundary(const ChangedPart& change) {
     }
   std::vector<Index> near;
   if (fresh.empty()) return near;
+  fresh.min.array() -= longest;
+  fresh.max.array() += longest;
   const Mesh& mesh = change.input.mesh;
-  for (const Side side : change.input.association.surface_faces)
-    if (overlap(fresh, box_of(mesh, face_nodes(mesh.hexes[side.hex], side.face)), longest)) near.push_back(side.hex);
+  // All boundary faces are asked: most lie beyond one side of the box, which their coordinates in one direction tell.
+  const auto apart = [&](const std::array<Index, 4>& nodes, int axis) {
+    const auto at = [&](int k) { return mesh.points[nodes[k]][axis]; };
+    const double low = fresh.min[axis], high = fresh.max[axis];
+    return (at(0) < low && at(1) < low && at(2) < low && at(3) < low) ||
+           (at(0) > high && at(1) > high && at(2) > high && at(3) > high);
+  };
+  for (const Side side : change.input.association.surface_faces) {
+    const auto nodes = face_nodes(mesh.hexes[side.hex], side.face);
+    if (!apart(nodes, 0) && !apart(nodes, 1) && !apart(nodes, 2)) near.push_back(side.hex);
+  }
   near.erase(std::ranges::unique(near).begin(), near.end());
   std::erase_if(near, [gone = Difference(change).whole_gone](Index h) { return std::ranges::binary_search(gone, h); });
   return near;
@@ -230,7 +237,7 @@ bool is_sound(const ChangedPart& change) {
   std::vector<Index> others;
   std::ranges::set_difference(hexes_near_new_boundary(change), known, std::back_inserter(others));
   const Mesh mesh = mesh_to_validate(change, of_part, others);
-  for (const Violation& violation : validate(mesh))
+  for (const Violation& violation : validate(mesh, {.relative_tolerance = 0}))
     if (!is_warning(violation.kind) || violation.kind == ViolationKind::touching_part) return false;
   return std::ranges::all_of(boundary_sides(faces(mesh)), [&](Side side) {
     if (side.hex >= static_cast<Index>(of_part.size())) return true;
