@@ -1,6 +1,7 @@
 // What a command can be about: mesh entities, CAD entities, sets of mesh entities, and groups of any of them.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace hextwist {
@@ -14,6 +15,12 @@ constexpr std::string_view name(EntityKind kind) {
                                                       "curve",   "surface", "volume", "block", "nodeset",
                                                       "sideset", "sheet",   "group"};
   return names[static_cast<int>(kind)];
+}
+/// The kind with exactly this name.
+constexpr std::optional<EntityKind> entity_kind(std::string_view word) {
+  for (int k = 0; k < n_entity_kinds; ++k)
+    if (word == name(static_cast<EntityKind>(k))) return static_cast<EntityKind>(k);
+  return std::nullopt;
 }
 /// "nodes", "edges", ..., "vertices", "hexes".
 constexpr std::string_view plural(EntityKind kind) {

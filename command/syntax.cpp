@@ -71,7 +71,7 @@ class Matcher {
     for (std::size_t w = 0; w < words.size() && !said.empty(); ++w) words[w].shown &= !said[of_word[w]];
     // Written out, such a word would be one more kind: so it is none when cut short either.
     if (behind_open_range())
-      for (Keyword& word : words) word.may_be_short &= !is_entity_kind(word.word);
+      for (Keyword& word : words) word.may_be_short &= !entity_kind(word.word);
     if (const auto found = reader_.match(words)) return of_word[*found];
     for (std::size_t i = 0; i < node.choices.size(); ++i) {
       const PatternNode& first = node.choices[i].front();
@@ -136,11 +136,6 @@ class Matcher {
     const auto& filters = out_.items.back().range.filters;
     return !filters.empty() &&
            (filters.back().kind == RangeFilter::Kind::in || filters.back().kind == RangeFilter::Kind::common_to);
-  }
-  static bool is_entity_kind(std::string_view word) {
-    for (int k = 0; k < n_entity_kinds; ++k)
-      if (word == name(static_cast<EntityKind>(k))) return true;
-    return false;
   }
 
   /// Whether one more kind follows a range. It may be cut to three letters, fewer could be meant for an option; behind
@@ -211,8 +206,7 @@ class Matcher {
   /// The kind of entity named last.
   EntityKind kind_before() const {
     for (auto item = out_.items.rbegin(); item != out_.items.rend(); ++item)
-      for (int k = 0; item->is_word && k < n_entity_kinds; ++k)
-        if (item->name == name(static_cast<EntityKind>(k))) return static_cast<EntityKind>(k);
+      if (const auto kind = entity_kind(item->name); item->is_word && kind) return *kind;
     assert(false && "a <range> without a kind before it");
     return EntityKind::hex;
   }

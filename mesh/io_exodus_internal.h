@@ -18,6 +18,11 @@ void in_pieces(std::size_t n, F&& f) {
   for (std::size_t first = 0; first < n; first += exodus_piece) f(first, std::min(exodus_piece, n - first));
 }
 
+/// The library counts from 1.
+inline std::int64_t exodus_position(std::size_t i) {
+  return static_cast<std::int64_t>(i) + 1;
+}
+
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";
 

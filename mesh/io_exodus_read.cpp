@@ -98,7 +98,8 @@ class Reader {
     resize_large(out_.mesh.points, n);
     std::vector<double> x(exodus_piece), y(exodus_piece), z(exodus_piece);
     in_pieces(n, [&](std::size_t first, std::size_t size) {
-      check(ex_get_partial_coord(file_.id, position(first), position(size - 1), x.data(), y.data(), z.data()),
+      check(ex_get_partial_coord(file_.id, exodus_position(first), exodus_position(size - 1), x.data(), y.data(),
+                                 z.data()),
             "coordinates");
       for (std::size_t i = 0; i < size; ++i) {
         Vec3& point = out_.mesh.points[first + i];
@@ -110,7 +111,6 @@ class Reader {
     nodes_.sort(out_.mesh.points);
     out_.mesh.node_ids = nodes_.stored();
   }
-  static std::int64_t position(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
   /// Index of the node at a 1-based position in the file.
   Index node(std::int64_t position, const std::string& who) const {
     if (position < 1 || position > nodes_.size())
@@ -196,8 +196,8 @@ class Reader {
     if (quads) quad_of_element_.resize(hex_of_element_.size(), -1);
     Ints nodes(exodus_piece * static_cast<std::size_t>(n_nodes));
     in_pieces(map.size(), [&](std::size_t begin, std::size_t size) {
-      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, position(begin), position(size - 1), nodes.data(),
-                                nullptr, nullptr),
+      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, exodus_position(begin), exodus_position(size - 1),
+                                nodes.data(), nullptr, nullptr),
             "nodes of " + name);
       for (std::size_t k = 0; k < size; ++k) {
         const std::int64_t id = map[begin + k], element = first + static_cast<std::int64_t>(begin + k);

@@ -117,7 +117,7 @@ class Writer {
         for (std::size_t i = 0; i < n; ++i) values[i] = mesh_.points[first + i][axis];
         std::array<const double*, 3> x{};
         x[axis] = values.data();
-        check(ex_put_partial_coord(id_, position(first), position(n - 1), x[0], x[1], x[2]));
+        check(ex_put_partial_coord(id_, exodus_position(first), exodus_position(n - 1), x[0], x[1], x[2]));
       });
     std::array<std::string, 3> names = {"x", "y", "z"};
     std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
@@ -126,14 +126,13 @@ class Writer {
             [&](std::size_t n) { return id_of(mesh_.node_ids, static_cast<Index>(n)); });
   }
   /// 1-based, as the library counts.
-  static std::int64_t position(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
   /// id(0) .. id(n_items - 1).
   template <class F>
   void put_map(ex_entity_type type, std::size_t n_items, F&& id) {
     const auto put = [&]<class T>(std::vector<T> ids) {
       in_pieces(n_items, [&](std::size_t first, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<T>(id(first + i));
-        check(ex_put_partial_id_map(id_, type, position(first), position(n - 1), ids.data()));
+        check(ex_put_partial_id_map(id_, type, exodus_position(first), exodus_position(n - 1), ids.data()));
       });
     };
     wide_ ? put(std::vector<std::int64_t>(exodus_piece)) : put(Ints(exodus_piece));
@@ -150,7 +149,7 @@ class Writer {
           nodes[i] = in_file_order(mesh_.hexes[part.hexes[first + i]]);
           for (Index& node : nodes[i]) ++node;
         }
-        check(ex_put_partial_elem_conn(id_, part.id, position(first), position(size - 1), nodes.data()));
+        check(ex_put_partial_elem_conn(id_, part.id, exodus_position(first), exodus_position(size - 1), nodes.data()));
       });
     }
     // Parts follow each other.

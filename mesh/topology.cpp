@@ -16,13 +16,6 @@ namespace {
 
 constexpr Index max_hexes = std::numeric_limits<Index>::max() / 12;  // edge uses fit an Index
 
-/// Turns counts into starts: first[i] = sum of the counts before i. The last entry must be 0 and gets the total.
-void counts_to_starts(std::vector<Index>& first) {
-  running_sums(
-      static_cast<Index>(first.size()), 0, [&](Index i) { return first[i]; },
-      [&](Index i, std::int64_t sum) { first[i] = static_cast<Index>(sum); });
-}
-
 /// Counts to ends, for scattering backwards: every item then lowers the entry of its list by one, after which the
 /// entries are starts.
 void counts_to_ends(std::vector<Index>& first) {
@@ -103,6 +96,23 @@ void check_nodes(const Mesh& mesh) {
   });
   if (bad < mesh.n_hexes())
     throw Error("hex " + std::to_string(hex_id(mesh, bad)) + " names a node that does not exist");
+}
+
+std::int64_t counts_to_starts(std::vector<Index>& counts) {
+  return running_sums(
+      static_cast<Index>(counts.size()), 0, [&](Index i) { return counts[i]; },
+      [&](Index i, std::int64_t sum) { counts[i] = static_cast<Index>(sum); });
+}
+
+std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes, Index first_node) {
+  std::vector<Index> nodes;
+  nodes.reserve(8 * hexes.size());
+  for (const Index h : hexes)
+    for (const Index n : mesh.hexes[h])
+      if (n >= first_node) nodes.push_back(n);
+  std::ranges::sort(nodes);
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  return nodes;
 }
 
 Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,13 @@ Lists node_corners(const Mesh& mesh);
 Lists node_corners(std::span<const Hex> hexes, Index n_nodes);
 /// The same for the nodes begin .. end - 1 alone: the list of node i is [i - begin].
 Lists node_corners(std::span<const Hex> hexes, Index begin, Index end);
+
+/// Turns counts into starts: entry i becomes the sum of the counts before i. Returns the sum of all, which may be more
+/// than an Index holds; the entries then mean nothing.
+std::int64_t counts_to_starts(std::vector<Index>& counts);
+
+/// Nodes of these hexes from first_node on, ascending, each once.
+std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes, Index first_node = 0);
 
 /// One use of a face by a hex, at the face's lowest node.
 struct FaceUse {

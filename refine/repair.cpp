@@ -5,6 +5,7 @@
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/quality.h"
 #include "hextwist/mesh/smooth.h"
+#include "hextwist/mesh/topology_internal.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/place.h"
 
@@ -12,16 +13,6 @@ namespace hextwist {
 namespace {
 
 constexpr int max_halvings = 4;
-
-std::vector<Index> nodes_of(const Mesh& mesh, std::span<const Index> hexes, Index first_node) {
-  std::vector<Index> nodes;
-  for (const Index h : hexes)
-    for (const Index n : mesh.hexes[h])
-      if (n >= first_node) nodes.push_back(n);
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  return nodes;
-}
 
 /// How far untangling may reach: layers of hexes around the inverted ones; whether old nodes inside volumes may move
 /// too, and whether new nodes may slide along their curves and surfaces.
@@ -45,7 +36,7 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   SmoothOptions options;
   options.scheme = SmoothScheme::untangle;
   options.fixed.assign(fixed.begin(), fixed.end());
-  options.nodes = nodes_of(mesh, hex_band(mesh, bad, reach.layers), 0);
+  options.nodes = nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers));
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
   if (smooth(mesh, association, model, options, progress).not_repaired.empty()) {
     options.scheme = SmoothScheme::mean_ratio;
@@ -98,7 +89,7 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
   // 2. Back off from the CAD.
   std::vector<Index> backed_off;
   for (int halving = 1; halving <= max_halvings && !bad.empty(); ++halving) {
-    const std::vector<Index> nodes = nodes_of(mesh, bad, first_new);
+    const std::vector<Index> nodes = nodes_of_hexes(mesh, bad, first_new);
     const std::vector<Vec3> straight = straight_places(old_mesh, split.lineage, nodes);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       mesh.points[nodes[i]] = halving == max_halvings ? straight[i] : Vec3((mesh.points[nodes[i]] + straight[i]) / 2);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
@@ -12,12 +13,6 @@
 
 namespace hextwist {
 namespace {
-
-Index checked(std::int64_t n) {
-  if (n > std::numeric_limits<Index>::max())
-    throw Error("the refined mesh would have " + std::to_string(n) + " nodes or hexes, more than 2147483647");
-  return static_cast<Index>(n);
-}
 
 /// The cut hexes with what their codes bring.
 struct CutList {
@@ -125,12 +120,6 @@ struct Starts {
   std::vector<Index> edges, faces;
 };
 
-void counts_to_starts(std::vector<Index>& counts) {
-  checked(running_sums(
-      static_cast<Index>(counts.size()), 0, [&](Index i) { return counts[i]; },
-      [&](Index i, std::int64_t sum) { counts[i] = static_cast<Index>(sum); }));
-}
-
 /// Walks along the nodes; hex_edges and hex_faces get ranks.
 Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& split) {
   const Lists corners = node_corners(cut.nodes, cut.n_nodes);
@@ -166,8 +155,8 @@ Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& 
       starts.faces[node] = faces.finish();
     }
   });
-  counts_to_starts(starts.edges);
-  counts_to_starts(starts.faces);
+  checked_count(counts_to_starts(starts.edges));
+  checked_count(counts_to_starts(starts.faces));
   return starts;
 }
 
@@ -231,12 +220,12 @@ Index number_nodes_and_children(const CutList& cut, std::span<const std::uint16_
   const std::int64_t in_hexes = number(lineage.faces, in_faces, n_in_face);
   const auto n_cut = static_cast<Index>(cut.hex.size());
   resize_large(lineage.hexes, cut.hex.size());
-  split.n_nodes = checked(running_sums(
+  split.n_nodes = checked_count(running_sums(
       n_cut, in_hexes, [&](Index i) { return std::ssize(cut.of[i]->inside); },
       [&](Index i, std::int64_t first) {
         lineage.hexes[i] = {cut.hex[i], 0, static_cast<Index>(first), codes[cut.hex[i]]};
       }));
-  return checked(running_sums(
+  return checked_count(running_sums(
       n_cut, lineage.n_old_hexes - n_cut, [&](Index i) { return std::ssize(cut.of[i]->children); },
       [&](Index i, std::int64_t first) { lineage.hexes[i].first_child = static_cast<Index>(first); }));
 }
@@ -308,6 +297,12 @@ void fill_children(std::span<const Hex> hexes, const CutList& cut, const SplitTa
 }
 
 }  // namespace
+
+Index checked_count(std::int64_t n) {
+  if (n > std::numeric_limits<Index>::max())
+    throw Error("the refined mesh would have " + std::to_string(n) + " nodes or hexes, more than 2147483647");
+  return static_cast<Index>(n);
+}
 
 Index Split::cut_index(Index old_hex) const {
   const auto found = std::ranges::lower_bound(lineage.hexes, old_hex, {}, &CutHex::hex);

@@ -1,6 +1,7 @@
 // Replaces every hex by its template: pure combinatorics, no coordinate is read.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,6 +28,9 @@ struct Split {
   /// Position of a cut hex in lineage.hexes, hex_edges, hex_faces.
   Index cut_index(Index old_hex) const;
 };
+
+/// A number of nodes or hexes as an Index. Throws Error when it is none.
+Index checked_count(std::int64_t n);
 
 /// codes: one per hex, 0 to leave it alone. Precondition (asserted): hexes that share an edge or face agree on its
 /// code. Throws Error when the result has more than 2^31 - 1 nodes or hexes.

@@ -3,10 +3,21 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist {
+
+/// Some items of an array with so many values for each.
+template <class T>
+std::vector<T> items_at(const std::vector<T>& array, std::span<const Index> places, std::size_t width = 1) {
+  std::vector<T> items;
+  items.reserve(places.size() * width);
+  for (const Index i : places)
+    for (std::size_t c = 0; c < width; ++c) items.push_back(array[static_cast<std::size_t>(i) * width + c]);
+  return items;
+}
 
 /// New index of a hex that is kept. gone: ascending, in old indices.
 inline Index after_gaps(std::span<const Index> gone, Index hex) {

@@ -1,29 +1,12 @@
 // Cuts a patch out of a mesh, with all that is known of it.
 #include <algorithm>
 
+#include "hextwist/mesh/topology_internal.h"
+#include "hextwist/sizing/gaps_internal.h"
 #include "hextwist/sizing/patch_internal.h"
 
 namespace hextwist {
 namespace {
-
-std::vector<Index> nodes_of(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<Index> nodes;
-  nodes.reserve(8 * hexes.size());
-  for (const Index h : hexes) nodes.insert(nodes.end(), mesh.hexes[h].begin(), mesh.hexes[h].end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  return nodes;
-}
-
-/// Some items of an array with so many values for each.
-template <class T>
-std::vector<T> taken(const std::vector<T>& from, std::span<const Index> items, std::size_t width = 1) {
-  std::vector<T> result;
-  result.reserve(items.size() * width);
-  for (const Index i : items)
-    for (std::size_t c = 0; c < width; ++c) result.push_back(from[static_cast<std::size_t>(i) * width + c]);
-  return result;
-}
 
 /// Positions in `wanted` of the items that both lists have. Cheap where `wanted` is short.
 std::vector<Index> common(const std::vector<Index>& list, std::span<const Index> wanted) {
@@ -51,9 +34,9 @@ void for_each_side(const std::vector<Side>& sides, std::span<const Index> hexes,
 Association association_of(const Association& whole, const Patch& patch) {
   Association part;
   if (whole.empty()) return part;
-  part.node_owner = taken(whole.node_owner, patch.nodes);
-  part.node_parameters = taken(whole.node_parameters, patch.nodes);
-  part.hex_volume = taken(whole.hex_volume, patch.hexes);
+  part.node_owner = items_at(whole.node_owner, patch.nodes);
+  part.node_parameters = items_at(whole.node_parameters, patch.nodes);
+  part.hex_volume = items_at(whole.hex_volume, patch.hexes);
   auto at = whole.curve_edges.begin();
   for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
     at = std::lower_bound(at, whole.curve_edges.end(), Edge{patch.nodes[i], 0});
@@ -80,10 +63,10 @@ Index Patch::local_node(Index node) const {
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   Patch patch;
   patch.hexes = std::move(hexes);
-  patch.nodes = nodes_of(whole.mesh, patch.hexes);
+  patch.nodes = nodes_of_hexes(whole.mesh, patch.hexes);
   Mesh& mesh = patch.meshed.mesh;
-  mesh.points = taken(whole.mesh.points, patch.nodes);
-  mesh.hexes = taken(whole.mesh.hexes, patch.hexes);
+  mesh.points = items_at(whole.mesh.points, patch.nodes);
+  mesh.hexes = items_at(whole.mesh.hexes, patch.hexes);
   for (Hex& hex : mesh.hexes)
     for (Index& n : hex) n = patch.local_node(n);
   for (const Block& block : whole.mesh.blocks)
@@ -96,8 +79,8 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   }
   for (const Field& field : whole.mesh.fields)
     mesh.fields.push_back({field.name, field.on, field.components,
-                           taken(field.values, field.on == Field::On::node ? patch.nodes : patch.hexes,
-                                 static_cast<std::size_t>(field.components))});
+                           items_at(field.values, field.on == Field::On::node ? patch.nodes : patch.hexes,
+                                    static_cast<std::size_t>(field.components))});
   patch.meshed.model = whole.model;
   patch.meshed.association = association_of(whole.association, patch);
   return patch;

@@ -1,11 +1,11 @@
 #include "hextwist/sizing/splice_internal.h"
 
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "hextwist/mesh/large_array_internal.h"
+#include "hextwist/refine/split.h"
 #include "hextwist/sizing/splice_lists_internal.h"
 
 namespace hextwist {
@@ -19,21 +19,6 @@ bool same_bits(const T& a, const T& b) {
 template <class T>
 std::vector<T> tail(const std::vector<T>& array, Index first, std::size_t width = 1) {
   return {array.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * width), array.end()};
-}
-
-template <class T>
-std::vector<T> items_at(const std::vector<T>& array, std::span<const Index> places, std::size_t width = 1) {
-  std::vector<T> items;
-  items.reserve(places.size() * width);
-  for (const Index i : places)
-    for (std::size_t c = 0; c < width; ++c) items.push_back(array[static_cast<std::size_t>(i) * width + c]);
-  return items;
-}
-
-Index checked(std::int64_t n) {
-  if (n > std::numeric_limits<Index>::max())
-    throw Error("the refined mesh would have " + std::to_string(n) + " nodes or hexes, more than 2147483647");
-  return static_cast<Index>(n);
 }
 
 }  // namespace
@@ -63,8 +48,8 @@ Splice::Splice(const MeshedModel& whole, const PatchNumbers& numbers, const Mesh
   const Mesh &old_mesh = whole.mesh, &mesh = refined.mesh, &part = patch.meshed.mesh;
   const Index n_old = numbers.n_patch_nodes(), n_kept = numbers.n_kept;
   const bool has_owners = !whole.association.empty();
-  checked(std::int64_t{n_nodes_} + mesh.n_nodes() - n_old);
-  checked(std::int64_t{n_hexes_} + mesh.n_hexes() - part.n_hexes());
+  checked_count(std::int64_t{n_nodes_} + mesh.n_nodes() - n_old);
+  checked_count(std::int64_t{n_hexes_} + mesh.n_hexes() - part.n_hexes());
 
   for (Index n = 0; n < n_old; ++n) {
     const auto same = [&](const auto& before, const auto& after) { return same_bits(before[n], after[n]); };

@@ -6,16 +6,6 @@
 #include "hextwist/command/criterion.h"
 
 namespace hextwist::test {
-namespace {
-
-bool is_kind(std::string_view word) {
-  for (int k = 0; k < n_entity_kinds; ++k)
-    if (word == hextwist::name(static_cast<EntityKind>(k))) return true;
-  return false;
-}
-
-}  // namespace
-
 std::string Sentences::sentence(const CommandSpec& command) {
   command_ = &command;
   after_range_ = false;
@@ -27,7 +17,7 @@ std::string Sentences::sentence(const CommandSpec& command) {
 /// Not planned; and not a kind right behind a range, where it would be one more kind after `in`.
 bool Sentences::usable(const Pattern& choice) const {
   const PatternNode& first = choice.front();
-  if (first.kind == PatternNode::Kind::word) return !first.planned && !(after_range_ && is_kind(first.name));
+  if (first.kind == PatternNode::Kind::word) return !first.planned && !(after_range_ && entity_kind(first.name));
   if (first.kind == PatternNode::Kind::one_of)
     return std::ranges::any_of(first.choices, [&](const Pattern& inner) { return usable(inner); });
   return true;
