@@ -93,9 +93,9 @@ class Reader {
     if (init_.num_dim != 3) fail("has " + std::to_string(init_.num_dim) + " dimensions instead of 3");
     const auto n = size(init_.num_nodes, "nodes");
     Int64s map;
-    resize_large(map, n);
+    resize_for_overwrite(map, n);
     if (n) check(ex_get_id_map(file_.id, EX_NODE_MAP, map.data()), "the node id map");
-    resize_large(out_.mesh.points, n);
+    resize_for_overwrite(out_.mesh.points, n);
     std::vector<double> x(exodus_piece), y(exodus_piece), z(exodus_piece);
     in_pieces(n, [&](std::size_t first, std::size_t size) {
       check(ex_get_partial_coord(file_.id, exodus_position(first), exodus_position(size - 1), x.data(), y.data(),
@@ -121,11 +121,10 @@ class Reader {
   void blocks() {
     const auto n_elements = size(init_.num_elem, "elements");
     Int64s map;
-    resize_large(map, n_elements);
+    resize_for_overwrite(map, n_elements);
     if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
     reserve_large(out_.mesh.hexes, n_elements);
-    resize_large(hex_of_element_, n_elements);
-    std::ranges::fill(hex_of_element_, -1);
+    resize_large(hex_of_element_, n_elements, Index{-1});
     std::int64_t first = 0;
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
       ex_block block{};

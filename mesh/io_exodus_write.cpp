@@ -70,7 +70,7 @@ class Writer {
       if (!taken[h]) rest.own.push_back(h);
     rest.hexes = rest.own;
     if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
-    resize_large(element_of_hex_, mesh_.hexes.size());
+    resize_for_overwrite(element_of_hex_, mesh_.hexes.size());
     int element = 0;
     for (const Divided& part : parts_)
       for (const Index h : part.hexes) element_of_hex_[h] = ++element;

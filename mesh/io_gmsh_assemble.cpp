@@ -147,7 +147,7 @@ class Assembly {
     hex_ids_ = Ids(std::move(tags), "element", cursor_, runs);
     const auto n = static_cast<std::size_t>(hex_ids_.size());
     resize_large(hex_of_element_, elements.tags.size());
-    resize_large(file_.tags.hex_volume, n);
+    resize_for_overwrite(file_.tags.hex_volume, n);
     int last = -1, volume = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = first.empty() ? k : static_cast<std::size_t>(kept[k]);

@@ -86,7 +86,7 @@ class Planner {
       elements.size += n;
     }
     if (tag.size() > 1) {
-      resize_large(elements.items, elements.size);
+      resize_for_overwrite(elements.items, elements.size);
       for (std::size_t i = 0; i < elements.size; ++i)
         elements.items[start[classes.of_item[i]]++] = static_cast<Index>(i);
     }
@@ -105,7 +105,7 @@ class Planner {
 
   void hexes() {
     std::vector<int> volume;
-    resize_large(volume, mesh_.hexes.size());
+    resize_for_overwrite(volume, mesh_.hexes.size());
     for (Index h = 0; h < mesh_.n_hexes(); ++h) volume[h] = std::max(0, volume_of(tags_, h));
     std::vector<std::span<const Index>> members;
     for (const Block& block : mesh_.blocks) {

@@ -153,8 +153,8 @@ void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
   source.large("the highest node id");
   std::vector<std::int64_t> ids;
   std::vector<Run> runs;
-  resize_large(ids, n);
-  resize_large(contents.points, n);
+  resize_for_overwrite(ids, n);
+  resize_for_overwrite(contents.points, n);
   reserve_large(contents.node_entity, n);
   std::size_t done = 0;
   bool any_parametric = false;

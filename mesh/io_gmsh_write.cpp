@@ -130,7 +130,7 @@ NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const
     for (const PlannedEntity& entity : plan.entities[dim]) order.runs.push_back({{dim, entity.tag}, 0, 0});
   }
   std::vector<int> run_of_node;
-  resize_large(run_of_node, mesh.points.size());
+  resize_for_overwrite(run_of_node, mesh.points.size());
   std::size_t run = 0;
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     const Owner at = owner(association, n), of = at ? at : Owner{3, plan.nobody};
@@ -151,7 +151,7 @@ NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const
   }
   std::erase_if(order.runs, [](const auto& one) { return one.n == 0; });
   if (order.runs.size() < 2) return order;
-  resize_large(order.nodes, mesh.points.size());
+  resize_for_overwrite(order.nodes, mesh.points.size());
   for (Index n = 0; n < mesh.n_nodes(); ++n) order.nodes[next[run_of_node[n]]++] = n;
   return order;
 }

@@ -54,9 +54,9 @@ Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& 
     for (std::size_t i = 1; i < order.size(); ++i)
       if (ids_[order[i]] == ids_[order[i - 1]]) fail(order[i], " occurs twice");
   }
-  resize_large(place_, order.size());
+  resize_for_overwrite(place_, order.size());
   std::vector<std::int64_t> sorted;
-  resize_large(sorted, order.size());
+  resize_for_overwrite(sorted, order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place_[order[i]] = static_cast<Index>(i);
     sorted[i] = ids_[order[i]];
@@ -81,7 +81,7 @@ Classes classify(const std::vector<int>& key_of_item, std::span<const std::span<
     if (i == 0 || key_of_item[i] != key_of_item[i - 1]) result.key.push_back(key_of_item[i]);
   make_set(result.key);
   result.groups.resize(result.key.size());
-  resize_large(result.of_item, key_of_item.size());
+  resize_for_overwrite(result.of_item, key_of_item.size());
   int of_key = 0;
   for (std::size_t i = 0; i < key_of_item.size(); ++i) {
     if (i == 0 || key_of_item[i] != key_of_item[i - 1])

@@ -71,7 +71,7 @@ class Ids {
   void sort(std::vector<T>& values, std::size_t n = 1) const {
     if (place_.empty()) return;
     std::vector<T> sorted;
-    resize_large(sorted, values.size());
+    resize_for_overwrite(sorted, values.size());
     for (std::size_t i = 0; i < place_.size(); ++i)
       for (std::size_t k = 0; k < n; ++k) sorted[place_[i] * n + k] = std::move(values[i * n + k]);
     values = std::move(sorted);

@@ -1,30 +1,14 @@
-// Memory for large arrays. The first touch of a fresh page costs more than writing it; with pages of 2 MiB it happens
-// 512 times less often (docs/performance.md).
+// Large arrays made on all threads.
 #pragma once
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
+#include "hextwist/mesh/fresh_memory_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist {
-
-/// Asks the system for huge pages in memory that nothing has written yet. A wish: nothing depends on it.
-inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
-#ifdef __linux__
-  constexpr std::size_t page = 4096, worthwhile = std::size_t{4} << 20;
-  if (bytes < worthwhile) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
-}
 
 /// Touches fresh memory first, on all threads: the system clears pages where they are touched, which for one thread
 /// takes longer than filling them.
@@ -43,7 +27,7 @@ inline void touch_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_
 #endif
 }
 
-/// list.reserve(n) for an array that is about to be filled: in huge pages where it is large.
+/// list.reserve(n) for an array that one thread is about to fill: in huge pages where it is large.
 template <class T>
 void reserve_large(std::vector<T>& list, std::size_t n) {
   if (list.capacity() >= n) return;
@@ -58,24 +42,37 @@ void grow_large(std::vector<T>& list, std::size_t n) {
   list.reserve(std::max(list.size() + n, 2 * list.capacity()));
   advise_huge_pages(list.data() + list.size(), (list.capacity() - list.size()) * sizeof(T));
 }
-/// list.resize(n) likewise.
-template <class T>
-void resize_large(std::vector<T>& list, std::size_t n) {
-  reserve_large(list, n);
-  list.resize(n);
+
+/// Has every item of a large array written by f(begin, end), on all threads.
+template <class F>
+void fill_ranges(std::size_t n, F&& f) {
+  constexpr std::size_t grain = 1 << 15;
+  if (n <= grain) return f(std::size_t{0}, n);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
+                    [&](const auto& range) { f(range.begin(), range.end()); });
 }
+
+/// list.resize(n, value), written on all threads.
 template <class T>
-void resize_large(std::vector<T>& list, std::size_t n, const T& value) {
-  reserve_large(list, n);
-  list.resize(n, value);
+void resize_large(std::vector<T>& list, std::size_t n, const T& value = T{}) {
+  const std::size_t n_old = list.size();
+  resize_for_overwrite(list, n);
+  if (n > n_old)
+    fill_ranges(n - n_old, [&](std::size_t begin, std::size_t end) {
+      std::fill(list.data() + n_old + begin, list.data() + n_old + end, value);
+    });
 }
 
 /// A copy of a list, with room for n items in all.
 template <class T>
 std::vector<T> copy_large(const std::vector<T>& list, std::size_t n) {
   std::vector<T> copy;
-  reserve_large(copy, n);
-  copy.assign(list.begin(), list.end());
+  copy.reserve(n);
+  advise_huge_pages(copy.data(), n * sizeof(T));
+  resize_for_overwrite(copy, list.size());
+  fill_ranges(list.size(), [&](std::size_t begin, std::size_t end) {
+    std::copy(list.data() + begin, list.data() + end, copy.data() + begin);
+  });
   return copy;
 }
 

@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "hextwist/mesh/fresh_memory_internal.h"
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist {
@@ -63,13 +66,20 @@ void parallel_chunks(Index n, Index size, F&& f) {
 template <class Wanted>
 std::vector<Index> where(Index n, Wanted&& wanted) {
   constexpr Index size = 4096;
-  std::vector<std::vector<Index>> of_chunk(n_chunks(n, size));
+  const auto scratch = std::make_unique_for_overwrite<Index[]>(static_cast<std::size_t>(n));
+  std::vector<Index> n_before(static_cast<std::size_t>(n_chunks(n, size)) + 1);
   parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    Index* at = &scratch[begin];
     for (Index i = begin; i < end; ++i)
-      if (wanted(i)) of_chunk[chunk].push_back(i);
+      if (wanted(i)) *at++ = i;
+    n_before[chunk + 1] = static_cast<Index>(at - &scratch[begin]);
   });
+  std::partial_sum(n_before.begin(), n_before.end(), n_before.begin());
   std::vector<Index> found;
-  for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
+  resize_for_overwrite(found, static_cast<std::size_t>(n_before.back()));
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index) {
+    std::copy_n(&scratch[begin], n_before[chunk + 1] - n_before[chunk], found.data() + n_before[chunk]);
+  });
   return found;
 }
 

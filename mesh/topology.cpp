@@ -19,8 +19,9 @@ constexpr Index max_hexes = std::numeric_limits<Index>::max() / 12;  // edge use
 /// Counts to ends, for scattering backwards: every item then lowers the entry of its list by one, after which the
 /// entries are starts.
 void counts_to_ends(std::vector<Index>& first) {
-  Index sum = 0;
-  for (Index& entry : first) entry = sum += entry;
+  running_sums(
+      static_cast<Index>(first.size()), 0, [&](Index i) { return first[i]; },
+      [&](Index i, std::int64_t sum) { first[i] += static_cast<Index>(sum); });
 }
 
 Index fetch_add(Index& counter, Index step) {
@@ -116,7 +117,8 @@ std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes
 }
 
 Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
-  // Each thread has a range of nodes and walks along all hexes: no counter is shared, every list comes out ascending.
+  // Each thread has a range of nodes and walks along the hexes that have some of them: no counter is shared, every list
+  // comes out ascending.
   const auto n_parts = static_cast<Index>(n_threads());
   const Index n_nodes = end - begin;
   const auto for_each_part = [&](auto&& each) {
@@ -131,20 +133,42 @@ Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
         },
         1);
   };
+  constexpr Index size = 512;
+  const auto n_hexes = static_cast<Index>(hexes.size());
+  std::vector<std::pair<Index, Index>> nodes_of_chunk(static_cast<std::size_t>(n_chunks(n_hexes, size)), {begin, end - 1});
+  if (n_parts > 1)
+    parallel_chunks(n_hexes, size, [&](Index chunk, Index from, Index to) {
+      auto& [low, high] = nodes_of_chunk[chunk];
+      std::tie(low, high) = std::pair(end, begin - 1);
+      for (Index h = from; h < to; ++h) {
+        const auto [least, most] = std::ranges::minmax(hexes[h]);
+        low = std::min(low, least);
+        high = std::max(high, most);
+      }
+    });
+  const auto has_none = [&](Index chunk, Index low, std::uint32_t width) {
+    return nodes_of_chunk[chunk].second < low || std::int64_t{nodes_of_chunk[chunk].first} - low >= width;
+  };
   Lists corners;
   resize_large(corners.first, static_cast<std::size_t>(n_nodes) + 1);
   for_each_part([&](Index low, std::uint32_t width) {
-    for (const Hex& hex : hexes)
-      for (const Index node : hex)
-        if (static_cast<std::uint32_t>(node - low) < width) ++corners.first[node - begin];
+    for (Index chunk = 0; chunk < std::ssize(nodes_of_chunk); ++chunk) {
+      if (has_none(chunk, low, width)) continue;
+      for (Index h = chunk * size; h < std::min(chunk * size + size, n_hexes); ++h)
+        for (const Index node : hexes[h])
+          if (static_cast<std::uint32_t>(node - low) < width) ++corners.first[node - begin];
+    }
   });
   counts_to_ends(corners.first);
-  resize_large(corners.items, static_cast<std::size_t>(corners.first.back()));
+  resize_for_overwrite(corners.items, static_cast<std::size_t>(corners.first.back()));
   for_each_part([&](Index low, std::uint32_t width) {
-    for (Index h = static_cast<Index>(hexes.size()) - 1; h >= 0; --h)
-      for (int c = 7; c >= 0; --c)
-        if (const Index node = hexes[h][c]; static_cast<std::uint32_t>(node - low) < width)
-          corners.items[--corners.first[node - begin]] = 8 * h + c;
+    for (auto chunk = static_cast<Index>(nodes_of_chunk.size()) - 1; chunk >= 0; --chunk) {
+      if (has_none(chunk, low, width)) continue;
+      for (Index h = std::min(chunk * size + size, n_hexes) - 1; h >= chunk * size; --h)
+        for (int c = 7; c >= 0; --c)
+          if (const Index node = hexes[h][c]; static_cast<std::uint32_t>(node - low) < width)
+            corners.items[--corners.first[node - begin]] = 8 * h + c;
+    }
   });
   return corners;
 }
@@ -170,8 +194,8 @@ Edges edges(const Mesh& mesh) {
     }
   });
   counts_to_starts(result.first_of_node);
-  resize_large(result.nodes, static_cast<std::size_t>(result.first_of_node.back()));
-  resize_large(result.of_hex, mesh.hexes.size());
+  resize_for_overwrite(result.nodes, static_cast<std::size_t>(result.first_of_node.back()));
+  resize_for_overwrite(result.of_hex, mesh.hexes.size());
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<EdgeUse> uses;
     for (Index node = begin; node < end; ++node) {
@@ -212,9 +236,9 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
     }
   });
   counts_to_starts(faces.first_of_node);
-  resize_large(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
+  resize_for_overwrite(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
   resize_large(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
-  resize_large(faces.of_hex, mesh.hexes.size());
+  resize_for_overwrite(faces.of_hex, mesh.hexes.size());
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
     for (Index node = begin; node < end; ++node) {

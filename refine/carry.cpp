@@ -28,7 +28,7 @@ void count_on(std::vector<std::int64_t>& ids, std::size_t first, std::int64_t ne
 template <class T>
 std::vector<T> of_old_nodes(const std::vector<T>& old, Index n_nodes) {
   std::vector<T> values = copy_large(old, static_cast<std::size_t>(n_nodes));
-  values.resize(static_cast<std::size_t>(n_nodes));
+  resize_large(values, static_cast<std::size_t>(n_nodes));
   return values;
 }
 
@@ -42,7 +42,7 @@ void carry_ids(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
     mesh.hex_ids = old_mesh.hex_ids;
     return;
   }
-  resize_large(mesh.hex_ids, mesh.hexes.size());
+  resize_for_overwrite(mesh.hex_ids, mesh.hexes.size());
   parallel_each(split.n_kept(), [&](std::size_t i) { mesh.hex_ids[i] = hex_id(old_mesh, split.lineage.parent[i]); });
   count_on(mesh.hex_ids, split.n_kept(), hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1);
 }
@@ -254,7 +254,7 @@ Association carried_association(const Association& old, const Split& split, cons
   if (old.empty()) return association;
   association.node_owner = of_old_nodes(old.node_owner, split.n_nodes);
   association.node_parameters = of_old_nodes(old.node_parameters, split.n_nodes);
-  resize_large(association.hex_volume, split.lineage.parent.size());
+  resize_for_overwrite(association.hex_volume, split.lineage.parent.size());
   parallel_each(split.lineage.parent.size(),
                 [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
   carry_node_owners(old, split, association);

@@ -28,12 +28,12 @@ CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& t
                   std::span<const std::uint16_t> codes) {
   CutList cut;
   cut.hex = where(static_cast<Index>(codes.size()), [&](Index h) { return codes[h] != 0; });
-  cut.of.resize(cut.hex.size());
+  resize_for_overwrite(cut.of, cut.hex.size());
   parallel_each(cut.hex.size(), [&](std::size_t i) { cut.of[i] = &table.hex(codes[cut.hex[i]]); });
   cut.nodes = hexes;
   cut.n_nodes = n_nodes;
   if (cut.hex.size() == hexes.size()) return cut;
-  resize_large(cut.own_nodes, cut.hex.size());
+  resize_for_overwrite(cut.own_nodes, cut.hex.size());
   cut.nodes = cut.own_nodes;
   parallel_each(cut.hex.size(), [&](std::size_t i) { cut.own_nodes[i] = hexes[cut.hex[i]]; });
   if (cut.hex.size() > static_cast<std::size_t>(n_nodes) / 100) return cut;
@@ -125,8 +125,9 @@ Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& 
   const Lists corners = node_corners(cut.nodes, cut.n_nodes);
   const std::vector<Index> n_on_edge = n_nodes_of(table.edge), n_in_face = n_nodes_of(table.face);
   Starts starts;
-  resize_large(starts.edges, static_cast<std::size_t>(cut.n_nodes) + 1);
-  resize_large(starts.faces, static_cast<std::size_t>(cut.n_nodes) + 1);
+  resize_for_overwrite(starts.edges, static_cast<std::size_t>(cut.n_nodes) + 1);
+  resize_for_overwrite(starts.faces, static_cast<std::size_t>(cut.n_nodes) + 1);
+  starts.edges.back() = starts.faces.back() = 0;
   resize_large(split.hex_edges, cut.hex.size());
   resize_large(split.hex_faces, cut.hex.size());
   parallel_ranges(cut.n_nodes, [&](Index begin, Index end) {
@@ -179,8 +180,8 @@ void describe_face(const SplitTable& table, const Hex& hex, Side side, std::uint
 void number_edges_and_faces(std::span<const Hex> hexes, const CutList& cut, const SplitTable& table,
                             const Starts& starts, Split& split) {
   Lineage& lineage = split.lineage;
-  resize_large(lineage.edges, static_cast<std::size_t>(starts.edges.back()));
-  resize_large(lineage.faces, static_cast<std::size_t>(starts.faces.back()));
+  resize_for_overwrite(lineage.edges, static_cast<std::size_t>(starts.edges.back()));
+  resize_for_overwrite(lineage.faces, static_cast<std::size_t>(starts.faces.back()));
   parallel_each(cut.hex.size(), [&](std::size_t i) {
     const Index h = cut.hex[i];
     for (int e = 0; e < n_hex_edges; ++e) {
@@ -219,7 +220,7 @@ Index number_nodes_and_children(const CutList& cut, std::span<const std::uint16_
   const std::int64_t in_faces = number(lineage.edges, lineage.n_old_nodes, n_on_edge);
   const std::int64_t in_hexes = number(lineage.faces, in_faces, n_in_face);
   const auto n_cut = static_cast<Index>(cut.hex.size());
-  resize_large(lineage.hexes, cut.hex.size());
+  resize_for_overwrite(lineage.hexes, cut.hex.size());
   split.n_nodes = checked_count(running_sums(
       n_cut, in_hexes, [&](Index i) { return std::ssize(cut.of[i]->inside); },
       [&](Index i, std::int64_t first) {
@@ -321,9 +322,9 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
   const CutList cut = cut_hexes(hexes, n_nodes, *table, codes);
   number_edges_and_faces(hexes, cut, *table, rank_edges_and_faces(cut, *table, result), result);
   const Index n_hexes = number_nodes_and_children(cut, codes, result);
-  resize_large(result.hexes, static_cast<std::size_t>(n_hexes));
-  resize_large(lineage.parent, static_cast<std::size_t>(n_hexes));
-  resize_large(result.first_child, hexes.size());
+  resize_for_overwrite(result.hexes, static_cast<std::size_t>(n_hexes));
+  resize_for_overwrite(lineage.parent, static_cast<std::size_t>(n_hexes));
+  resize_for_overwrite(result.first_child, hexes.size());
   fill_kept(hexes, cut, result);
   fill_children(hexes, cut, *table, result);
   return result;
