@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist {
@@ -104,6 +105,19 @@ Parted part_by_tags_or_geometry(const ModelFacts& facts, const Mesh& mesh, const
   return parted;
 }
 
+/// Every node of a hex to a volume of one of its hexes; where these differ, the node is on a surface and gets another
+/// owner later.
+void own_by_volumes(const Mesh& mesh, Association& association) {
+  resize_large(association.node_owner, mesh.points.size());
+  const auto set = [](int& target, int value) { std::atomic_ref(target).store(value, std::memory_order_relaxed); };
+  parallel_each(mesh.hexes.size(), [&](std::size_t h) {
+    for (const Index node : mesh.hexes[h]) {
+      set(association.node_owner[node].dim, 3);
+      set(association.node_owner[node].id, association.hex_volume[h]);
+    }
+  });
+}
+
 }  // namespace
 
 AssociateResult associate(const Mesh& mesh, const Model& model, const Association* given,
@@ -131,10 +145,8 @@ AssociateResult associate(const Mesh& mesh, const Model& model, const Associatio
       association.curve_edges.push_back({skin.nodes[edges.nodes[e][0]], skin.nodes[edges.nodes[e][1]]});
       association.edge_curve.push_back(curves.edge_curve[e]);
     }
-  association.node_owner.assign(mesh.points.size(), {});
-  association.node_parameters.assign(mesh.points.size(), {});
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    for (const Index node : mesh.hexes[h]) association.node_owner[node] = {3, association.hex_volume[h]};
+  own_by_volumes(mesh, association);
+  resize_large(association.node_parameters, mesh.points.size());
   for (Index n = 0; n < skin.n_nodes(); ++n) {
     const Index node = skin.nodes[n];
     association.node_owner[node] = curves.node_owner[n];

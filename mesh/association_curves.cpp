@@ -2,6 +2,8 @@
 //
 // An edge between quads on different surfaces lies on a curve that bounds all of them. An edge within one surface lies
 // on a seam of it if both ends do and the seam stays with the edge in between; meshes need not follow seams.
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +11,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -91,8 +94,8 @@ void match_vertices(const ModelFacts& facts, const Skin& skin, const Lists& node
                     CurveMatch& match) {
   std::vector<Index> by_x(skin.nodes.size());
   std::iota(by_x.begin(), by_x.end(), 0);
-  std::ranges::stable_sort(by_x, {}, [&](Index n) { return skin.points[n].x(); });
   const auto x = [&](Index n) { return skin.points[n].x(); };
+  tbb::parallel_sort(by_x, [&](Index a, Index b) { return std::pair(x(a), a) < std::pair(x(b), b); });
   for (int vertex = 1; vertex <= static_cast<int>(facts.vertex_surfaces.size()); ++vertex) {
     const Vec3 at = facts.model.point({0, vertex}, {});
     const double reach = facts.node_tolerance(0, vertex);
@@ -138,14 +141,15 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
                         const SurfaceMatch& surfaces, std::span<const int> tags) {
   const auto n_edges = static_cast<Index>(edges.nodes.size());
   std::vector<Candidate> candidates;
-  for (Index e = 0; e < n_edges; ++e) {
-    const auto here = edges.quads[e];
-    const int first = surfaces.quad_surface[here[0]];
-    const bool parts = std::ranges::any_of(here, [&](Index q) { return surfaces.quad_surface[q] != first; });
-    if (!parts && facts.surface_seams[first - 1].empty()) continue;
+  const auto first_surface = [&](Index e) { return surfaces.quad_surface[edges.quads[e][0]]; };
+  const auto parts_surfaces = [&](Index e) {
+    return std::ranges::any_of(edges.quads[e], [&](Index q) { return surfaces.quad_surface[q] != first_surface(e); });
+  };
+  for (const Index e : where(
+           n_edges, [&](Index i) { return !facts.surface_seams[first_surface(i) - 1].empty() || parts_surfaces(i); })) {
     const auto ids = surfaces_at(edges, surfaces.quad_surface, e);
     const auto more = candidates_of(facts, skin, edges, e, ids, tags.empty() ? 0 : tags[e]);
-    if (parts && more.empty()) throw_no_curve(facts, mesh, skin, edges, e, ids, 0);
+    if (parts_surfaces(e) && more.empty()) throw_no_curve(facts, mesh, skin, edges, e, ids, 0);
     candidates.insert(candidates.end(), more.begin(), more.end());
   }
   // Both ends and the middle of each edge onto each of its candidates.
@@ -164,10 +168,10 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
   match.edge_curve.assign(n_edges, 0);
   match.node_owner.assign(skin.nodes.size(), {});
   match.node_at.resize(skin.nodes.size());
-  std::vector<std::pair<Index, Index>> node_curve, node_surface;
+  std::vector<std::pair<Index, Index>> node_curve, node_surface(4 * skin.quads.size());
   for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {
     const Index e = candidates[i].edge;
-    const bool parts = surfaces_at(edges, surfaces.quad_surface, e).size() > 1;
+    const bool parts = parts_surfaces(e);
     std::size_t best = candidates.size(), nearest = i;
     double best_score = 0, nearest_end = std::numeric_limits<double>::infinity();
     for (end = i; end < candidates.size() && candidates[end].edge == e; ++end) {
@@ -201,10 +205,11 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
     }
   }
 
-  for (Index q = 0; q < skin.n_quads(); ++q)
-    for (const Index node : skin.quads[q]) node_surface.emplace_back(node, surfaces.quad_surface[q]);
-  const Lists curves_at = group(skin.n_nodes(), std::move(node_curve));
-  const Lists surfaces_of = group(skin.n_nodes(), std::move(node_surface));
+  parallel_each(skin.quads.size(), [&](std::size_t q) {
+    for (std::size_t c = 0; c < 4; ++c) node_surface[4 * q + c] = {skin.quads[q][c], surfaces.quad_surface[q]};
+  });
+  const Lists curves_at = group(skin.n_nodes(), node_curve);
+  const Lists surfaces_of = group(skin.n_nodes(), node_surface);
   match_vertices(facts, skin, surfaces_of, curves_at, match);
   for (Index n = 0; n < skin.n_nodes(); ++n) {
     if (match.node_owner[n].dim == 0) continue;

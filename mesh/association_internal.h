@@ -66,7 +66,7 @@ struct SkinEdges {
 SkinEdges make_edges(const Skin& skin);
 
 /// Distinct values per node, ascending, from (node, value) pairs in any order.
-Lists group(Index n_nodes, std::vector<std::pair<Index, Index>> pairs);
+Lists group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs);
 
 /// Projects points[i] onto entity id[i] of one dimension, seeds[i] given or seeds empty; on all threads.
 std::vector<Projection> project_all(const Model& model, int dim, std::span<const int> id, std::span<const Vec3> points,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/quality.h"
 
 namespace hextwist::detail {
@@ -220,10 +221,24 @@ void notice_coverage(const ModelFacts& facts, const Mesh& mesh, const Associatio
   for (const int surface : association.face_surface) used[2][surface] = 1;
   std::vector<double> volume_of(model.count(3) + 1, 0);
   const std::vector<double> volumes = quality(Metric::volume, mesh);
-  for (Index h = 0; h < mesh.n_hexes(); ++h) {
-    used[3][association.hex_volume[h]] = 1;
-    volume_of[association.hex_volume[h]] += volumes[h];
-  }
+  constexpr Index size = 1 << 14;
+  struct Sum {
+    double volume = 0;
+    Index n_hexes = 0;
+  };
+  std::vector<std::vector<Sum>> sums(n_chunks(mesh.n_hexes(), size), std::vector<Sum>(volume_of.size()));
+  parallel_chunks(mesh.n_hexes(), size, [&](Index chunk, Index begin, Index end) {
+    for (Index h = begin; h < end; ++h) {
+      Sum& sum = sums[chunk][association.hex_volume[h]];
+      sum.volume += volumes[h];
+      ++sum.n_hexes;
+    }
+  });
+  for (const auto& of_chunk : sums)
+    for (std::size_t id = 0; id < volume_of.size(); ++id) {
+      volume_of[id] += of_chunk[id].volume;
+      if (of_chunk[id].n_hexes > 0) used[3][id] = 1;
+    }
   // Nobody misses a seam, a pole, or a vertex on nothing else.
   for (int curve = 1; curve <= model.count(1); ++curve)
     if (facts.degenerate[curve - 1] || facts.curve_surfaces[curve - 1].size() < 2) used[1][curve] = 1;

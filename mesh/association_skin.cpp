@@ -2,11 +2,14 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include "hextwist/geom/interrupt.h"
 #include "hextwist/mesh/association_internal.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/geom/interrupt.h"
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/mesh/topology_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -50,17 +53,20 @@ Skin make_skin(const Mesh& mesh, const Faces& faces, std::span<const Index> sele
   tbb::parallel_sort(skin.faces.begin(), skin.faces.end(),
                      [&](Index a, Index b) { return faces.sides[a][0] < faces.sides[b][0]; });
   const auto n = static_cast<Index>(skin.faces.size());
-  std::vector<Index> local(mesh.points.size(), -1);
-  for (const Index face : skin.faces)
-    for (const Index node : faces.nodes[face]) local[node] = 0;
-  for (Index node = 0; node < mesh.n_nodes(); ++node)
-    if (local[node] == 0) {
-      local[node] = static_cast<Index>(skin.nodes.size());
-      skin.nodes.push_back(node);
-      skin.points.push_back(mesh.points[node]);
-    }
-  skin.sides.resize(n);
-  skin.quads.resize(n);
+  std::vector<Index> local;
+  resize_large(local, mesh.points.size(), Index{-1});
+  parallel_each(skin.faces.size(), [&](std::size_t q) {
+    for (const Index node : faces.nodes[skin.faces[q]])
+      std::atomic_ref(local[node]).store(0, std::memory_order_relaxed);
+  });
+  skin.nodes = where(mesh.n_nodes(), [&](Index node) { return local[node] == 0; });
+  skin.points.resize(skin.nodes.size());
+  parallel_each(skin.nodes.size(), [&](std::size_t i) {
+    local[skin.nodes[i]] = static_cast<Index>(i);
+    skin.points[i] = mesh.points[skin.nodes[i]];
+  });
+  resize_for_overwrite(skin.sides, n);
+  resize_for_overwrite(skin.quads, n);
   parallel_ranges(n, [&](Index begin, Index end) {
     for (Index q = begin; q < end; ++q) {
       skin.sides[q] = faces.sides[skin.faces[q]][0];
@@ -77,7 +83,8 @@ SkinEdges make_edges(const Skin& skin) {
     Index quad;
     bool operator<(const Use& other) const { return nodes != other.nodes ? nodes < other.nodes : quad < other.quad; }
   };
-  std::vector<Use> uses(4 * skin.quads.size());
+  std::vector<Use> uses;
+  resize_for_overwrite(uses, 4 * skin.quads.size());
   parallel_ranges(skin.n_quads(), [&](Index begin, Index end) {
     for (Index q = begin; q < end; ++q)
       for (int i = 0; i < 4; ++i) {
@@ -87,30 +94,38 @@ SkinEdges make_edges(const Skin& skin) {
   });
   tbb::parallel_sort(uses.begin(), uses.end());
   SkinEdges edges;
-  edges.quads.items.reserve(uses.size());
-  for (const Use& use : uses) {
-    const Edge nodes = {static_cast<Index>(use.nodes >> 32), static_cast<Index>(use.nodes & 0xffffffff)};
-    if (edges.nodes.empty() || edges.nodes.back() != nodes) {
-      edges.nodes.push_back(nodes);
-      edges.quads.first.push_back(static_cast<Index>(edges.quads.items.size()));
-    }
-    edges.quads.items.push_back(use.quad);
-  }
-  edges.quads.first.push_back(static_cast<Index>(edges.quads.items.size()));
+  edges.quads.first =
+      where(static_cast<Index>(uses.size()), [&](Index i) { return i == 0 || uses[i].nodes != uses[i - 1].nodes; });
+  resize_for_overwrite(edges.nodes, edges.quads.first.size());
+  parallel_each(edges.nodes.size(), [&](std::size_t e) {
+    const std::uint64_t nodes = uses[edges.quads.first[e]].nodes;
+    edges.nodes[e] = {static_cast<Index>(nodes >> 32), static_cast<Index>(nodes & 0xffffffff)};
+  });
+  edges.quads.first.push_back(static_cast<Index>(uses.size()));
+  resize_for_overwrite(edges.quads.items, uses.size());
+  parallel_each(uses.size(), [&](std::size_t i) { edges.quads.items[i] = uses[i].quad; });
   return edges;
 }
 
-Lists group(Index n_nodes, std::vector<std::pair<Index, Index>> pairs) {
-  tbb::parallel_sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  Lists lists;
-  lists.first.assign(n_nodes + 1, 0);
-  lists.items.reserve(pairs.size());
-  for (const auto& [node, value] : pairs) {
-    ++lists.first[node + 1];
-    lists.items.push_back(value);
-  }
-  for (Index i = 0; i < n_nodes; ++i) lists.first[i + 1] += lists.first[i];
+Lists group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs) {
+  Lists all, lists;
+  all.first.assign(n_nodes + 1, 0);
+  for (const auto& [node, value] : pairs) ++all.first[node];
+  std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
+  resize_for_overwrite(all.items, pairs.size());
+  for (const auto& [node, value] : pairs) all.items[--all.first[node]] = value;
+
+  resize_large(lists.first, static_cast<std::size_t>(n_nodes) + 1);
+  parallel_each(n_nodes, [&](std::size_t node) {
+    const auto begin = all.items.begin() + all.first[node], end = all.items.begin() + all.first[node + 1];
+    std::sort(begin, end);
+    lists.first[node] = static_cast<Index>(std::unique(begin, end) - begin);
+  });
+  resize_for_overwrite(lists.items, static_cast<std::size_t>(counts_to_starts(lists.first)));
+  parallel_each(n_nodes, [&](std::size_t node) {
+    std::copy_n(all.items.begin() + all.first[node], lists.first[node + 1] - lists.first[node],
+                lists.items.begin() + lists.first[node]);
+  });
   return lists;
 }
 

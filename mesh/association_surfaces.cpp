@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/mesh/association_internal.h"
 #include "hextwist/geom/interrupt.h"
+#include "hextwist/mesh/association_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist::detail {
@@ -39,20 +39,23 @@ struct Hits {
 Hits hits(const ModelFacts& facts, const Skin& skin, const Lists& candidates) {
   std::vector<int> id(candidates.items.begin(), candidates.items.end());
   std::vector<Vec3> points(id.size());
-  for (Index n = 0; n < skin.n_nodes(); ++n)
+  parallel_each(skin.nodes.size(), [&](std::size_t n) {
     for (Index i = candidates.first[n]; i < candidates.first[n + 1]; ++i) points[i] = skin.points[n];
+  });
   const auto all = project_all(facts.model, 2, id, points);
+  const std::vector<Index> on =
+      where(static_cast<Index>(id.size()), [&](Index i) { return all[i].distance <= facts.node_tolerance(2, id[i]); });
   Hits kept;
-  kept.first.reserve(candidates.first.size());
-  for (Index n = 0; n < skin.n_nodes(); ++n) {
-    kept.first.push_back(static_cast<Index>(kept.surface.size()));
-    for (Index i = candidates.first[n]; i < candidates.first[n + 1]; ++i)
-      if (all[i].distance <= facts.node_tolerance(2, id[i])) {
-        kept.surface.push_back(id[i]);
-        kept.at.push_back(all[i]);
-      }
-  }
-  kept.first.push_back(static_cast<Index>(kept.surface.size()));
+  kept.surface.resize(on.size());
+  kept.at.resize(on.size());
+  parallel_each(on.size(), [&](std::size_t i) {
+    kept.surface[i] = id[on[i]];
+    kept.at[i] = all[on[i]];
+  });
+  kept.first.resize(candidates.first.size());
+  parallel_each(kept.first.size(), [&](std::size_t n) {
+    kept.first[n] = static_cast<Index>(std::ranges::lower_bound(on, candidates.first[n]) - on.begin());
+  });
   return kept;
 }
 
@@ -94,8 +97,7 @@ struct Candidate {
   bool fits = false;
 };
 
-std::vector<Candidate> common_surfaces(const Skin& skin, const Hits& hits, Index q) {
-  std::vector<Candidate> common;
+void common_surfaces(const Skin& skin, const Hits& hits, Index q, std::vector<Candidate>& common) {
   const Quad& quad = skin.quads[q];
   for (Index i = hits.first[quad[0]]; i < hits.first[quad[0] + 1]; ++i) {
     Candidate candidate{q, hits.surface[i], hits.at[i].distance, hits.at[i].parameters};
@@ -107,7 +109,23 @@ std::vector<Candidate> common_surfaces(const Skin& skin, const Hits& hits, Index
     }
     if (all) common.push_back(candidate);
   }
-  return common;
+}
+/// The same for the quads for which `wanted` holds, in their order.
+template <class Wanted>
+std::vector<Candidate> common_surfaces(const Skin& skin, const Hits& hits, Wanted wanted) {
+  constexpr Index size = 1024;
+  std::vector<std::vector<Candidate>> found(n_chunks(skin.n_quads(), size));
+  parallel_chunks(skin.n_quads(), size, [&](Index chunk, Index begin, Index end) {
+    found[chunk].reserve(size);
+    for (Index q = begin; q < end; ++q)
+      if (wanted(q)) common_surfaces(skin, hits, q, found[chunk]);
+  });
+  std::vector<Candidate> all;
+  std::size_t n = 0;
+  for (const auto& list : found) n += list.size();
+  all.reserve(n);
+  for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
+  return all;
 }
 
 void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& candidates) {
@@ -116,7 +134,7 @@ void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& ca
   std::vector<Vec3> centre(n);
   std::vector<Parameters> seed(n);
   std::vector<double> length(n);
-  for (Index i = 0; i < n; ++i) {
+  parallel_each(candidates.size(), [&](std::size_t i) {
     const Quad& quad = skin.quads[candidates[i].quad];
     id[i] = candidates[i].surface;
     centre[i] = Vec3::Zero();
@@ -125,7 +143,7 @@ void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& ca
       length[i] += (skin.points[quad[c]] - skin.points[quad[(c + 1) % 4]]).norm() / 4;
     }
     seed[i] = candidates[i].seed;
-  }
+  });
   auto at = project_all(facts.model, 2, id, centre, seed);
   // A projection from a seed is local: where it ended far away, look again without.
   std::vector<Index> far;
@@ -172,22 +190,16 @@ SurfaceMatch match_surfaces(const ModelFacts& facts, const Skin& skin, std::span
     for (Index q = 0; q < skin.n_quads(); ++q)
       if (tags[q])
         for (const Index node : skin.quads[q]) pairs.emplace_back(node, tags[q]);
-    const Hits tagged = hits(facts, skin, group(skin.n_nodes(), std::move(pairs)));
-    std::vector<Candidate> candidates;
-    for (Index q = 0; q < skin.n_quads(); ++q)
-      if (tags[q])
-        for (const Candidate& candidate : common_surfaces(skin, tagged, q))
-          if (candidate.surface == tags[q]) candidates.push_back(candidate);
+    const Hits tagged = hits(facts, skin, group(skin.n_nodes(), pairs));
+    std::vector<Candidate> candidates = common_surfaces(skin, tagged, [&](Index q) { return tags[q] != 0; });
+    std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.surface != tags[candidate.quad]; });
     score(facts, skin, candidates);
     for (const Candidate& candidate : candidates)
       if (candidate.fits) accept(skin, tagged, candidate.quad, candidate.surface, match);
   }
   const auto open = [&](Index q) { return match.quad_surface[q] == 0; };
   const Hits near = hits(facts, skin, near_surfaces(facts, skin, open));
-  std::vector<Candidate> candidates;
-  for (Index q = 0; q < skin.n_quads(); ++q)
-    if (open(q))
-      for (const Candidate& candidate : common_surfaces(skin, near, q)) candidates.push_back(candidate);
+  const std::vector<Candidate> candidates = common_surfaces(skin, near, open);
   // Most quads have one candidate and need no score.
   std::vector<Candidate> several;
   for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {
@@ -236,10 +248,8 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
   });
   const Skin skin = make_skin(mesh, faces, candidate_faces);
   const Hits on = hits(facts, skin, near_surfaces(facts, skin, [](Index) { return true; }));
-  std::vector<Candidate> candidates;
-  for (Index q = 0; q < skin.n_quads(); ++q)
-    for (const Candidate& candidate : common_surfaces(skin, on, q))
-      if (between[candidate.surface]) candidates.push_back(candidate);
+  std::vector<Candidate> candidates = common_surfaces(skin, on, [](Index) { return true; });
+  std::erase_if(candidates, [&](const Candidate& candidate) { return !between[candidate.surface]; });
   score(facts, skin, candidates);
   std::vector<Index> walls;
   for (const Candidate& candidate : candidates)

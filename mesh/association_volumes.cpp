@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hextwist/mesh/association_internal.h"
+#include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/union_find_internal.h"
 
 namespace hextwist::detail {
@@ -12,19 +13,22 @@ namespace {
 
 /// Part of each hex: hexes joined through faces that are not in `walls`. Parts are numbered by their first hex.
 std::vector<Index> parts(const Mesh& mesh, const Faces& faces, std::span<const Index> walls, Index& n_parts) {
-  std::vector<char> wall(faces.nodes.size(), 0);
+  std::vector<char> wall;
+  resize_large(wall, faces.nodes.size());
   for (const Index face : walls) wall[face] = 1;
   std::vector<Index> joined = singletons(mesh.n_hexes());
   parallel_each(faces.sides.size(), [&](std::size_t face) {
     const auto& [first, second] = faces.sides[face];
     if (!wall[face] && second.hex >= 0) join(joined, first.hex, second.hex);
   });
-  std::vector<Index> part(mesh.hexes.size());
-  n_parts = 0;
-  for (Index hex = 0; hex < mesh.n_hexes(); ++hex) {  // a root is the lowest of its tree: numbered before the others
-    const Index root = find_root(joined, hex);
-    part[hex] = root == hex ? n_parts++ : part[root];
-  }
+  std::vector<Index> part, root;
+  resize_for_overwrite(part, mesh.hexes.size());
+  resize_for_overwrite(root, mesh.hexes.size());
+  parallel_each(root.size(), [&](std::size_t hex) { root[hex] = find_root(joined, static_cast<Index>(hex)); });
+  const std::vector<Index> roots = where(mesh.n_hexes(), [&](Index hex) { return root[hex] == hex; });
+  n_parts = static_cast<Index>(roots.size());
+  for (Index i = 0; i < n_parts; ++i) joined[roots[i]] = i;  // a root's number from here on
+  parallel_each(part.size(), [&](std::size_t hex) { part[hex] = joined[root[hex]]; });
   return part;
 }
 
@@ -54,7 +58,8 @@ std::string volume_names(std::span<const int> ids) {
 std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, const Skin& skin,
                           std::span<const int> quad_surface, std::vector<int>& hex_volume) {
   if (facts.model.count(3) == 1) {
-    hex_volume.assign(mesh.hexes.size(), 1);
+    hex_volume.clear();
+    resize_large(hex_volume, mesh.hexes.size(), 1);
     return "";
   }
   Index n_parts = 0;
@@ -73,6 +78,7 @@ std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces
         volumes = here;
         continue;
       }
+      if (volumes == here) continue;
       std::vector<int> common;
       std::ranges::set_intersection(volumes, here, std::back_inserter(common));
       if (common.empty()) {
@@ -96,8 +102,8 @@ std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces
     const auto& among = possible[p].empty() ? every : possible[p];
     part_volume[p] = among.size() == 1 ? among[0] : volume_by_containment(facts, mesh, part, p, among);
   }
-  hex_volume.resize(mesh.hexes.size());
-  for (Index h = 0; h < mesh.n_hexes(); ++h) hex_volume[h] = part_volume[part[h]];
+  resize_for_overwrite(hex_volume, mesh.hexes.size());
+  parallel_each(hex_volume.size(), [&](std::size_t h) { hex_volume[h] = part_volume[part[h]]; });
   return "";
 }
 

@@ -135,7 +135,8 @@ Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   };
   constexpr Index size = 512;
   const auto n_hexes = static_cast<Index>(hexes.size());
-  std::vector<std::pair<Index, Index>> nodes_of_chunk(static_cast<std::size_t>(n_chunks(n_hexes, size)), {begin, end - 1});
+  std::vector<std::pair<Index, Index>> nodes_of_chunk(static_cast<std::size_t>(n_chunks(n_hexes, size)),
+                                                      {begin, end - 1});
   if (n_parts > 1)
     parallel_chunks(n_hexes, size, [&](Index chunk, Index from, Index to) {
       auto& [low, high] = nodes_of_chunk[chunk];

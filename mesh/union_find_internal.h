@@ -2,7 +2,6 @@
 // can join at once: links go from higher to lower roots only, a lost race is tried again.
 #pragma once
 
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -11,8 +10,9 @@
 namespace hextwist {
 
 inline std::vector<Index> singletons(Index n) {
-  std::vector<Index> parent(n);
-  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<Index> parent;
+  resize_for_overwrite(parent, static_cast<std::size_t>(n));
+  parallel_each(parent.size(), [&](std::size_t i) { parent[i] = static_cast<Index>(i); });
   return parent;
 }
 
