@@ -28,11 +28,15 @@ inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std:
 
 /// list.resize(n) for a caller that then writes every new item, best on all threads; until then they hold anything
 /// (where asserts are on: rubbish). std::vector would have one thread write zeros first, which took a quarter of a pass
-/// on two threads.
+/// on two threads. (Inline, it makes g++ 12 warn of copies that cannot happen.)
 template <class T>
-void resize_for_overwrite(std::vector<T>& list, std::size_t n) {
+[[gnu::noinline]] void resize_for_overwrite(std::vector<T>& list, std::size_t n) {
   const std::size_t n_old = list.size();
+#ifdef NDEBUG
   constexpr std::size_t worthwhile = std::size_t{1} << 16;
+#else
+  constexpr std::size_t worthwhile = 1;
+#endif
   if (n <= n_old || n * sizeof(T) < worthwhile) return list.resize(n);
   if (list.capacity() < n) {
     list.reserve(n);

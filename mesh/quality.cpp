@@ -58,7 +58,8 @@ const Entry& entry(Metric metric) {
 }
 
 std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double average) {
-  std::vector<double> values(mesh.hexes.size());
+  std::vector<double> values;
+  resize_for_overwrite(values, mesh.hexes.size());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     Index h = begin;
     for (; h + n_lanes <= end; h += n_lanes)

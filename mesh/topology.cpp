@@ -238,7 +238,7 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
   });
   counts_to_starts(faces.first_of_node);
   resize_for_overwrite(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
-  resize_large(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
+  resize_for_overwrite(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
   resize_for_overwrite(faces.of_hex, mesh.hexes.size());
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<FaceUse> uses;
@@ -246,6 +246,7 @@ LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
       collect_faces(mesh.hexes, node, corners[node], uses);
       Index face = faces.first_of_node[node];
       for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
+        faces.sides[face][1] = {};
         for (std::size_t i = 0; i < run.size(); ++i) {
           const Side side = run[i].side();
           if (i < 2) faces.sides[face][i] = side;

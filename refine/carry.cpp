@@ -62,27 +62,48 @@ std::vector<Index> carried_hexes(const std::vector<Index>& old_hexes, const Spli
   const auto end_of = [&](auto at) {
     return at + 1 == cut.end() ? static_cast<Index>(split.lineage.parent.size()) : std::next(at)->first_child;
   };
-  // Calls use(entry of cut) for the members that were cut.
-  const auto for_each_cut = [&](const auto& use) {
+  // Calls keep(hex) for the members begin, ... that were not cut and use(entry of cut) for the others.
+  const auto for_each_member = [&](Index begin, Index end, const auto& keep, const auto& use) {
     auto at = cut.begin();
-    for (const Index h : old_hexes) {
-      if (!split.is_cut(h)) continue;
+    for (Index i = begin; i < end; ++i) {
+      const Index h = old_hexes[i];
+      if (!split.is_cut(h)) {
+        keep(h);
+        continue;
+      }
       if (at->hex != h) at = std::lower_bound(at, cut.end(), h, [](const CutHex& a, Index hex) { return a.hex < hex; });
       use(at);
       if (at + 1 != cut.end()) ++at;
     }
   };
-  std::size_t n = 0, n_cut = 0;
-  for_each_cut([&](auto at) {
-    n += static_cast<std::size_t>(end_of(at) - at->first_child);
-    ++n_cut;
+  struct Place {
+    std::size_t kept = 0, child = 0;
+  };
+  constexpr Index size = 1 << 14;
+  const auto n = static_cast<Index>(old_hexes.size());
+  std::vector<Place> first(n_chunks(n, size) + 1);
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    Place counted;
+    for_each_member(
+        begin, end, [&](Index) { ++counted.kept; },
+        [&](auto at) { counted.child += static_cast<std::size_t>(end_of(at) - at->first_child); });
+    first[chunk + 1] = counted;
   });
+  for (std::size_t chunk = 1; chunk < first.size(); ++chunk) {
+    first[chunk].kept += first[chunk - 1].kept;
+    first[chunk].child += first[chunk - 1].child;
+  }
+  const std::size_t n_kept = first.back().kept;
   std::vector<Index> carried;
-  reserve_large(carried, old_hexes.size() - n_cut + n);
-  for (const Index h : old_hexes)
-    if (!split.is_cut(h)) carried.push_back(split.first_child[h]);
-  for_each_cut([&](auto at) {
-    for (Index child = at->first_child; child < end_of(at); ++child) carried.push_back(child);
+  resize_for_overwrite(carried, n_kept + first.back().child);
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    Index* kept = carried.data() + first[chunk].kept;
+    Index* child = carried.data() + n_kept + first[chunk].child;
+    for_each_member(
+        begin, end, [&](Index h) { *kept++ = split.first_child[h]; },
+        [&](auto at) {
+          for (Index c = at->first_child; c < end_of(at); ++c) *child++ = c;
+        });
   });
   return carried;
 }

@@ -19,7 +19,7 @@ class Threads {
   tbb::global_control control_;
 };
 
-/// Registers `name`: make(prepare()) is run five times on `threads` threads, prepare() outside of the clock;
+/// Registers `name`: make(prepare()) is run nine times on `threads` threads, prepare() outside of the clock;
 /// items(result) is what it made, for the rate. It is first run once so that its own inputs (static locals) exist.
 template <class Prepare, class Make, class Items>
 void add_prepared_rate(const std::string& name, Prepare prepare, Make make, Items items, int threads = 1) {
@@ -43,7 +43,7 @@ void add_prepared_rate(const std::string& name, Prepare prepare, Make make, Item
                                  state.SetItemsProcessed(static_cast<std::int64_t>(n));
                                })
       ->Iterations(1)
-      ->Repetitions(5)
+      ->Repetitions(9)
       ->MeasureProcessCPUTime()
       ->Unit(benchmark::kMillisecond);
 }

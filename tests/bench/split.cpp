@@ -106,6 +106,12 @@ void add_split_threads() {
   add_rate("split/all8/2", split8, hexes, 2);
   add_rate(
       "split/ball_templates/2", [] { return split_ball(Concave::templates); }, hexes, 2);
+  add_rate(
+      "pass/all27/2", [] { return whole(cube_of(side27), split27()); }, hexes, 2);
+  add_rate(
+      "pass/all8/2", [] { return whole(cube_of(side8), split8()); }, hexes, 2);
+  add_rate(
+      "pass/ball_templates/2", [] { return whole(cube_of(side_ball), split_ball(Concave::templates)); }, hexes, 2);
   add_value("split/same_bytes", same_bytes);
 }
 
