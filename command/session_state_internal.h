@@ -27,7 +27,7 @@ struct ModelState {
   bool glued = false;
   MeshState mesh_state;
   OffModel off_cad;
-  std::shared_ptr<const Outliers> outliers;  ///< of the mesh; null: not known, as after undo
+  std::shared_ptr<const Outliers> outliers;  ///< of the mesh; null: not known
   double cad_volume = 0;
   /// Nodes that smoothing leaves where they are, ascending; null: none.
   std::shared_ptr<const std::vector<Index>> fixed_nodes;

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "hextwist/command/undo_internal.h"
+#include "hextwist/sizing/outliers.h"
 
 namespace hextwist {
 namespace {
@@ -192,6 +193,14 @@ std::size_t bytes_of(const GroupsDelta<Group, Item>& delta) {
   for (const auto& entry : delta.entries) bytes += sizeof(entry) + entry.group.name.size() + entry.items.bytes();
   return bytes;
 }
+/// Where several steps share them, each counts them.
+std::size_t bytes_of(const std::shared_ptr<const Outliers>& outliers) {
+  if (!outliers) return 0;
+  std::size_t bytes = sizeof *outliers;
+  for (const auto* lists : {&outliers->shape, &outliers->scaled_jacobian})
+    for (const OutlierList& list : *lists) bytes += bytes_of(list);
+  return bytes;
+}
 std::size_t bytes_of(const Association& a) {
   return bytes_of(a.node_owner) + bytes_of(a.node_parameters) + bytes_of(a.curve_edges) + bytes_of(a.edge_curve) +
          bytes_of(a.surface_faces) + bytes_of(a.face_surface) + bytes_of(a.hex_volume);
@@ -276,7 +285,7 @@ struct Step::Arrays {
 
 Step::Step(std::string command, const ModelState& from, const ModelState& to)
     : command_(std::move(command)), state_(to), bytes_(sizeof(Step) + command_.capacity()) {
-  state_.outliers = nullptr;  // not worth the memory
+  bytes_ += bytes_of(state_.outliers);
   if (to.tags && from.tags != to.tags) bytes_ += bytes_of(*to.tags);
   if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes_ += bytes_of(*to.fixed_nodes);
   if (to.schemes && from.schemes != to.schemes) bytes_ += bytes_of(*to.schemes);
@@ -306,10 +315,9 @@ Step::Step(std::string command, const ModelState& state, SetsDelta sets)
   Arrays arrays;
   arrays.sets = std::move(sets);
   arrays.model = state.meshed->model;
-  bytes_ += sizeof(Arrays) + bytes_of(arrays.sets);
+  bytes_ += sizeof(Arrays) + bytes_of(arrays.sets) + bytes_of(state_.outliers);
   arrays_ = std::make_shared<const Arrays>(std::move(arrays));
   state_.meshed = nullptr;
-  state_.outliers = nullptr;
 }
 
 Step::Step(std::string command, const ModelState& to, std::shared_ptr<const Splice> splice, bool forward)
@@ -319,7 +327,12 @@ Step::Step(std::string command, const ModelState& to, std::shared_ptr<const Spli
       forward_(forward),
       bytes_(sizeof(Step) + command_.capacity() + splice_->bytes()) {
   if (to.tags) bytes_ += bytes_of(*to.tags);
+  bytes_ += bytes_of(state_.outliers);
   state_.meshed = nullptr;
+}
+
+void Step::forget_outliers() noexcept {
+  bytes_ -= bytes_of(state_.outliers);
   state_.outliers = nullptr;
 }
 
@@ -345,6 +358,9 @@ std::size_t History::bytes() const {
 void History::add(Step step) noexcept {
   redo.clear();
   undo.push_back(std::move(step));
+  // Who goes back one step may go on from there at once; farther back they can be looked for again.
+  constexpr std::size_t n_with_outliers = 8;
+  if (undo.size() > n_with_outliers) undo[undo.size() - 1 - n_with_outliers].forget_outliers();
   drop_oldest();
 }
 

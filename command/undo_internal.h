@@ -84,6 +84,8 @@ class Step {
   const ModelState& state() const { return state_; }
   /// Precondition: the `from` it was made with.
   ModelState apply(const ModelState& from) const;
+  /// The state it leads to no longer knows its best and worst hexes: memory that old steps can do without.
+  void forget_outliers() noexcept;
 
  private:
   struct Arrays;

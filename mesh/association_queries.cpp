@@ -3,6 +3,7 @@
 
 #include "hextwist/mesh/association_internal.h"
 #include "hextwist/mesh/off_model_internal.h"
+#include "hextwist/mesh/parallel_internal.h"
 
 namespace hextwist {
 
@@ -56,13 +57,11 @@ std::vector<Index> nodes_on(const Association& association, const Model& model, 
   wanted[entity.dim][entity.id] = 1;
   for (int dim = 0; dim < entity.dim; ++dim)
     for (const int id : model.adjacent(entity, dim)) wanted[dim][id] = 1;
-  std::vector<Index> nodes;
-  for (std::size_t n = 0; n < association.node_owner.size(); ++n) {
+  return where(static_cast<Index>(association.node_owner.size()), [&](Index n) {
     const Owner owner = association.node_owner[n];
-    if (owner.dim > entity.dim) continue;  // most nodes of most meshes
-    if (owner && wanted[owner.dim][owner.id]) nodes.push_back(static_cast<Index>(n));
-  }
-  return nodes;
+    if (owner.dim > entity.dim) return false;  // most nodes of most meshes
+    return owner && wanted[owner.dim][owner.id];
+  });
 }
 
 namespace {

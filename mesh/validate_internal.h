@@ -24,6 +24,9 @@ struct HangingNode {
 /// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes.
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
 
+/// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when true).
+bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin);
+
 /// Whether two hexes turn alike around a face that they share: then they lie on the same side of it, or one of them is
 /// mirrored. Face f of hex a and face g of hex b have the same nodes in the same cyclic order, up to direction.
 bool turn_alike(const Hex& a, int f, const Hex& b, int g);

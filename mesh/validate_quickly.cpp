@@ -83,7 +83,8 @@ constexpr Index nodes_at_once = 8 << 20;
 
 }  // namespace
 
-bool has_only_warnings(const Mesh& mesh) {
+bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin) {
+  skin.clear();
   if (!all_hold(mesh.n_nodes(), [&](Index n) { return mesh.points[n].allFinite(); })) return false;
   if (!all_hold(mesh.n_hexes(), [&](Index h) { return is_on_eight_nodes(mesh, mesh.hexes[h]); })) return false;
   check_nodes(mesh);  // for their number
@@ -91,13 +92,17 @@ bool has_only_warnings(const Mesh& mesh) {
     const std::vector<double> jacobians = min_corner_jacobian(mesh);
     if (!all_hold(mesh.n_hexes(), [&](Index h) { return jacobians[h] > 0; })) return false;
   }
-  std::vector<Side> skin;
   for (std::int64_t begin = 0; begin < mesh.n_nodes(); begin += nodes_at_once) {
     const auto end = static_cast<Index>(std::min<std::int64_t>(begin + nodes_at_once, mesh.n_nodes()));
     if (!faces_are_sound(mesh, static_cast<Index>(begin), end, skin)) return false;
   }
   tbb::parallel_sort(skin.begin(), skin.end());
-  return std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::same_part);
+  return true;
+}
+
+bool has_only_warnings(const Mesh& mesh) {
+  std::vector<Side> skin;
+  return is_sound_without_skin(mesh, skin) && std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::same_part);
 }
 
 }  // namespace hextwist

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/topology.h"
+#include "hextwist/mesh/topology_internal.h"
 #include "hextwist/sizing/gaps_internal.h"
 #include "hextwist/sizing/neighbours_internal.h"
 
@@ -52,23 +53,36 @@ bool Neighbours::apply(const Splice& splice, bool forward) {
 
 void Neighbours::exchange(const std::vector<Hex>& out, const std::vector<Index>& out_serials,
                           const std::vector<Hex>& in, const std::vector<Index>& in_serials) {
-  std::vector<Index> nodes;
-  for (const auto* hexes : {&out, &in})
-    for (const Hex& hex : *hexes) nodes.insert(nodes.end(), hex.begin(), hex.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  std::vector<std::pair<Index, Index>> added;  // node, serial
+  // The nodes that these hexes have, each once, and where the lists of those that come in begin.
+  place_.resize(std::max(place_.size(), of_node_.size()), -1);
+  std::vector<Index> nodes, first_in;
+  const auto count = [&](const std::vector<Hex>& hexes, Index n_each) {
+    for (const Hex& hex : hexes)
+      for (const Index n : hex) {
+        if (place_[n] < 0) {
+          place_[n] = static_cast<Index>(nodes.size());
+          nodes.push_back(n);
+          first_in.push_back(0);
+        }
+        first_in[place_[n]] += n_each;
+      }
+  };
+  count(out, 0);
+  count(in, 1);
+  first_in.push_back(0);
+  const std::int64_t n_in = counts_to_starts(first_in);
+  std::vector<Index> serials(static_cast<std::size_t>(n_in)), next(first_in);
   for (std::size_t i = 0; i < in.size(); ++i)
-    for (const Index n : in[i]) added.emplace_back(n, in_serials[i]);
-  std::ranges::sort(added);
-  auto next = added.begin();
-  for (const Index n : nodes) {
-    const Range old = of_node_[n];
-    const auto first = static_cast<Index>(items_.size());
+    for (const Index n : in[i]) serials[next[place_[n]]++] = in_serials[i];
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    Range& range = of_node_[nodes[k]];
+    const Range old = range;
+    range.first = static_cast<Index>(items_.size());
     for (Index i = old.first; i < old.first + old.count; ++i)
       if (const Index serial = items_[i]; !std::ranges::binary_search(out_serials, serial)) items_.push_back(serial);
-    for (; next != added.end() && next->first == n; ++next) items_.push_back(next->second);
-    of_node_[n] = {first, static_cast<Index>(items_.size()) - first};
+    items_.insert(items_.end(), serials.begin() + first_in[k], serials.begin() + first_in[k + 1]);
+    range.count = static_cast<Index>(items_.size()) - range.first;
+    place_[nodes[k]] = -1;
   }
 }
 

@@ -35,6 +35,7 @@ class Neighbours {
   std::vector<Index> gone_;               // serial numbers, ascending
   std::vector<std::vector<Index>> each_;  // the same by splice, to go back
   Index n_serials_ = 0;
+  std::vector<Index> place_;  // per node, for exchange(): -1 in between
 };
 
 }  // namespace hextwist

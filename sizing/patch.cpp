@@ -1,12 +1,43 @@
 // Cuts a patch out of a mesh, with all that is known of it.
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
-#include "hextwist/mesh/topology_internal.h"
 #include "hextwist/sizing/gaps_internal.h"
 #include "hextwist/sizing/patch_internal.h"
 
 namespace hextwist {
 namespace {
+
+/// Some nodes of a mesh, numbered in ascending order: a bit for each node of the mesh, and sums of bits.
+class NodeNumbers {
+ public:
+  NodeNumbers(const Mesh& mesh, std::span<const Index> hexes)
+      : bits_(mesh.points.size() / width + 1), before_(bits_.size()) {
+    for (const Index h : hexes)
+      for (const Index n : mesh.hexes[h]) bits_[word(n)] |= bit(n);
+    for (std::size_t w = 1; w < bits_.size(); ++w) before_[w] = before_[w - 1] + std::popcount(bits_[w - 1]);
+  }
+  std::vector<Index> nodes() const {
+    std::vector<Index> list;
+    list.reserve(static_cast<std::size_t>(before_.back() + std::popcount(bits_.back())));
+    for (std::size_t w = 0; w < bits_.size(); ++w)
+      for (std::uint64_t rest = bits_[w]; rest; rest &= rest - 1)
+        list.push_back(static_cast<Index>(w * width) + std::countr_zero(rest));
+    return list;
+  }
+  /// Of a node that is one of them.
+  Index operator[](Index node) const {
+    return before_[word(node)] + std::popcount(bits_[word(node)] & (bit(node) - 1));
+  }
+
+ private:
+  static constexpr std::size_t width = 64;
+  static std::size_t word(Index node) { return static_cast<std::size_t>(node) / width; }
+  static std::uint64_t bit(Index node) { return std::uint64_t{1} << (static_cast<std::size_t>(node) % width); }
+  std::vector<std::uint64_t> bits_;
+  std::vector<Index> before_;  // per word: how many stand in lower ones
+};
 
 /// Positions in `wanted` of the items that both lists have. Cheap where `wanted` is short.
 std::vector<Index> common(const std::vector<Index>& list, std::span<const Index> wanted) {
@@ -63,12 +94,13 @@ Index Patch::local_node(Index node) const {
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   Patch patch;
   patch.hexes = std::move(hexes);
-  patch.nodes = nodes_of_hexes(whole.mesh, patch.hexes);
+  const NodeNumbers number(whole.mesh, patch.hexes);
+  patch.nodes = number.nodes();
   Mesh& mesh = patch.meshed.mesh;
   mesh.points = items_at(whole.mesh.points, patch.nodes);
   mesh.hexes = items_at(whole.mesh.hexes, patch.hexes);
   for (Hex& hex : mesh.hexes)
-    for (Index& n : hex) n = patch.local_node(n);
+    for (Index& n : hex) n = number[n];
   for (const Block& block : whole.mesh.blocks)
     mesh.blocks.push_back({block.id, block.name, common(block.hexes, patch.hexes)});
   for (const NodeSet& set : whole.mesh.node_sets)

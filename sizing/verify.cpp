@@ -10,6 +10,7 @@
 #include "hextwist/mesh/off_model_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/topology.h"
+#include "hextwist/mesh/validate_internal.h"
 #include "hextwist/sizing/gaps_internal.h"
 #include "hextwist/sizing/verify_internal.h"
 
@@ -127,9 +128,6 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
   for (const bool largest : {false, true}) {
     OutlierList& list = lists[largest];
     Extreme& extreme = extremes[largest];
-    OutlierList come;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      come.emplace_back(largest ? -values[i] : values[i], difference.id_after(difference.added[i]));
     const bool is_gone = std::ranges::binary_search(difference.whole_taken, extreme.hex);
     OutlierList kept = changed(list, gone, {});
     if (kept.empty() && is_gone) list = kept = outliers(input, quality(metric, input), largest, difference.whole_taken);
@@ -137,7 +135,12 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
       extreme = {largest ? -kept.front().first : kept.front().first, find_hex(input, kept.front().second)};
     extreme.hex = is_gone && kept.empty() ? -1 : after_gaps(difference.whole_gone, extreme.hex);
     for (std::size_t i = 0; i < values.size(); ++i)
-      extreme.offer(values[i], difference.whole_after(difference.added[i]), largest);
+      if (extreme.hex < 0 || values[i] == extreme.value || (values[i] > extreme.value) == largest)
+        extreme.offer(values[i], difference.whole_after(difference.added[i]), largest);
+    OutlierList come;
+    for (std::size_t i = 0; i < values.size(); ++i)  // those that are better than the last of the list
+      if (const double value = largest ? -values[i] : values[i]; !list.empty() && value <= list.back().first)
+        come.emplace_back(value, difference.id_after(difference.added[i]));
     list = changed(list, gone, come);
   }
   const Index n = difference.n_whole;
@@ -205,27 +208,39 @@ std::vector<Index> hexes_near_new_boundary(const ChangedPart& change) {
 
 /// The hexes that are validated as a mesh of their own: those of the part, then others of the input.
 Mesh mesh_to_validate(const ChangedPart& change, std::span<const Index> of_part, std::span<const Index> others) {
-  struct Node {
-    Index number;
-    Vec3 point;
-  };
+  const Mesh &part = change.after.mesh, &input = change.input.mesh;
   Mesh mesh;
-  std::vector<Node> nodes;
-  for (const Index h : of_part) {
-    Hex& hex = mesh.hexes.emplace_back(change.after.mesh.hexes[h]);
-    for (Index& n : hex) {
-      nodes.push_back({change.whole_node(n), change.after.mesh.points[n]});
-      n = nodes.back().number;
+  mesh.hexes.reserve(of_part.size() + others.size());
+  std::vector<Index> number(part.points.size(), -1);  // per node of the part
+  const auto of_part_node = [&](Index n) {
+    if (number[n] < 0) {
+      number[n] = mesh.n_nodes();
+      mesh.points.push_back(part.points[n]);
     }
-  }
+    return number[n];
+  };
+  for (const Index h : of_part)
+    for (Index& n : mesh.hexes.emplace_back(part.hexes[h])) n = of_part_node(n);
+  // Other hexes may have nodes of the part, and of their own.
+  std::vector<Index> own;
+  const auto in_part = [&](Index n) {
+    if (change.nodes.empty()) return n;
+    const auto at = std::ranges::lower_bound(change.nodes, n);
+    return at != change.nodes.end() && *at == n ? static_cast<Index>(at - change.nodes.begin()) : -1;
+  };
   for (const Index h : others)
-    for (const Index n : mesh.hexes.emplace_back(change.input.mesh.hexes[h]))
-      nodes.push_back({n, change.input.mesh.points[n]});
-  std::ranges::sort(nodes, {}, &Node::number);
-  nodes.erase(std::ranges::unique(nodes, {}, &Node::number).begin(), nodes.end());
-  for (const Node& node : nodes) mesh.points.push_back(node.point);
-  for (Hex& hex : mesh.hexes)
-    for (Index& n : hex) n = static_cast<Index>(std::ranges::lower_bound(nodes, n, {}, &Node::number) - nodes.begin());
+    for (const Index n : input.hexes[h])
+      if (in_part(n) < 0) own.push_back(n);
+  std::ranges::sort(own);
+  own.erase(std::ranges::unique(own).begin(), own.end());
+  const Index first_own = mesh.n_nodes();
+  for (const Index n : own) mesh.points.push_back(input.points[n]);
+  for (const Index h : others)
+    for (Index& n : mesh.hexes.emplace_back(input.hexes[h])) {
+      const Index there = in_part(n);
+      n = there >= 0 ? of_part_node(there)
+                     : first_own + static_cast<Index>(std::ranges::lower_bound(own, n) - own.begin());
+    }
   return mesh;
 }
 
@@ -237,13 +252,23 @@ bool is_sound(const ChangedPart& change) {
   std::vector<Index> others;
   std::ranges::set_difference(hexes_near_new_boundary(change), known, std::back_inserter(others));
   const Mesh mesh = mesh_to_validate(change, of_part, others);
-  for (const Violation& violation : validate(mesh, {.relative_tolerance = 0}))
-    if (!is_warning(violation.kind) || violation.kind == ViolationKind::touching_part) return false;
-  return std::ranges::all_of(boundary_sides(faces(mesh)), [&](Side side) {
-    if (side.hex >= static_cast<Index>(of_part.size())) return true;
-    side.hex = of_part[side.hex];
-    return side.hex < change.n_kept || std::ranges::binary_search(change.after.association.surface_faces, side);
-  });
+  std::vector<Side> open;
+  if (!is_sound_without_skin(mesh, open)) return false;
+  // Sides with nothing behind: those on the CAD are boundary, the others of kept hexes have a neighbour that is not
+  // here.
+  const auto is_on_cad = [](const Association& association, Side side) {
+    return std::ranges::binary_search(association.surface_faces, side);
+  };
+  std::vector<Side> skin;
+  for (const Side side : open) {
+    const bool of_others = side.hex >= static_cast<Index>(of_part.size());
+    const Index hex = of_others ? others[side.hex - of_part.size()] : of_part[side.hex];
+    if (is_on_cad(of_others ? change.input.association : change.after.association, {hex, side.face}))
+      skin.push_back(side);
+    else if (!of_others && hex >= change.n_kept)
+      return false;
+  }
+  return hanging_nodes(mesh, skin).empty();
 }
 
 OffModel off_after(const OffModel& before, const ChangedPart& change) {
