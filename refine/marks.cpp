@@ -93,7 +93,7 @@ void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std:
 }
 
 std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
-  return where(static_cast<Index>(hexes.size()), [&](Index h) { return corner_mask(hexes[h], marked) != 0; });
+  return where(static_cast<Index>(hexes.size()), [&](Index h) { return has_marked_corner(hexes[h], marked); });
 }
 
 }  // namespace hextwist

@@ -66,9 +66,9 @@ double longest_edge(const Mesh& mesh, std::span<const Index> hexes) {
 
 std::optional<Rings> rings_around(const Mesh& mesh, std::span<const Index> nodes, int n_rings, std::size_t limit,
                                   const HexesAt& hexes_at) {
-  std::vector<std::uint8_t> reached(mesh.points.size(), 0), taken(mesh.hexes.size(), 0);
+  std::vector<bool> reached(mesh.points.size()), taken(mesh.hexes.size());
   std::vector<Index> front(nodes.begin(), nodes.end()), found;
-  for (const Index n : front) reached[n] = 1;
+  for (const Index n : front) reached[n] = true;
   std::vector<std::pair<Index, std::uint8_t>> hexes;
   for (int ring = 1; ring <= n_rings && !front.empty(); ++ring) {
     found.clear();
@@ -76,11 +76,11 @@ std::optional<Rings> rings_around(const Mesh& mesh, std::span<const Index> nodes
     front.clear();
     for (const Index h : found) {
       if (taken[h]) continue;
-      taken[h] = 1;
+      taken[h] = true;
       hexes.emplace_back(h, static_cast<std::uint8_t>(ring));
       for (const Index n : mesh.hexes[h])
         if (!reached[n]) {
-          reached[n] = 1;
+          reached[n] = true;
           front.push_back(n);
         }
     }
@@ -120,7 +120,7 @@ std::optional<Rings> rings_by_place(const Mesh& mesh, std::span<const Index> nod
           knows_all = std::ranges::all_of(asked, [&](Index n) { return marked[n] != 0; });
           for (const Index n : asked) front[n] = 1;
           std::erase_if(candidates, [&](Index h) {
-            const bool touches = corner_mask(mesh.hexes[h], front) != 0;
+            const bool touches = has_marked_corner(mesh.hexes[h], front);
             if (touches) hexes.push_back(h);
             return touches;
           });
