@@ -171,6 +171,24 @@ class Reader {
     }
   }
 
+  /// Turns positions of nodes into indices. element(i): the id of the element that number i belongs to.
+  template <class Element>
+  void indices(std::span<int> positions, const Element& element) const {
+    const auto n = static_cast<unsigned>(nodes_.size());
+    unsigned highest = 0;
+    for (int& position : positions) {
+      const unsigned index = static_cast<unsigned>(position) - 1;
+      highest = std::max(highest, index);
+      position = static_cast<int>(index);
+    }
+    if (highest >= n && !positions.empty())
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        if (static_cast<unsigned>(positions[i]) >= n)
+          node(std::int64_t{positions[i]} + 1, "element " + std::to_string(element(i)));
+    if (!nodes_.place().empty())
+      for (int& position : positions) position = nodes_.place()[position];
+  }
+
   void read_block(const ex_block& block, std::span<const std::int64_t> map, std::int64_t first) {
     const std::string name = "element block " + std::to_string(block.id);
     const std::string type = lower_case(block.topology);
@@ -198,21 +216,22 @@ class Reader {
       check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, exodus_position(begin), exodus_position(size - 1),
                                 nodes.data(), nullptr, nullptr),
             "nodes of " + name);
-      for (std::size_t k = 0; k < size; ++k) {
-        const std::int64_t id = map[begin + k], element = first + static_cast<std::int64_t>(begin + k);
-        const int* corners = &nodes[k * static_cast<std::size_t>(n_nodes)];
-        const auto corner = [&](std::size_t c) {
-          if (corners[c] < 1 || corners[c] > nodes_.size()) node(corners[c], "element " + std::to_string(id));
-          return nodes_.place().empty() ? corners[c] - 1 : nodes_.place()[corners[c] - 1];
-        };
-        if (hexes) {
-          hex_of_element_[element] = out_.mesh.n_hexes();
+      const auto used = std::span(nodes).first(size * static_cast<std::size_t>(n_nodes));
+      indices(used, [&](std::size_t i) { return map[begin + i / static_cast<std::size_t>(n_nodes)]; });
+      const std::size_t first_element = static_cast<std::size_t>(first) + begin;
+      if (hexes) {
+        const std::size_t n_before = out_.mesh.hexes.size();
+        resize_for_overwrite(out_.mesh.hexes, n_before + size);
+        for (std::size_t k = 0; k < size; ++k) {
           Hex hex;
-          for (std::size_t c = 0; c < 8; ++c) hex[c] = corner(c);
-          out_.mesh.hexes.push_back(in_file_order(hex));
-        } else {
-          quad_of_element_[element] = static_cast<Index>(quads_.size());
-          quads_.push_back({corner(0), corner(1), corner(2), corner(3)});
+          std::copy_n(&nodes[8 * k], 8, hex.begin());
+          out_.mesh.hexes[n_before + k] = in_file_order(hex);
+          hex_of_element_[first_element + k] = static_cast<Index>(n_before + k);
+        }
+      } else {
+        for (std::size_t k = 0; k < size; ++k) {
+          quad_of_element_[first_element + k] = static_cast<Index>(quads_.size());
+          quads_.push_back({nodes[4 * k], nodes[4 * k + 1], nodes[4 * k + 2], nodes[4 * k + 3]});
         }
       }
     });

@@ -9,7 +9,7 @@
 
 namespace hextwist {
 
-/// The marked corners of a hex as bits.
+/// The marked corners of a hex as bits. marked: one byte per node, 0 or 1.
 inline int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
   int mask = 0;
   for (int c = 0; c < 8; ++c) mask |= marked[hex[c]] << c;
