@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "hextwist/command/undo_internal.h"
 #include "hextwist/sizing/outliers.h"
@@ -193,7 +194,6 @@ std::size_t bytes_of(const GroupsDelta<Group, Item>& delta) {
   for (const auto& entry : delta.entries) bytes += sizeof(entry) + entry.group.name.size() + entry.items.bytes();
   return bytes;
 }
-/// Where several steps share them, each counts them.
 std::size_t bytes_of(const std::shared_ptr<const Outliers>& outliers) {
   if (!outliers) return 0;
   std::size_t bytes = sizeof *outliers;
@@ -285,7 +285,7 @@ struct Step::Arrays {
 
 Step::Step(std::string command, const ModelState& from, const ModelState& to)
     : command_(std::move(command)), state_(to), bytes_(sizeof(Step) + command_.capacity()) {
-  bytes_ += bytes_of(state_.outliers);
+  state_.outliers = nullptr;  // not worth the memory
   if (to.tags && from.tags != to.tags) bytes_ += bytes_of(*to.tags);
   if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes_ += bytes_of(*to.fixed_nodes);
   if (to.schemes && from.schemes != to.schemes) bytes_ += bytes_of(*to.schemes);
@@ -315,7 +315,7 @@ Step::Step(std::string command, const ModelState& state, SetsDelta sets)
   Arrays arrays;
   arrays.sets = std::move(sets);
   arrays.model = state.meshed->model;
-  bytes_ += sizeof(Arrays) + bytes_of(arrays.sets) + bytes_of(state_.outliers);
+  bytes_ += sizeof(Arrays) + bytes_of(arrays.sets);  // outliers: those of the state beside it
   arrays_ = std::make_shared<const Arrays>(std::move(arrays));
   state_.meshed = nullptr;
 }
@@ -327,12 +327,13 @@ Step::Step(std::string command, const ModelState& to, std::shared_ptr<const Spli
       forward_(forward),
       bytes_(sizeof(Step) + command_.capacity() + splice_->bytes()) {
   if (to.tags) bytes_ += bytes_of(*to.tags);
-  bytes_ += bytes_of(state_.outliers);
+  outlier_bytes_ = bytes_of(state_.outliers);
+  bytes_ += outlier_bytes_;
   state_.meshed = nullptr;
 }
 
 void Step::forget_outliers() noexcept {
-  bytes_ -= bytes_of(state_.outliers);
+  bytes_ -= std::exchange(outlier_bytes_, 0);
   state_.outliers = nullptr;
 }
 

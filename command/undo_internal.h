@@ -95,7 +95,7 @@ class Step {
   std::shared_ptr<const Splice> splice_;
   bool forward_ = false;
   bool only_sets_ = false;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0, outlier_bytes_ = 0;  // of all, and of these
 };
 
 /// Bytes in the arrays of a mesh and its association.
