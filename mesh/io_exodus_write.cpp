@@ -70,10 +70,6 @@ class Writer {
       if (!taken[h]) rest.own.push_back(h);
     rest.hexes = rest.own;
     if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
-    resize_for_overwrite(element_of_hex_, mesh_.hexes.size());
-    int element = 0;
-    for (const Divided& part : parts_)
-      for (const Index h : part.hexes) element_of_hex_[h] = ++element;
   }
 
   void create() {
@@ -169,7 +165,18 @@ class Writer {
     put_name(type, id, name);
   }
 
+  /// Per hex its 1-based place in the file.
+  Ints elements_of_hexes() const {
+    Ints element_of_hex;
+    resize_for_overwrite(element_of_hex, mesh_.hexes.size());
+    int element = 0;
+    for (const Divided& part : parts_)
+      for (const Index h : part.hexes) element_of_hex[h] = ++element;
+    return element_of_hex;
+  }
+
   void sets() {
+    const Ints element_of_hex = mesh_.side_sets.empty() && whole_.empty() ? Ints() : elements_of_hexes();
     for (const NodeSet& set : mesh_.node_sets) {
       Ints members;
       for (const Index n : set.nodes) members.push_back(n + 1);
@@ -180,14 +187,14 @@ class Writer {
     for (const SideSet& set : mesh_.side_sets) {
       Ints members, sides;
       for (const Side& side : set.sides) {
-        members.push_back(element_of_hex_[side.hex]);
+        members.push_back(element_of_hex[side.hex]);
         sides.push_back(side_of_face[side.face]);
       }
       put_set(EX_SIDE_SET, set.id, set.name, members, sides);
     }
     for (const Block* block : whole_) {
       Ints members;
-      for (const Index h : block->hexes) members.push_back(element_of_hex_[h]);
+      for (const Index h : block->hexes) members.push_back(element_of_hex[h]);
       put_set(EX_ELEM_SET, block->id, block->name, members, {});
     }
   }
@@ -227,7 +234,6 @@ class Writer {
   std::vector<Field> fields_;
   std::vector<Divided> parts_;
   std::vector<const Block*> whole_;  // written as element sets
-  Ints element_of_hex_;              // 1-based place in the file
   int id_ = -1;
   bool wide_ = false;  // ids beyond 32 bits
 };

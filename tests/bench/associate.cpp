@@ -36,7 +36,7 @@ void add_associate() {
 }
 
 void add_associate_threads() {
-  add_time("associate/geometry/2", from_geometry<bricks>, 2);
+  add_on_two_threads("threads/associate", from_geometry<bricks>, [](const auto&) { return 1; });
 }
 
 }  // namespace hextwist::bench

@@ -62,6 +62,18 @@ void add_time(const std::string& name, Make make, int threads = 1) {
       name, make, [](const auto&) { return 1; }, threads);
 }
 
+/// The same on one thread and on two, one after the other so that they meet the same machine: name/1, name/2.
+template <class Prepare, class Make, class Items>
+void add_on_two_threads(const std::string& name, Prepare prepare, Make make, Items items) {
+  for (const int threads : {1, 2})
+    add_prepared_rate(name + "/" + std::to_string(threads), prepare, make, items, threads);
+}
+template <class Make, class Items>
+void add_on_two_threads(const std::string& name, Make make, Items items) {
+  add_on_two_threads(
+      name, [] { return 0; }, [=](int) { return make(); }, items);
+}
+
 /// Registers a number that is no time: value() is called once; NaN: could not be had.
 void add_value(const std::string& name, double (*value)());
 

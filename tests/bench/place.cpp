@@ -113,7 +113,7 @@ void add_place() {
 }
 
 void add_place_threads() {
-  add_prepared_rate("place/ball/2", straight_ball, place_ball, new_nodes, 2);
+  add_on_two_threads("threads/place_ball", straight_ball, place_ball, new_nodes);
 }
 
 }  // namespace hextwist::bench

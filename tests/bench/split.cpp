@@ -102,16 +102,16 @@ void add_split() {
 }
 
 void add_split_threads() {
-  add_rate("split/all27/2", split27, hexes, 2);
-  add_rate("split/all8/2", split8, hexes, 2);
-  add_rate(
-      "split/ball_templates/2", [] { return split_ball(Concave::templates); }, hexes, 2);
-  add_rate(
-      "pass/all27/2", [] { return whole(cube_of(side27), split27()); }, hexes, 2);
-  add_rate(
-      "pass/all8/2", [] { return whole(cube_of(side8), split8()); }, hexes, 2);
-  add_rate(
-      "pass/ball_templates/2", [] { return whole(cube_of(side_ball), split_ball(Concave::templates)); }, hexes, 2);
+  add_on_two_threads("threads/split_all27", split27, hexes);
+  add_on_two_threads("threads/split_all8", split8, hexes);
+  add_on_two_threads(
+      "threads/split_ball", [] { return split_ball(Concave::templates); }, hexes);
+  add_on_two_threads(
+      "threads/pass_all27", [] { return whole(cube_of(side27), split27()); }, hexes);
+  add_on_two_threads(
+      "threads/pass_all8", [] { return whole(cube_of(side8), split8()); }, hexes);
+  add_on_two_threads(
+      "threads/pass_ball", [] { return whole(cube_of(side_ball), split_ball(Concave::templates)); }, hexes);
   add_value("split/same_bytes", same_bytes);
 }
 
