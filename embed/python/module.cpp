@@ -358,9 +358,8 @@ void bind_session(py::module_& m) {
       .def_property_readonly(
           "record",
           [](PySession& session) {
-            return session.look([](Session& s) {
-              return s.records().empty() ? py::object(py::none()) : py::object(record_dict(s.records().back()));
-            });
+            return session.look(
+                [](Session& s) { return s.records().empty() ? py::none() : record_dict(s.records().back()); });
           },
           "What the last command did; None before the first.");
 }
