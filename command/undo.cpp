@@ -1,23 +1,12 @@
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "hextwist/command/undo_internal.h"
 #include "hextwist/sizing/outliers.h"
+#include "hextwist/sizing/same_bits_internal.h"
 
 namespace hextwist {
 namespace {
-
-template <class T>
-bool same_bits(const T& a, const T& b) {
-  return std::memcmp(static_cast<const void*>(&a), static_cast<const void*>(&b), sizeof(T)) == 0;
-}
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(static_cast<const void*>(a.data()), static_cast<const void*>(b.data()),
-                                   a.size() * sizeof(T)) == 0);
-}
 
 /// What to do where the two arrays differ.
 enum class Walk {

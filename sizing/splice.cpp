@@ -1,20 +1,15 @@
 #include "hextwist/sizing/splice_internal.h"
 
-#include <cstring>
 #include <numeric>
 #include <optional>
 
 #include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/refine/split.h"
+#include "hextwist/sizing/same_bits_internal.h"
 #include "hextwist/sizing/splice_lists_internal.h"
 
 namespace hextwist {
 namespace {
-
-template <class T>
-bool same_bits(const T& a, const T& b) {
-  return std::memcmp(static_cast<const void*>(&a), static_cast<const void*>(&b), sizeof(T)) == 0;
-}
 
 template <class T>
 std::vector<T> tail(const std::vector<T>& array, Index first, std::size_t width = 1) {
