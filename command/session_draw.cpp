@@ -143,7 +143,7 @@ class Painter {
 
   void by_quality(const std::vector<Index>& hexes) {
     if (!run_.command.has("quality") || hexes.empty() || plain_) return;
-    const Metric metric = metrics_after(run_.command, "quality").front();
+    const Metric metric = metrics_said(run_.command, "quality").front();
     const std::vector<double> all = quality(metric, mesh_, hexes);
     std::vector<double> of_hex(mesh_.hexes.size(), 0);
     for (std::size_t i = 0; i < hexes.size(); ++i) of_hex[hexes[i]] = all[i];

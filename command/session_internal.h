@@ -142,8 +142,8 @@ void forget_members(ModelState& state, bool also_cad);
 /// `list undo`.
 void list_undo(Execution& run);
 
-/// The metrics whose words stand behind the item of that name, up to the next option; shape where there are none.
-std::vector<Metric> metrics_after(const Command& command, std::string_view place);
+/// The metrics that were said in the option which begins with that word (Item::option); shape where none was.
+std::vector<Metric> metrics_said(const Command& command, std::string_view option);
 
 /// Switching it off forgets all steps.
 void switch_undo(Execution& run, bool on);

@@ -73,17 +73,13 @@ void filter(const Command& command, std::vector<Index>& hexes, std::vector<doubl
 
 }  // namespace
 
-std::vector<Metric> metrics_after(const Command& command, std::string_view place) {
+std::vector<Metric> metrics_said(const Command& command, std::string_view option) {
   std::string words;
-  bool behind = false, all = false;
+  bool all = false;
   for (const Item& item : command.items) {
-    constexpr std::array<std::string_view, 19> options = {
-        "histogram", "low",        "high", "top",    "bottom", "list", "detail",    "id",         "summary", "global",
-        "draw",      "individual", "from", "pixels", "to",     "mesh", "overwrite", "monochrome", "add"};
-    if (behind && item.is_word && std::ranges::find(options, item.name) != options.end()) break;
-    if (behind && item.is_word) words += item.name + " ";
-    all |= behind && item.is_word && (item.name == "all" || item.name.starts_with("allmetric"));
-    behind |= item.name == place;
+    if (item.option != option || item.name == "quality") continue;
+    words += item.name + " ";
+    all |= item.name == "all" || item.name.starts_with("allmetric");
   }
   if (all) return {metrics().begin(), metrics().end()};
   // As other programs call them.
@@ -103,7 +99,7 @@ void do_quality(Execution& run) {
   const Mesh& mesh = run.state.meshed->mesh;
   run.say(formatted("%-16s %9s %9s %9s %9s %10s %9s %10s", "", "count", "average", "std. dev.", "min", "(hex)", "max",
                     "(hex)"));
-  for (const Metric metric : metrics_after(run.command, "range")) {
+  for (const Metric metric : metrics_said(run.command, "shape")) {
     std::vector<Index> kept = hexes;
     std::vector<double> values = quality(metric, mesh, hexes);
     filter(run.command, kept, values);

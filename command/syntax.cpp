@@ -170,7 +170,11 @@ class Matcher {
       if (!choice) break;
       if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
+      const std::size_t begin = out_.items.size();
       sequence(node.choices[*choice]);
+      const PatternNode* first = &node.choices[*choice].front();
+      while (!first->choices.empty()) first = &first->choices.front().front();
+      for (std::size_t i = begin; i < out_.items.size(); ++i) out_.items[i].option = first->name;
     }
     outer_.resize(n_outer);
   }

@@ -53,6 +53,9 @@ struct Item {
   std::string text;                   ///< of a string, file or word
   EntityKind kind = EntityKind::hex;  ///< of a range
   Range range;
+  /// Of what stands in brackets: the word that the option begins with in the syntax, such as "histogram", and of
+  /// "[{shape|skew}]" the first, "shape". Empty outside of options.
+  std::string_view option = {};
 };
 
 struct Command {

@@ -129,9 +129,10 @@ TEST(Draw, EveryKindOfEntityCanBeDrawn) {
   Fixture f;
   f.session.run("create brick x 3 interval 3; nodeset 1 curve 1; sideset 1 surface 1; block 2 hex 1 2 3");
   std::set<std::ptrdiff_t> areas;
-  for (const char* what : {"mesh", "volume 1", "hex 1", "surface 1", "face 1 to 4", "curve 1", "edge 1 2", "vertex 1",
-                           "node 1", "block 2", "nodeset 1", "sideset 1", "sheet 1", "hex 1 quality skew",
-                           "quality volume", "volume 1 quality relative size pixels 200 150"}) {
+  for (const char* what :
+       {"mesh", "volume 1", "hex 1", "surface 1", "face 1 to 4", "curve 1", "edge 1 2", "vertex 1", "node 1", "block 2",
+        "nodeset 1", "sideset 1", "sheet 1", "hex 1 quality skew", "quality volume", "quality edge hex 1 2",
+        "quality volume volume 1", "volume 1 quality relative size pixels 200 150"}) {
     f.session.run("set undo on");
     const Pixels pixels = drawn(f, what);
     EXPECT_GT(pixels.n_drawn(), 100) << what;

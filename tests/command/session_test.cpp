@@ -320,6 +320,9 @@ TEST(Session, QualityUnderstandsTheWordsOfJournals) {
   EXPECT_EQ(table("quality volume 1 allmetric global draw mesh monochrome add"), all);
   EXPECT_EQ(table("quality volume 1 shape draw histogram"), table("quality volume 1 shape histogram"));
   EXPECT_EQ(table("quality volume 1 list detail id"), table("quality volume 1 list"));
+  EXPECT_EQ(table("quality volume 1 list skew"), table("quality volume 1 skew list"));
+  EXPECT_EQ(table("quality hex in hex 1 list volume top 2"), table("quality hex 1 volume top 2 list"));
+  EXPECT_EQ(table("quality volume 1 draw all"), all);
   EXPECT_EQ(table("group all add volume 1; quality group all").back(), table("quality volume 1").back());
   EXPECT_NE(f.error("quality volume 1 shape and size").find("found 'and'"), std::string::npos);
   EXPECT_NE(f.error("quality volume 1 timestep").find("found 'timestep'"), std::string::npos);
