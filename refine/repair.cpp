@@ -15,13 +15,18 @@ namespace {
 constexpr int max_halvings = 4;
 
 /// How far untangling may reach: layers of hexes around the inverted ones; whether old nodes inside volumes may move
-/// too, and whether new nodes may slide along their curves and surfaces.
+/// too, and whether new nodes may slide along their curves and surfaces. Whether the nodes of these layers start from
+/// where they were placed, or from what the last try has left; sweeps at most.
 struct Reach {
   int layers;
   bool old_nodes;
   bool slide;
+  bool afresh = false;
+  int sweeps = 100;
 };
-constexpr Reach reaches[] = {{1, false, true}, {2, false, true}, {3, true, true}};
+/// A try that fails leaves nodes heaped upon each other, which more freedom hardly gets apart again: they end inverted
+/// still, or the skin folds over itself there. So the widest reach begins anew.
+constexpr Reach reaches[] = {{1, false, true}, {2, false, true}, {3, true, true, true, 300}};
 constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
@@ -35,6 +40,7 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   };
   SmoothOptions options;
   options.scheme = SmoothScheme::untangle;
+  options.iterations = reach.sweeps;
   options.fixed.assign(fixed.begin(), fixed.end());
   options.nodes = nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers));
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
@@ -80,8 +86,18 @@ std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& s
   const auto owner = [&](Index node) { return association.empty() ? Owner{3, 1} : association.node_owner[node]; };
 
   // 1. Move nodes in space and along their curves and surfaces.
+  if (bad.empty()) return rows;
+  const std::vector<Vec3> placed = mesh.points;
+  const std::vector<Parameters> placed_parameters = association.node_parameters;
   for (const Reach reach : reaches) {
     if (bad.empty()) return rows;
+    if (reach.afresh) {
+      for (const Index n : nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers))) {
+        mesh.points[n] = placed[n];
+        if (!placed_parameters.empty()) association.node_parameters[n] = placed_parameters[n];
+      }
+      bad = inverted_hexes(mesh, split.n_kept());
+    }
     bad = untangle(split, model, mesh, association, bad, reach, fixed, progress);
   }
   if (bad.empty()) return rows;

@@ -130,6 +130,20 @@ TEST_P(cad_pair, all_volumes_uniformly) {
   EXPECT_EQ(fine.mesh.n_hexes(), 8 * input_.mesh.n_hexes());
 }
 
+/// Eight hexes around a hole, in walls not much thicker than these bulge: of what a second pass makes there, hundreds
+/// of hexes come out inverted. They are untangled with all nodes on the CAD, and so that the skin does not fold over
+/// itself.
+class coarse_holes : public cad_pair {};
+
+TEST_P(coarse_holes, all_surfaces_twice) {
+  run(input_, {.kind = TargetKind::surface, .targets = all(2), .numsplit = 2});
+}
+
+TEST_P(coarse_holes, one_hole_twice_and_smooth) {
+  ASSERT_EQ(input_.model->type({2, 9}), "cylinder");
+  run(input_, {.kind = TargetKind::surface, .targets = {9}, .numsplit = 2, .smooth = true});
+}
+
 std::vector<Pair> pairs() {
   std::vector<Pair> result;
   for (const auto& [name, tolerance] :
@@ -146,6 +160,7 @@ std::string pair_name(const testing::TestParamInfo<Pair>& param) {
 }
 
 INSTANTIATE_TEST_SUITE_P(real, cad_pair, testing::ValuesIn(pairs()), pair_name);
+INSTANTIATE_TEST_SUITE_P(real, coarse_holes, testing::Values(Pair{"bracket_fillet", ".brep", true, 1e-9}), pair_name);
 
 }  // namespace
 }  // namespace hextwist
