@@ -24,9 +24,10 @@ struct Reach {
   bool afresh = false;
   int sweeps = 100;
 };
-/// A try that fails leaves nodes heaped upon each other, which more freedom hardly gets apart again: they end inverted
-/// still, or the skin folds over itself there. So the widest reach begins anew.
-constexpr Reach reaches[] = {{1, false, true}, {2, false, true}, {3, true, true, true, 300}};
+/// Nodes inside volumes go first: those on the CAD lie evenly, and what slides away to make room makes others thin and
+/// is missed in the next pass. A try that fails leaves nodes heaped upon each other, which more freedom hardly gets
+/// apart again: they end inverted still, or the skin folds over itself there. So the widest reach begins anew.
+constexpr Reach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
 constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
