@@ -115,5 +115,58 @@ TEST(verify, a_new_node_in_a_face_across_a_crack_is_found) {
   EXPECT_EQ(result.report.violations[0].kind, ViolationKind::hanging_node);
 }
 
+TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const MeshedModel input = brick(12);
+  const Measured known = measured(input);
+  for (const Index target : {0, 5, 6 + 12 * (6 + 12 * 6)}) {  // at a corner, at an edge, inside
+    Request request;
+    request.targets = {target};
+    const MeshedModel sound = refine(input, known, request).refined;
+    // New hexes have the ids that follow the old ones.
+    Index first_new = sound.mesh.n_hexes();
+    while (hex_id(sound.mesh, first_new - 1) > input.mesh.n_hexes()) --first_new;
+    const auto any_new = [&] {
+      const Index n = sound.mesh.n_hexes() - first_new;
+      return first_new + static_cast<Index>(random() % static_cast<unsigned>(n));
+    };
+    int n_found = 0;
+    for (int round = 0; round < 60; ++round) {
+      MeshedModel broken = sound;
+      Mesh& mesh = broken.mesh;
+      Hex& hex = mesh.hexes[any_new()];
+      switch (round % 5) {
+        case 0:  // inverted, or folded
+          std::swap(hex[random() % 8], hex[random() % 8]);
+          break;
+        case 1:  // a node that it does not have: sides with nothing behind
+          hex[random() % 8] = static_cast<Index>(random() % mesh.points.size());
+          break;
+        case 2:  // two hexes in one place
+          hex = mesh.hexes[any_new()];
+          break;
+        case 3:  // torn: a node is doubled for one hex
+          mesh.points.push_back(mesh.points[hex[0]]);
+          broken.association.node_owner.push_back(broken.association.node_owner[hex[0]]);
+          broken.association.node_parameters.push_back(broken.association.node_parameters[hex[0]]);
+          hex[0] = mesh.n_nodes() - 1;
+          break;
+        default:  // a new node far away
+          mesh.points[input.mesh.n_nodes() + static_cast<Index>(random() % 8)] = {0.3, 0.2, 0.1};
+      }
+      Report change, all;
+      verify(input, &known, broken, change);
+      verify(input, nullptr, broken, all);
+      ASSERT_EQ(change.violations.size(), all.violations.size()) << "round " << round << ", hex " << target;
+      for (std::size_t i = 0; i < all.violations.size(); ++i)
+        EXPECT_EQ(change.violations[i].text, all.violations[i].text) << "round " << round;
+      n_found += !all.violations.empty();
+    }
+    EXPECT_GT(n_found, 30);
+  }
+}
+
 }  // namespace
 }  // namespace hextwist::test
