@@ -20,9 +20,8 @@ inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std:
 #ifdef __linux__
   constexpr std::size_t page = 4096, worthwhile = std::size_t{4} << 20;
   if (bytes < worthwhile) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const std::size_t to_page = (page - reinterpret_cast<std::uintptr_t>(data) % page) % page;
+  madvise(static_cast<char*>(data) + to_page, (bytes - to_page) / page * page, MADV_HUGEPAGE);
 #endif
 }
 
@@ -32,15 +31,16 @@ inline void advise_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std:
 template <class T>
 [[gnu::noinline]] void resize_for_overwrite(std::vector<T>& list, std::size_t n) {
   const std::size_t n_old = list.size();
+  constexpr std::size_t width = sizeof(T);  // NOLINT(bugprone-sizeof-expression): of pointers too
 #ifdef NDEBUG
   constexpr std::size_t worthwhile = std::size_t{1} << 16;
 #else
   constexpr std::size_t worthwhile = 1;
 #endif
-  if (n <= n_old || n * sizeof(T) < worthwhile) return list.resize(n);
+  if (n <= n_old || n * width < worthwhile) return list.resize(n);
   if (list.capacity() < n) {
     list.reserve(n);
-    advise_huge_pages(list.data() + n_old, (n - n_old) * sizeof(T));
+    advise_huge_pages(list.data() + n_old, (n - n_old) * width);
   }
 #if defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG) && !defined(_GLIBCXX_SANITIZE_VECTOR)
   // A vector of libstdc++ is three pointers in a base class; for items that need no construction, growing within the
@@ -49,7 +49,7 @@ template <class T>
     auto& pointers = ((std::_Vector_base<T, std::allocator<T>>&)list)._M_impl;
     pointers._M_finish = pointers._M_start + n;
 #ifndef NDEBUG
-    std::memset(static_cast<void*>(list.data() + n_old), 0xC1, (n - n_old) * sizeof(T));
+    std::memset(static_cast<void*>(list.data() + n_old), 0xC1, (n - n_old) * width);
 #endif
     return;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "hextwist/mesh/large_array_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
@@ -111,6 +112,7 @@ constexpr std::uint64_t face_key(Index diagonal, Index low) {
 template <class Pattern>
 std::vector<Index> n_nodes_of(const std::vector<Pattern>& patterns) {
   std::vector<Index> n;
+  n.reserve(patterns.size());
   for (const Pattern& pattern : patterns) n.push_back(static_cast<Index>(pattern.at.size()));
   return n;
 }
@@ -318,15 +320,16 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
   Lineage& lineage = result.lineage;
   lineage.n_old_nodes = n_nodes;
   lineage.n_old_hexes = static_cast<Index>(hexes.size());
-  lineage.table = table;
-  const CutList cut = cut_hexes(hexes, n_nodes, *table, codes);
-  number_edges_and_faces(hexes, cut, *table, rank_edges_and_faces(cut, *table, result), result);
+  lineage.table = std::move(table);
+  const SplitTable& templates = *lineage.table;
+  const CutList cut = cut_hexes(hexes, n_nodes, templates, codes);
+  number_edges_and_faces(hexes, cut, templates, rank_edges_and_faces(cut, templates, result), result);
   const Index n_hexes = number_nodes_and_children(cut, codes, result);
   resize_for_overwrite(result.hexes, static_cast<std::size_t>(n_hexes));
   resize_for_overwrite(lineage.parent, static_cast<std::size_t>(n_hexes));
   resize_for_overwrite(result.first_child, hexes.size());
   fill_kept(hexes, cut, result);
-  fill_children(hexes, cut, *table, result);
+  fill_children(hexes, cut, templates, result);
   return result;
 }
 

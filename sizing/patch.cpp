@@ -20,7 +20,7 @@ class NodeNumbers {
   }
   std::vector<Index> nodes() const {
     std::vector<Index> list;
-    list.reserve(static_cast<std::size_t>(before_.back() + std::popcount(bits_.back())));
+    list.reserve(static_cast<std::size_t>(before_.back()) + static_cast<std::size_t>(std::popcount(bits_.back())));
     for (std::size_t w = 0; w < bits_.size(); ++w)
       for (std::uint64_t rest = bits_[w]; rest; rest &= rest - 1)
         list.push_back(static_cast<Index>(w * width) + std::countr_zero(rest));

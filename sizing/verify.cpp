@@ -122,6 +122,7 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
     squares += (value - before.average) * (value - before.average);
   }
   std::vector<std::int64_t> gone;
+  gone.reserve(difference.whole_taken.size());
   for (const Index h : difference.whole_taken) gone.push_back(hex_id(input, h));
 
   std::array<Extreme, 2> extremes{Extreme{before.min, before.min_hex}, Extreme{before.max, before.max_hex}};

@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include <oneapi/tbb/global_control.h>
+#include <tbb/global_control.h>
 
 #include "geom/occ_shapes.h"
 #include "support/grids.h"
