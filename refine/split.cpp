@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hextwist/mesh/large_array_internal.h"
+#include "hextwist/mesh/memory_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/mesh/topology_internal.h"
 
@@ -325,6 +326,7 @@ Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const Spl
   const CutList cut = cut_hexes(hexes, n_nodes, templates, codes);
   number_edges_and_faces(hexes, cut, templates, rank_edges_and_faces(cut, templates, result), result);
   const Index n_hexes = number_nodes_and_children(cut, codes, result);
+  check_memory(n_hexes, result.n_nodes);
   resize_for_overwrite(result.hexes, static_cast<std::size_t>(n_hexes));
   resize_for_overwrite(lineage.parent, static_cast<std::size_t>(n_hexes));
   resize_for_overwrite(result.first_child, hexes.size());

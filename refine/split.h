@@ -33,7 +33,7 @@ struct Split {
 Index checked_count(std::int64_t n);
 
 /// codes: one per hex, 0 to leave it alone. Precondition (asserted): hexes that share an edge or face agree on its
-/// code. Throws Error when the result has more than 2^31 - 1 nodes or hexes.
+/// code. Throws Error when the result has more than 2^31 - 1 nodes or hexes, or takes more memory than there is.
 ///
 /// Cost: a few passes over flat arrays, proportional to the cut hexes plus one sweep over hexes and nodes.
 Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const SplitTable> table,

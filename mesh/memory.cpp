@@ -1,0 +1,73 @@
+#include "hextwist/mesh/memory_internal.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+namespace {
+
+constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+
+/// The one number in a file of the kernel.
+std::size_t number_in(const char* file) {
+  std::ifstream in(file);
+  std::size_t number = 0;
+  return in >> number ? number : unknown;  // "max" is no number
+}
+
+std::size_t available_to_all() {
+  std::ifstream in("/proc/meminfo");
+  std::size_t sum = 0;
+  bool known = false;
+  for (std::string line; std::getline(in, line);) {
+    std::size_t kilobytes = 0;
+    if (std::sscanf(line.c_str(), "MemAvailable: %zu", &kilobytes) == 1)
+      known = true;
+    else if (std::sscanf(line.c_str(), "SwapFree: %zu", &kilobytes) != 1)
+      continue;
+    sum += kilobytes * 1024;
+  }
+  return known ? sum : unknown;
+}
+
+std::string gigabytes(double bytes) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / 1e9);
+  return text.data();
+}
+
+std::int64_t bytes_of(std::int64_t n_hexes, std::int64_t n_nodes) {
+  constexpr std::int64_t per_hex = sizeof(Hex) + sizeof(Index);  // its nodes and its parent
+  return n_hexes * per_hex + n_nodes * static_cast<std::int64_t>(sizeof(Vec3));
+}
+
+}  // namespace
+
+std::size_t available_memory() {
+  std::size_t available = available_to_all();
+  // What the group uses already is left out: much of that is files in memory, which it gives back.
+  for (const char* limit : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+    available = std::min(available, number_in(limit));
+  return available;
+}
+
+void check_memory(std::int64_t n_hexes, std::int64_t n_nodes, std::size_t available) {
+  const std::int64_t needed = bytes_of(n_hexes, n_nodes);
+  if (static_cast<std::size_t>(needed) <= available) return;
+  throw Error("the refined mesh would have " + std::to_string(n_hexes) + " hexes, which take more than " +
+              gigabytes(static_cast<double>(needed)) + " of memory; " + gigabytes(static_cast<double>(available)) +
+              " are free");
+}
+
+void check_memory(std::int64_t n_hexes, std::int64_t n_nodes) {
+  constexpr std::int64_t worth_asking = 1'000'000'000;
+  if (bytes_of(n_hexes, n_nodes) > worth_asking) check_memory(n_hexes, n_nodes, available_memory());
+}
+
+}  // namespace hextwist
