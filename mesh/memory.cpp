@@ -36,15 +36,21 @@ std::size_t available_to_all() {
   return known ? sum : unknown;
 }
 
+std::string text_of(double number) {
+  constexpr double round_above = 1e12;
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), number < round_above ? "%.0f" : "%.3g", number);
+  return text.data();
+}
 std::string gigabytes(double bytes) {
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.3g GB", bytes / 1e9);
   return text.data();
 }
 
-std::int64_t bytes_of(std::int64_t n_hexes, std::int64_t n_nodes) {
-  constexpr std::int64_t per_hex = sizeof(Hex) + sizeof(Index);  // its nodes and its parent
-  return n_hexes * per_hex + n_nodes * static_cast<std::int64_t>(sizeof(Vec3));
+double bytes_of(double n_hexes, double n_nodes) {
+  constexpr double per_hex = sizeof(Hex) + sizeof(Index);  // its nodes and its parent
+  return n_hexes * per_hex + n_nodes * sizeof(Vec3);
 }
 
 }  // namespace
@@ -57,17 +63,16 @@ std::size_t available_memory() {
   return available;
 }
 
-void check_memory(std::int64_t n_hexes, std::int64_t n_nodes, std::size_t available) {
-  const std::int64_t needed = bytes_of(n_hexes, n_nodes);
-  if (static_cast<std::size_t>(needed) <= available) return;
-  throw Error("the refined mesh would have " + std::to_string(n_hexes) + " hexes, which take more than " +
-              gigabytes(static_cast<double>(needed)) + " of memory; " + gigabytes(static_cast<double>(available)) +
-              " are free");
+void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many) {
+  const double needed = bytes_of(n_hexes, n_nodes), free = static_cast<double>(available);
+  if (needed <= free) return;
+  throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) +
+              " hexes, which take more than " + gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
 }
 
-void check_memory(std::int64_t n_hexes, std::int64_t n_nodes) {
-  constexpr std::int64_t worth_asking = 1'000'000'000;
-  if (bytes_of(n_hexes, n_nodes) > worth_asking) check_memory(n_hexes, n_nodes, available_memory());
+void check_memory(double n_hexes, double n_nodes, const char* how_many) {
+  constexpr double worth_asking = 1e9;
+  if (bytes_of(n_hexes, n_nodes) > worth_asking) check_memory(n_hexes, n_nodes, available_memory(), how_many);
 }
 
 }  // namespace hextwist

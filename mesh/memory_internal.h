@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 namespace hextwist {
 
@@ -12,9 +11,10 @@ std::size_t available_memory();
 
 /// Throws Error, with both amounts, when the arrays that every mesh of this size has take more than `available` bytes:
 /// then nobody could hold it. (With CAD, ids and what a pass itself needs it is twice as much.)
-void check_memory(std::int64_t n_hexes, std::int64_t n_nodes, std::size_t available);
+/// how_many: "" or "at least ".
+void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many = "");
 
 /// check_memory() with what there is; not asked where the mesh is small.
-void check_memory(std::int64_t n_hexes, std::int64_t n_nodes);
+void check_memory(double n_hexes, double n_nodes, const char* how_many = "");
 
 }  // namespace hextwist

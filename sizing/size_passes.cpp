@@ -1,9 +1,11 @@
 // Size-driven refinement: cut, look again, until the elements are as small as wished.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/memory_internal.h"
 #include "hextwist/mesh/parallel_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/trisect.h"
@@ -125,6 +127,22 @@ std::vector<Index> at_points(const Mesh& mesh, std::span<const Index> hexes, con
     if (std::ranges::count(std::span(on_it).subspan(i * n_hex_corners, n_hex_corners), 1) > 0)
       result.push_back(hexes[i]);
   return result;
+}
+
+/// Throws Error when the hexes that the wish takes at the very least cannot fit into memory: sooner than the pass that
+/// would find out. A hex becomes at least as many as stand along (a curve), on (a surface) or in the target.
+void check_wish_fits(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish,
+                     const Request& request) {
+  const int dim = is_solid(request.kind)                                                    ? 3
+                  : request.kind == TargetKind::surface || request.kind == TargetKind::face ? 2
+                  : request.kind == TargetKind::curve || request.kind == TargetKind::edge   ? 1
+                                                                                            : 0;
+  const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, wish);
+  const double most = std::pow(3.0, request.max_passes);
+  double n = mesh.n_hexes();
+  for (std::size_t i = 0; i < size.size(); ++i)
+    n += std::pow(std::clamp(size[i] / (most_too_long * wished[i]), 1.0, most), dim) - 1;
+  check_memory(n, n, "at least ");
 }
 
 /// What one pass is to cut.
@@ -281,6 +299,7 @@ bool size_passes(Pipeline& run, SizeTechnique technique) {
     run.stages().begin("sizes", run.fraction());
     const Mesh& mesh = run.current().mesh;
     std::vector<Index> too_large = too_large_hexes(mesh, *wish, in_zone, target);
+    if (n_passes == 0) check_wish_fits(mesh, too_large, *wish, request);
     if (halves && n_passes < request.max_passes) {
       EightPlan plan;
       if (std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish, plan); !halved.empty()) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "hextwist/geom/types.h"
 
 namespace hextwist::test {
@@ -15,6 +17,15 @@ TEST(memory, what_cannot_fit_is_refused_with_both_amounts) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(),
                  "the refined mesh would have 387420489 hexes, which take more than 23.3 GB of memory; 21 GB are free");
+  }
+}
+
+TEST(memory, more_hexes_than_can_be_counted_are_refused_too) {
+  try {
+    check_memory(1e27, 1e27, "at least ");
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("the refined mesh would have at least 1e+27 hexes"), 0u) << error.what();
   }
 }
 

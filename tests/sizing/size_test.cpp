@@ -99,6 +99,25 @@ TEST(size, that_is_met_already_changes_nothing) {
   }
 }
 
+TEST(size, that_no_memory_could_hold_is_refused_before_anything_is_cut) {
+  const MeshedModel input = brick(3, 3, 3);
+  for (const auto& [kind, size] : {std::pair(TargetKind::hex, 1e-4), std::pair(TargetKind::surface, 1e-6)}) {
+    Request request{.kind = kind, .targets = {1}, .size = size};
+    int n_passes = 0;
+    const auto count = [&](std::string_view stage, double) {
+      n_passes += stage == "split";
+      return true;
+    };
+    try {
+      refine(input, request, count);
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("the refined mesh would have at least ", 0), 0u) << error.what();
+    }
+    EXPECT_EQ(n_passes, 0);
+  }
+}
+
 TEST(size, stops_at_the_limit_of_passes_and_names_what_is_too_large) {
   const MeshedModel input = brick(3, 3, 3);
   const RefineResult result = checked(input, {.kind = TargetKind::hex, .targets = {13}, .size = 0.01, .max_passes = 1});
