@@ -9,6 +9,7 @@
 #include "hextwist/command/record_json_internal.h"
 
 namespace hextwist::app {
+
 void write_report(const std::filesystem::path& file, std::span<const CommandRecord> records, const std::string& error) {
   Json report;
   report["program"] = "hextwist";

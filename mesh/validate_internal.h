@@ -24,7 +24,8 @@ struct HangingNode {
 /// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes.
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
 
-/// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when true).
+/// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when
+/// true).
 bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin);
 
 /// Whether two hexes turn alike around a face that they share: then they lie on the same side of it, or one of them is
