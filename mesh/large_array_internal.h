@@ -43,13 +43,15 @@ void grow_large(std::vector<T>& list, std::size_t n) {
   advise_huge_pages(list.data() + list.size(), (list.capacity() - list.size()) * sizeof(T));
 }
 
-/// Has every item of a large array written by f(begin, end), on all threads.
+/// Has every item of a large array written by f(begin, end), on all threads: one stretch each, for two threads that
+/// touch the same fresh huge page first both clear all of it.
 template <class F>
 void fill_ranges(std::size_t n, F&& f) {
   constexpr std::size_t grain = 1 << 15;
   if (n <= grain) return f(std::size_t{0}, n);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
-                    [&](const auto& range) { f(range.begin(), range.end()); });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& range) { f(range.begin(), range.end()); },
+      tbb::static_partitioner());
 }
 
 /// list.resize(n, value), written on all threads.

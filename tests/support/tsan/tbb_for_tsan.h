@@ -71,6 +71,11 @@ void parallel_for(const blocked_range<T>& range, const F& f) {
                        range.begin() + static_cast<T>(n * (i + 1) / n_pieces)));
   });
 }
+struct static_partitioner {};
+template <class T, class F>
+void parallel_for(const blocked_range<T>& range, const F& f, const static_partitioner&) {
+  parallel_for(range, f);
+}
 template <class F>
 void parallel_for(std::size_t begin, std::size_t end, const F& f) {
   parallel_for(blocked_range<std::size_t>(begin, end), [&](const auto& range) {
