@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 
 namespace hextwist::app {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "console.h"
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 
 namespace hextwist::app {
 

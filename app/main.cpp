@@ -6,7 +6,7 @@
 
 #include "console.h"
 #include "exit_status.h"
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 #include "interactive.h"
 #include "options.h"
 #include "report.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "exit_status.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 
 namespace hextwist::app {
 namespace {

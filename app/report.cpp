@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "hextwist/command/record_json_internal.h"
+#include "hextwist/session/record_json.h"
 
 namespace hextwist::app {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 
 namespace hextwist::app {
 

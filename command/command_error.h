@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hextwist/command/token.h"
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
 
 namespace hextwist {
 

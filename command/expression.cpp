@@ -12,7 +12,7 @@
 
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/reader.h"
-#include "hextwist/command/written_internal.h"
+#include "hextwist/command/written.h"
 
 namespace hextwist {
 namespace {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
 
 namespace hextwist {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/command/entity.h"
+#include "hextwist/mesh/entity.h"
 
 namespace hextwist {
 

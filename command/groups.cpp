@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "hextwist/command/selection.h"
+#include "hextwist/command/select/selection.h"
 
 namespace hextwist {
 namespace {

@@ -1,7 +1,7 @@
 // The table of all commands. Adding one means adding a row here and a function in the session.
 
 #include "hextwist/command/syntax.h"
-#include "hextwist/refine/uniform.h"
+#include "hextwist/refine/templates/uniform.h"
 
 namespace hextwist {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hextwist/command/command_error.h"
-#include "hextwist/command/range.h"
+#include "hextwist/command/select/range.h"
 #include "hextwist/command/token.h"
 
 namespace hextwist {

@@ -8,7 +8,7 @@
 
 #include "hextwist/command/pattern_internal.h"
 #include "hextwist/command/reader.h"
-#include "hextwist/command/written_internal.h"
+#include "hextwist/command/written.h"
 
 namespace hextwist {
 namespace {

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hextwist/command/range.h"
+#include "hextwist/command/select/range.h"
 #include "hextwist/command/token.h"
 
 namespace hextwist {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/io_internal.h"
+#include "hextwist/io/format.h"
 
 namespace hextwist {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hextwist/embed/c.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 
 namespace hextwist {
 

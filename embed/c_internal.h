@@ -4,7 +4,7 @@
 #include <atomic>
 #include <memory>
 
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 #include "hextwist/embed/c.h"
 #include "hextwist/embed/mesh_view.h"
 

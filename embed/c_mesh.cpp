@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "hextwist/embed/c_internal.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 
 using namespace hextwist;
 using namespace hextwist::embed;

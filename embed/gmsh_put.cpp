@@ -3,7 +3,7 @@
 
 #include "hextwist/embed/gmsh_exchange.h"
 #include "hextwist/embed/gmsh_internal.h"
-#include "hextwist/mesh/io_gmsh_internal.h"
+#include "hextwist/io/gmsh/gmsh.h"
 
 namespace hextwist {
 

@@ -4,10 +4,10 @@
 
 #include "hextwist/embed/gmsh_exchange.h"
 #include "hextwist/embed/gmsh_internal.h"
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/renumbered_model.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/io_gmsh_internal.h"
+#include "hextwist/io/gmsh/gmsh.h"
 
 namespace hextwist {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/geom/model.h"
 
 namespace hextwist {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/geom/owner.h"
 
 namespace hextwist {
 

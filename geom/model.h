@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
+#include "hextwist/geom/owner.h"
 
 namespace hextwist {
 

@@ -3,7 +3,7 @@
 // Every one is centred at the origin. mesh/primitives.h makes hex meshes that lie exactly on them.
 #pragma once
 
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 
 namespace hextwist {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
 
 namespace hextwist {
 

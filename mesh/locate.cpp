@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <numeric>
 
-#include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist {

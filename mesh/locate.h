@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "hextwist/geom/box_tree.h"
+#include "hextwist/base/box_tree.h"
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist {

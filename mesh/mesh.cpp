@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist {
 namespace {

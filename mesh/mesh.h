@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
 
 namespace hextwist {
-
-/// Position in an array, 0-based. Ids shown to users are 1-based or come from the file (node_id(), hex_id()).
-using Index = std::int32_t;
 
 /// Corner c lies at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube (see corners.h). Positive volume when that
 /// frame is right-handed.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "hextwist/mesh/topology_internal.h"
-#include "hextwist/mesh/union_find_internal.h"
+#include "hextwist/mesh/loose_topology.h"
+#include "hextwist/base/union_find.h"
 
 namespace hextwist {
 namespace {

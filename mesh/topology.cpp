@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/large_array_internal.h"
-#include "hextwist/mesh/parallel_internal.h"
-#include "hextwist/mesh/topology_internal.h"
+#include "hextwist/base/large_array.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "hextwist/mesh/large_array_internal.h"
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/large_array.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {

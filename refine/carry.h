@@ -1,7 +1,7 @@
 // Hands everything that an old mesh knew to its refinement: ids, blocks, sets, fields, association.
 #pragma once
 
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/refine/split.h"
 
 namespace hextwist {

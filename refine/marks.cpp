@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/refine/trisect.h"
+#include "hextwist/refine/templates/trisect.h"
 
 namespace hextwist {
 namespace {

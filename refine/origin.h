@@ -5,7 +5,7 @@
 #include <span>
 
 #include "hextwist/refine/lineage.h"
-#include "hextwist/refine/split_table.h"
+#include "hextwist/refine/templates/split_table.h"
 
 namespace hextwist {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/geom/interrupt.h"
-#include "hextwist/mesh/large_array_internal.h"
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/large_array.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {

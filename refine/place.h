@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hextwist/geom/model.h"
-#include "hextwist/mesh/association.h"
-#include "hextwist/mesh/smooth.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/split.h"
 
 namespace hextwist {

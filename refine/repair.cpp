@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/mesh/parallel_internal.h"
-#include "hextwist/mesh/quality.h"
-#include "hextwist/mesh/smooth.h"
-#include "hextwist/mesh/topology_internal.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/place.h"
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "hextwist/mesh/large_array_internal.h"
-#include "hextwist/mesh/memory_internal.h"
-#include "hextwist/mesh/parallel_internal.h"
-#include "hextwist/mesh/topology_internal.h"
+#include "hextwist/base/large_array.h"
+#include "hextwist/base/memory.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hextwist/refine/lineage.h"
-#include "hextwist/refine/split_table.h"
+#include "hextwist/refine/templates/split_table.h"
 
 namespace hextwist {
 

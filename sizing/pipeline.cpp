@@ -1,4 +1,4 @@
-#include "hextwist/sizing/pipeline_internal.h"
+#include "hextwist/sizing/pipeline.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,13 +6,13 @@
 #include <ranges>
 #include <utility>
 
-#include "hextwist/geom/interrupt.h"
-#include "hextwist/mesh/parallel_internal.h"
-#include "hextwist/mesh/quality.h"
-#include "hextwist/mesh/smooth.h"
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
-#include "hextwist/sizing/adapt.h"
+#include "hextwist/sizing/levels.h"
 
 namespace hextwist {
 namespace {

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "hextwist/geom/model.h"
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
-#include "hextwist/mesh/quality.h"
-#include "hextwist/mesh/validate.h"
+#include "hextwist/mesh/meshed_model.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/validate/validate.h"
 #include "hextwist/refine/lineage.h"
 #include "hextwist/refine/place.h"
 
@@ -20,13 +21,6 @@ namespace hextwist {
 
 struct Outliers;
 class SizeField;
-
-/// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
-struct MeshedModel {
-  Mesh mesh;
-  std::shared_ptr<const Model> model;
-  Association association;
-};
 
 enum class TargetKind { node, edge, face, hex, vertex, curve, surface, volume };
 const char* name(TargetKind kind);
@@ -173,10 +167,5 @@ struct RefineResult {
   std::vector<Index> origin;  ///< over all passes: per hex, the hex of the input that it lies in; empty for a dry run
   Report report;
 };
-
-/// Runs a request. The input is not changed. The result is conformal and all-hex; it is uninverted and on the model
-/// unless the report has violations (the caller decides whether to keep such a mesh; the program does not).
-/// Throws Error for unknown ids, out-of-range options, CAD targets without a model; Cancelled.
-RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress = {});
 
 }  // namespace hextwist

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {

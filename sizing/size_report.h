@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hextwist/sizing/request.h"
-#include "hextwist/sizing/size_field.h"
+#include "hextwist/sizing/fields/size_field.h"
 
 namespace hextwist {
 

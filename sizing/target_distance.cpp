@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/mesh/locate.h"
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist {

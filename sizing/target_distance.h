@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/geom/box_tree.h"
+#include "hextwist/base/box_tree.h"
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/parallel_internal.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/refine/marks.h"
-#include "hextwist/refine/split_table.h"
+#include "hextwist/refine/templates/split_table.h"
 #include "hextwist/sizing/target_distance.h"
 
 namespace hextwist {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/refine/combine.h"
+#include "hextwist/refine/plans/combine.h"
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {

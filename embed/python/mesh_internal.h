@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "hextwist/command/entity.h"
+#include "hextwist/mesh/entity.h"
 #include "hextwist/embed/arrays.h"
 #include "hextwist/embed/mesh_view.h"
 #include "hextwist/embed/python/convert_internal.h"

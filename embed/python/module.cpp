@@ -5,7 +5,7 @@
 #include "hextwist/embed/python/mesh_internal.h"
 #include "hextwist/embed/python/records_internal.h"
 #include "hextwist/embed/python/session_internal.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist::python {
 namespace {

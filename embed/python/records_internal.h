@@ -1,7 +1,7 @@
 // Records of commands as dictionaries.
 #pragma once
 
-#include "hextwist/command/record_json_internal.h"
+#include "hextwist/session/record_json.h"
 #include "hextwist/embed/python/convert_internal.h"
 
 namespace hextwist::python {

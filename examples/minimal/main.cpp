@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <iostream>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/association.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/io/io.h"
+#include "hextwist/patch/refine.h"
 
 int main(int argc, char** argv) try {
   if (argc < 5) {

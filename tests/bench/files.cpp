@@ -8,7 +8,7 @@
 
 #include "exodus_floor.h"
 #include "groups.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "measure.h"
 #include "meshes.h"
 

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
 #include "hextwist/mesh/primitives.h"
 
 namespace hextwist::bench {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 
 namespace hextwist::bench {
 

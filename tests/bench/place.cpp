@@ -6,11 +6,11 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 
 #include "groups.h"
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 #include "hextwist/mesh/primitives.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
-#include "hextwist/refine/uniform.h"
+#include "hextwist/refine/templates/uniform.h"
 #include "measure.h"
 #include "meshes.h"
 

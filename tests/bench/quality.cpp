@@ -1,8 +1,8 @@
 // Goal 8: quality of a million hexes.
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 
 #include "groups.h"
-#include "hextwist/mesh/validate.h"
+#include "hextwist/mesh/validate/validate.h"
 #include "measure.h"
 #include "meshes.h"
 

@@ -1,5 +1,5 @@
 // Goal 7: smoothing.
-#include "hextwist/mesh/smooth.h"
+#include "hextwist/mesh/smooth/smooth.h"
 
 #include <chrono>
 #include <ctime>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "groups.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "measure.h"
 #include "meshes.h"
 

@@ -5,8 +5,8 @@
 #include "groups.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
-#include "hextwist/refine/trisect.h"
-#include "hextwist/refine/uniform.h"
+#include "hextwist/refine/templates/trisect.h"
+#include "hextwist/refine/templates/uniform.h"
 #include "measure.h"
 #include "meshes.h"
 

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/primitives.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "range_fixture.h"
 
 namespace hextwist {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "command/session_fixture.h"
-#include "hextwist/command/picture_internal.h"
+#include "hextwist/session/view/picture.h"
 
 namespace hextwist {
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "hextwist/command/braces.h"
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 #include "hextwist/command/syntax.h"
 
 namespace hextwist {

@@ -5,7 +5,7 @@
 
 #include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 #include "support/grids.h"
 
 namespace hextwist::test {

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "command/session_fixture.h"
-#include "hextwist/sizing/patch_internal.h"
+#include "hextwist/patch/patch.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
 

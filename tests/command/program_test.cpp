@@ -8,7 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hextwist/command/command_error.h"
-#include "hextwist/command/selection.h"
+#include "hextwist/command/select/selection.h"
 #include "hextwist/command/syntax.h"
 #include "meshed_brick.h"
 

@@ -1,5 +1,5 @@
 // What ranges mean, on a grid of 4 x 3 x 2 unit cubes.
-#include "hextwist/command/selection.h"
+#include "hextwist/command/select/selection.h"
 
 #include <gtest/gtest.h>
 

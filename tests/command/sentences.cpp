@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/command/criterion.h"
+#include "hextwist/command/select/criterion.h"
 
 namespace hextwist::test {
 std::string Sentences::sentence(const CommandSpec& command) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 #include "support/grids.h"
 
 namespace hextwist::test {

@@ -1,5 +1,5 @@
 // What commands do to a session.
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "command/session_fixture.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

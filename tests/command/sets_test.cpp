@@ -5,7 +5,7 @@
 
 #include "command/session_fixture.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "support/checkers.h"
 
 namespace hextwist {

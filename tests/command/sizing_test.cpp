@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/command/session.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/sizing/adapt.h"
+#include "hextwist/session/session.h"
+#include "hextwist/io/io.h"
+#include "hextwist/patch/adapt.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

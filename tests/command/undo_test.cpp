@@ -4,7 +4,7 @@
 #include <random>
 
 #include "command/session_fixture.h"
-#include "hextwist/command/undo_internal.h"
+#include "hextwist/session/history_internal.h"
 #include "support/checkers.h"
 
 namespace hextwist {

@@ -1,4 +1,4 @@
-#include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/facet/bilinear.h"
 
 #include <gtest/gtest.h>
 

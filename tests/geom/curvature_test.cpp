@@ -8,8 +8,8 @@
 #include <random>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/facet_curvature_internal.h"
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/facet/curvature_internal.h"
+#include "hextwist/geom/occ/model.h"
 #include "support/grids.h"
 #include "support/skins.h"
 

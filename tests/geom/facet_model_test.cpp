@@ -1,4 +1,4 @@
-#include "hextwist/geom/facet_model.h"
+#include "hextwist/geom/facet/model.h"
 
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "hextwist/geom/bilinear.h"
+#include "hextwist/geom/facet/bilinear.h"
 #include "support/grids.h"
 #include "support/model_checks.h"
 #include "support/skins.h"

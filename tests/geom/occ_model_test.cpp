@@ -8,7 +8,7 @@
 #include <random>
 
 #include "geom/occ_shapes.h"
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 #include "support/grids.h"
 
 namespace hextwist {

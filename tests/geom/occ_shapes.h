@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/geom/occ_model.h"
+#include "hextwist/geom/occ/model.h"
 
 namespace hextwist::test {
 

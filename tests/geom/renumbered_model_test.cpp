@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "hextwist/geom/curvature.h"
-#include "hextwist/geom/facet_model.h"
+#include "hextwist/geom/facet/model.h"
 #include "hextwist/geom/primitives.h"
 #include "support/grids.h"
 #include "support/skins.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 

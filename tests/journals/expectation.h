@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/command/session.h"
+#include "hextwist/session/session.h"
 
 namespace hextwist::test {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <bit>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/association.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/io/io.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "support/grids.h"
 
 namespace hextwist {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/corners.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"

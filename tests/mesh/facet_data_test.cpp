@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "hextwist/geom/bilinear.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/facet/bilinear.h"
+#include "hextwist/io/io.h"
 #include "support/grids.h"
 #include "support/model_checks.h"
 #include "support/skins.h"

@@ -1,11 +1,11 @@
-#include "hextwist/mesh/fresh_memory_internal.h"
+#include "hextwist/base/fresh_memory.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <string>
 
-#include "hextwist/mesh/large_array_internal.h"
+#include "hextwist/base/large_array.h"
 
 namespace hextwist {
 namespace {

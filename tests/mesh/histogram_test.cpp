@@ -1,4 +1,4 @@
-#include "hextwist/mesh/histogram.h"
+#include "hextwist/mesh/quality/histogram.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

@@ -1,10 +1,10 @@
-#include "hextwist/mesh/memory_internal.h"
+#include "hextwist/base/memory.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "hextwist/geom/types.h"
+#include "hextwist/base/types.h"
 
 namespace hextwist::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/association.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/topology.h"
 #include "support/checkers.h"
 #include "support/skins.h"

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "support/grids.h"
 
 namespace hextwist {

@@ -1,4 +1,4 @@
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

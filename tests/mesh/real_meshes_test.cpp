@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "hextwist/mesh/sheets.h"
-#include "hextwist/mesh/validate.h"
+#include "hextwist/mesh/validate/validate.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

@@ -1,7 +1,7 @@
 // Real meshes, against what an outside smoother made of them.
 #include <fstream>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "smooth_fixtures.h"
 #include "support/checkers.h"
 

@@ -1,8 +1,8 @@
 // Energies of one node against quality(), their derivatives against differences.
 #include <gtest/gtest.h>
 
-#include "hextwist/mesh/smooth_condition_internal.h"
-#include "hextwist/mesh/smooth_sweep_internal.h"
+#include "hextwist/mesh/smooth/condition_internal.h"
+#include "hextwist/mesh/smooth/sweep_internal.h"
 #include "smooth_fixtures.h"
 
 namespace hextwist::test {

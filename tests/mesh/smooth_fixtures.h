@@ -4,7 +4,7 @@
 #include <random>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/smooth.h"
+#include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/topology.h"
 #include "support/grids.h"
 

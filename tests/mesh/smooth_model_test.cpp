@@ -1,6 +1,6 @@
 // Nodes slide on curves and surfaces and stay on them.
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 #include "smooth_fixtures.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"

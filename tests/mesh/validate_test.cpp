@@ -1,4 +1,4 @@
-#include "hextwist/mesh/validate.h"
+#include "hextwist/mesh/validate/validate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

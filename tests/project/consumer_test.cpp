@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "source_tree.h"
 #include "support/checkers.h"
 #include "support/grids.h"

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/association.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/mesh/quality.h"
-#include "hextwist/mesh/validate.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/validate/validate.h"
 #include "source_tree.h"
 #include "support/checkers.h"
 

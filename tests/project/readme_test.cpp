@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "source_tree.h"
 #include "support/grids.h"
 

@@ -1,13 +1,13 @@
-#include "hextwist/refine/combine.h"
+#include "hextwist/refine/plans/combine.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "hextwist/mesh/quality.h"
-#include "hextwist/refine/enclose.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/split.h"
-#include "hextwist/refine/trisect.h"
+#include "hextwist/refine/templates/trisect.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/refined.h"

@@ -6,7 +6,7 @@
 
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/split.h"
-#include "hextwist/refine/trisect.h"
+#include "hextwist/refine/templates/trisect.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/refined.h"

@@ -1,13 +1,13 @@
 // One into eight by itself: the markings it stands on, and what is decided about regions.
-#include "hextwist/refine/eight.h"
+#include "hextwist/refine/plans/eight.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <random>
 
-#include "hextwist/refine/eight_internal.h"
-#include "hextwist/refine/enclose.h"
+#include "hextwist/refine/plans/eight_internal.h"
+#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/split.h"
 #include "support/grids.h"
 

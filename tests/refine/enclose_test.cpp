@@ -1,11 +1,11 @@
-#include "hextwist/refine/enclose.h"
+#include "hextwist/refine/templates/enclose.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <random>
 
-#include "hextwist/mesh/quality.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/split.h"
 #include "support/checkers.h"
 #include "support/grids.h"

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "hextwist/mesh/quality.h"
-#include "hextwist/refine/trisect.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/refine/templates/trisect.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/refined.h"

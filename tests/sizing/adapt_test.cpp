@@ -1,5 +1,5 @@
 // Adaptive refinement: flags and sizes in, mesh and origin out, levels graded.
-#include "hextwist/sizing/adapt.h"
+#include "hextwist/patch/adapt.h"
 
 #include <gtest/gtest.h>
 

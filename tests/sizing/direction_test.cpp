@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
 #include "hextwist/mesh/sheets.h"
-#include "hextwist/sizing/request.h"
-#include "hextwist/sizing/verify.h"
+#include "hextwist/patch/refine.h"
+#include "hextwist/patch/verify.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -4,10 +4,10 @@
 #include <numeric>
 #include <random>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/refine/eight.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/refine/plans/eight.h"
+#include "hextwist/patch/refine.h"
 #include "hextwist/sizing/targets.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/io/io.h"
+#include "hextwist/patch/refine.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

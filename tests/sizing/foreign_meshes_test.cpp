@@ -1,9 +1,9 @@
 // Meshes without CAD, from other programs: refined on their own skin and written back in every format.
 #include <gtest/gtest.h>
 
-#include "hextwist/mesh/io.h"
+#include "hextwist/io/io.h"
 #include "hextwist/mesh/sheets.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/grids.h"

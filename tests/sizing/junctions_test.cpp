@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/patch/refine.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/grids.h"

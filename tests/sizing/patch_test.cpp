@@ -4,12 +4,12 @@
 #include <cstring>
 #include <random>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/mesh/validate.h"
-#include "hextwist/sizing/neighbours_internal.h"
-#include "hextwist/sizing/patch_refine_internal.h"
-#include "hextwist/sizing/verify.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/validate/validate.h"
+#include "hextwist/patch/neighbours.h"
+#include "hextwist/patch/patch_refine.h"
+#include "hextwist/patch/verify.h"
 #include "support/grids.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"

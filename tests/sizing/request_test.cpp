@@ -1,5 +1,5 @@
 // What a request means: depth, numsplit, techniques, and what is refused.
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

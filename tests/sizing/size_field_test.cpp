@@ -1,5 +1,5 @@
 // Size fields against closed forms and brute force.
-#include "hextwist/sizing/size_field.h"
+#include "hextwist/sizing/fields/size_field.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <random>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/facet_model.h"
+#include "hextwist/geom/facet/model.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/sizing/gradation.h"
+#include "hextwist/sizing/fields/gradation.h"
 #include "hextwist/sizing/targets.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/sizing/request.h"
-#include "hextwist/sizing/size_field.h"
+#include "hextwist/patch/refine.h"
+#include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/targets.h"
 #include "support/checkers.h"
 #include "support/grids.h"

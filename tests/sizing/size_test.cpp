@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/sizing/size_field.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/sizing/fields/size_field.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

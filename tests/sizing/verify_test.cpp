@@ -1,12 +1,12 @@
 // Verifying a small change where it is, against verifying everything.
-#include "hextwist/sizing/verify.h"
+#include "hextwist/patch/verify.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
 #include "hextwist/mesh/primitives.h"
 #include "support/grids.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hextwist/mesh/association.h"
+#include "hextwist/mesh/association/association.h"
 
 namespace hextwist::test {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "hextwist/geom/analytic_model.h"
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

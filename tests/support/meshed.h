@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 
 namespace hextwist::test {
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "hextwist/geom/occ_model.h"
-#include "hextwist/mesh/io.h"
-#include "hextwist/mesh/quality.h"
-#include "hextwist/mesh/smooth.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/smooth/smooth.h"
 
 namespace hextwist::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/patch/refine.h"
 
 namespace hextwist::test {
 

@@ -1,6 +1,6 @@
 #include "support/refined.h"
 
-#include "hextwist/refine/trisect.h"
+#include "hextwist/refine/templates/trisect.h"
 
 namespace hextwist::test {
 

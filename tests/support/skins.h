@@ -1,7 +1,7 @@
 // Skins of meshes, as facet_model() wants them, and meshes with interesting skins.
 #pragma once
 
-#include "hextwist/geom/facet_model.h"
+#include "hextwist/geom/facet/model.h"
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist::test {

@@ -1,0 +1,24 @@
+#include "hextwist/base/interrupt.h"
+
+#include <utility>
+
+namespace hextwist {
+namespace {
+
+thread_local const Interruptible* innermost = nullptr;
+
+}  // namespace
+
+Interruptible::Interruptible(std::function<void()> ask) : ask_(std::move(ask)), outer_(innermost) {
+  innermost = this;
+}
+
+Interruptible::~Interruptible() {
+  innermost = outer_;
+}
+
+void may_go_on() {
+  if (innermost) innermost->ask_();
+}
+
+}  // namespace hextwist

@@ -1,0 +1,42 @@
+// Small value types shared by every room: points, indices, boxes, errors.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace hextwist {
+
+/// A point or vector in model units.
+using Vec3 = Eigen::Vector3d;
+
+/// Position in an array, 0-based. Ids shown to users are 1-based or come from the file (node_id(), hex_id()).
+using Index = std::int32_t;
+
+/// Bad input: names the file, line, entity or id that is wrong. what() is one line, ready to be shown to a user.
+/// Programmer errors are asserts, geometric disappointments are rows of a report; neither is an Error.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Axis-aligned box; empty until a point is added.
+struct Box {
+  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+  bool empty() const { return !(min.x() <= max.x()); }
+  void add(const Vec3& p) {
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+  }
+  void add(const Box& other) {
+    min = min.cwiseMin(other.min);
+    max = max.cwiseMax(other.max);
+  }
+  /// Length of the diagonal, 0 when empty: what "model size" means everywhere.
+  double diagonal() const { return empty() ? 0 : (max - min).norm(); }
+};
+
+}  // namespace hextwist

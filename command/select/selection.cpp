@@ -1,0 +1,449 @@
+#include "hextwist/command/select/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <span>
+
+#include "hextwist/command/command_error.h"
+#include "hextwist/command/reader.h"
+
+namespace hextwist {
+namespace {
+
+using Flags = std::vector<char>;
+
+/// The existing ids of a kind in ascending order: rank -> id, position.
+class IdTable {
+ public:
+  IdTable(const Selector& selector, EntityKind kind) : n_(count(selector, kind)) {
+    const Mesh& mesh = selector.meshed.mesh;
+    if (kind == EntityKind::node) ids_ = mesh.node_ids;
+    if (kind == EntityKind::hex) ids_ = mesh.hex_ids;
+    if (kind == EntityKind::block || kind == EntityKind::nodeset || kind == EntityKind::sideset ||
+        kind == EntityKind::group) {
+      positions_.resize(n_);
+      std::iota(positions_.begin(), positions_.end(), Index{0});
+      std::ranges::sort(positions_, {}, [&](Index i) { return id_of(selector, kind, i); });
+      for (const Index i : positions_) own_.push_back(id_of(selector, kind, i));
+      ids_ = own_;
+    }
+  }
+  IdTable(const IdTable&) = delete;
+
+  Index size() const { return n_; }
+  std::int64_t id(Index rank) const { return ids_.empty() ? std::int64_t{rank} + 1 : ids_[rank]; }
+  Index position(Index rank) const { return positions_.empty() ? rank : positions_[rank]; }
+  /// Rank of the first id that is at least this.
+  Index lower(std::int64_t wanted) const {
+    if (ids_.empty()) return static_cast<Index>(std::clamp<std::int64_t>(wanted - 1, 0, n_));
+    return static_cast<Index>(std::ranges::lower_bound(ids_, wanted) - ids_.begin());
+  }
+
+ private:
+  Index n_;
+  std::span<const std::int64_t> ids_;  // empty: 1 .. n
+  std::vector<std::int64_t> own_;
+  std::vector<Index> positions_;
+};
+
+std::string one(EntityKind kind, std::int64_t id) {
+  return std::string(name(kind)) + " " + std::to_string(id);
+}
+
+class Evaluation {
+ public:
+  Evaluation(const Selector& selector, const Statement& statement, std::vector<std::string>& notices)
+      : selector_(selector), statement_(statement), notices_(notices) {}
+
+  std::vector<Index> range(EntityKind kind, const Range& range) {
+    if (count(selector_, kind) == 0) refuse_nothing(kind, range.token);
+    Flags chosen(count(selector_, kind), range.items.empty());
+    items(kind, range.items, chosen);
+    for (const RangeFilter& filter : range.filters) {
+      switch (filter.kind) {
+        case RangeFilter::Kind::in:
+          in(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::common_to:
+          common_to(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::with:
+          with(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::field:
+          field(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::except:
+          except(kind, filter, chosen);
+      }
+    }
+    return positions(chosen);
+  }
+
+ private:
+  const Selector& selector_;
+  const Statement& statement_;
+  std::vector<std::string>& notices_;
+
+  static std::vector<Index> positions(const Flags& flags) {
+    std::vector<Index> result;
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      if (flags[i]) result.push_back(static_cast<Index>(i));
+    return result;
+  }
+
+  void except(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    Flags dropped(chosen.size(), 0);
+    for (const Index i : range(kind, filter.terms[0].range)) dropped[i] = 1;
+    bool any = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      any |= chosen[i] && dropped[i];
+      chosen[i] = chosen[i] && !dropped[i];
+    }
+    if (!any)
+      notices_.push_back("'except' took nothing away: none of those " + std::string(plural(kind)) +
+                         " was in the list before it");
+  }
+
+  /// Calls f(kind, positions) for what a term means; a bare name may mean entities of several kinds.
+  template <class F>
+  void for_each_kind(const RangeTerm& term, F f) {
+    if (!term.any_kind) return f(term.kind, range(term.kind, term.range));
+    const RangeItem& item = term.range.items.front();
+    bool found = false;
+    for (int k = 0; k < n_entity_kinds; ++k) {
+      const auto kind = static_cast<EntityKind>(k);
+      Flags chosen(has_names(kind) ? count(selector_, kind) : 0, 0);
+      if (!find_named(kind, item.name, chosen)) continue;
+      found = true;
+      f(kind, positions(chosen));
+    }
+    if (found) return;
+    std::vector<std::string> known;
+    for (int k = 0; k < n_entity_kinds; ++k) append_names(static_cast<EntityKind>(k), known);
+    throw error_at(statement_, item.token, "nothing is named '" + printable(item.name) + "'" + hint(item.name, known));
+  }
+
+  void in(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    Flags inside(chosen.size(), 0);
+    for (const RangeTerm& term : filter.terms)
+      for_each_kind(term, [&](EntityKind from, const std::vector<Index>& of) {
+        for (const Index i : related(selector_, from, of, kind)) inside[i] = 1;
+      });
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] && inside[i];
+  }
+
+  /// Being related is mutual, so either side can be asked; the shorter list is.
+  void common_to(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    for (const RangeTerm& term : filter.terms)
+      for_each_kind(term, [&](EntityKind from, const std::vector<Index>& of) {
+        std::vector<Index> candidates = positions(chosen);
+        if (of.size() <= candidates.size()) {
+          for (std::size_t i = 0; i < of.size() && !candidates.empty(); ++i) {
+            std::vector<Index> both;
+            std::ranges::set_intersection(candidates, related(selector_, from, {of[i]}, kind),
+                                          std::back_inserter(both));
+            candidates = std::move(both);
+          }
+        } else {
+          std::erase_if(candidates,
+                        [&](Index i) { return !std::ranges::includes(related(selector_, kind, {i}, from), of); });
+        }
+        std::ranges::fill(chosen, 0);
+        for (const Index i : candidates) chosen[i] = 1;
+      });
+  }
+
+  void with(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    const std::vector<Index> candidates = positions(chosen);
+    const std::vector<char> good = meets(selector_, statement_, kind, filter.criterion, candidates);
+    for (std::size_t i = 0; i < candidates.size(); ++i) chosen[candidates[i]] = good[i];
+  }
+
+  void field(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    if (kind != EntityKind::hex && kind != EntityKind::node)
+      throw error_at(statement_, filter.token,
+                     "fields have values at hexes and nodes, not at " + std::string(plural(kind)));
+    std::vector<Index> candidates = positions(chosen);
+    const std::vector<double> value = field_values(kind, filter);
+    using Test = RangeFilter::Test;
+    if (filter.test == Test::top) {
+      // The largest first; of equal ones those that come first.
+      std::ranges::stable_sort(candidates, std::greater{}, [&](Index i) { return value[i]; });
+      const double share = filter.value / 100 * static_cast<double>(candidates.size());
+      candidates.resize(static_cast<std::size_t>(std::ceil(share * (1 - 1e-12))));
+    } else {
+      std::erase_if(candidates, [&](Index i) {
+        return filter.test == Test::above ? !(value[i] > filter.value) : !(value[i] < filter.value);
+      });
+    }
+    std::ranges::fill(chosen, 0);
+    for (const Index i : candidates) chosen[i] = 1;
+  }
+
+  /// Of a hex: its value, or the average of its nodes. Of a node: its value. Of a vector: its length.
+  std::vector<double> field_values(EntityKind kind, const RangeFilter& filter) const {
+    const Mesh& mesh = selector_.meshed.mesh;
+    const auto fits = [&](const Field& field) {
+      return field.name == filter.field && (kind == EntityKind::hex || field.on == Field::On::node);
+    };
+    const auto found = std::ranges::find_if(mesh.fields, fits);
+    if (found == mesh.fields.end()) {
+      std::string known;
+      for (const Field& field : mesh.fields)
+        if (kind == EntityKind::hex || field.on == Field::On::node) known += (known.empty() ? "" : ", ") + field.name;
+      throw error_at(statement_, filter.token,
+                     "there is no field '" + printable(filter.field) + "' of " + std::string(plural(kind)) +
+                         (known.empty() ? "" : "; there are " + known));
+    }
+    const auto at = [&](Index i) {
+      double sum = 0;
+      for (int c = 0; c < found->components; ++c) {
+        const double x = found->values[static_cast<std::size_t>(i) * static_cast<std::size_t>(found->components) +
+                                       static_cast<std::size_t>(c)];
+        if (found->components == 1) return x;
+        sum += x * x;
+      }
+      return std::sqrt(sum);
+    };
+    std::vector<double> values(static_cast<std::size_t>(count(selector_, kind)));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (found->on == Field::On::hex || kind == EntityKind::node) {
+        values[i] = at(static_cast<Index>(i));
+        continue;
+      }
+      for (const Index n : mesh.hexes[i]) values[i] += at(n) / 8;
+    }
+    return values;
+  }
+
+  [[noreturn]] void refuse_nothing(EntityKind kind, const Token& token) const {
+    if (kind == EntityKind::group) throw error_at(statement_, token, "there are no groups");
+    if (is_cad(kind) && !selector_.meshed.model)
+      throw error_at(statement_, token, "there are no " + std::string(plural(kind)) + ": no CAD and no mesh was read");
+    if (!is_cad(kind) && selector_.meshed.mesh.n_hexes() == 0)
+      throw error_at(statement_, token, "there are no " + std::string(plural(kind)) + ": no mesh was read");
+    throw error_at(statement_, token, "there are no " + std::string(plural(kind)));
+  }
+
+  void items(EntityKind kind, const std::vector<RangeItem>& items, Flags& chosen) {
+    if (items.empty()) return;
+    const IdTable table(selector_, kind);
+    for (const RangeItem& item : items) {
+      switch (item.kind) {
+        case RangeItem::Kind::all:
+          std::ranges::fill(chosen, 1);
+          break;
+        case RangeItem::Kind::name:
+          named(kind, item, chosen);
+          break;
+        case RangeItem::Kind::at:
+          nearest(kind, item, chosen);
+          break;
+        case RangeItem::Kind::id: {
+          const Index rank = table.lower(item.first);
+          if (rank == table.size() || table.id(rank) != item.first) missing(kind, table, item.token, item.first);
+          chosen[table.position(rank)] = 1;
+          break;
+        }
+        case RangeItem::Kind::span:
+          span(kind, table, item, chosen);
+      }
+    }
+  }
+
+  [[noreturn]] void missing(EntityKind kind, const IdTable& table, const Token& token, std::int64_t id) const {
+    const std::int64_t low = table.id(0), high = table.id(table.size() - 1);
+    throw error_at(
+        statement_, token,
+        one(kind, id) + " does not exist; " +
+            (low == high ? "the only one is " + std::to_string(low)
+                         : std::string(plural(kind)) + " are " + std::to_string(low) + " to " + std::to_string(high)));
+  }
+
+  void span(EntityKind kind, const IdTable& table, const RangeItem& item, Flags& chosen) {
+    const std::int64_t high = table.id(table.size() - 1);
+    if (item.first < table.id(0)) missing(kind, table, item.token, item.first);
+    if (item.first > high) missing(kind, table, item.token, item.first);
+    const std::int64_t last = item.first + (item.last - item.first) / item.step * item.step;
+    if (last > high)
+      missing(kind, table, item.last_token, item.first + ((high - item.first) / item.step + 1) * item.step);
+    std::int64_t n_found = 0, first_gap = -1, wanted = item.first;
+    for (Index rank = table.lower(item.first); rank < table.size() && table.id(rank) <= last; ++rank) {
+      if ((table.id(rank) - item.first) % item.step) continue;
+      if (first_gap < 0 && table.id(rank) != wanted) first_gap = wanted;
+      wanted += item.step;
+      chosen[table.position(rank)] = 1;
+      ++n_found;
+    }
+    if (first_gap < 0 && n_found < (last - item.first) / item.step + 1) first_gap = wanted;
+    if (n_found == 0) missing(kind, table, item.token, item.first);
+    if (first_gap > 0)
+      notices_.push_back(std::to_string((last - item.first) / item.step + 1 - n_found) + " of the " +
+                         std::string(plural(kind)) + " " + std::to_string(item.first) + " to " +
+                         std::to_string(item.last) + " do not exist, the first is " + std::to_string(first_gap));
+  }
+
+  void nearest(EntityKind kind, const RangeItem& item, Flags& chosen) const {
+    const std::vector<Index> order = by_distance(selector_, kind, Vec3(item.point.data()));
+    if (item.first > static_cast<std::int64_t>(order.size()))
+      throw error_at(statement_, item.token,
+                     "there is no " + std::string(name(kind)) + " of ordinal " + std::to_string(item.first) +
+                         ": there are " + std::to_string(order.size()));
+    chosen[order[static_cast<std::size_t>(item.first - 1)]] = 1;
+  }
+
+  /// An exact name before one in other letters before a pattern.
+  bool find_named(EntityKind kind, const std::string& wanted, Flags& chosen) const {
+    if (wanted.empty()) return false;
+    const bool pattern = wanted.find_first_of("*?") != std::string::npos;
+    for (int looseness = 0; looseness < (pattern ? 3 : 2); ++looseness) {
+      bool any = false;
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const std::string is = name_of(selector_, kind, static_cast<Index>(i));
+        if (is.empty()) continue;
+        if (looseness == 0 ? is == wanted : looseness == 1 ? same_word(is, wanted) : matches(is, wanted))
+          chosen[i] = any = true;
+      }
+      if (any) return true;
+    }
+    return false;
+  }
+
+  void append_names(EntityKind kind, std::vector<std::string>& names) const {
+    const Index n = has_names(kind) ? count(selector_, kind) : 0;
+    for (Index i = 0; i < n; ++i)
+      if (std::string is = name_of(selector_, kind, i); !is.empty()) names.push_back(std::move(is));
+  }
+
+  /// What may have been meant: the nearest name, or the names that there are.
+  static std::string hint(const std::string& wanted, std::vector<std::string> known) {
+    std::ranges::sort(known);
+    known.erase(std::ranges::unique(known).begin(), known.end());
+    if (const std::string near = nearest_word(wanted, known); !near.empty())
+      return " (did you mean '" + printable(near) + "'?)";
+    constexpr std::size_t most = 8;
+    if (known.empty()) return "";
+    const bool cut = known.size() > most;
+    if (cut) known.resize(most);
+    std::string result = "; there are ";
+    for (std::size_t i = 0; i < known.size(); ++i)
+      result += std::string(i == 0 ? "'" : ", '") + printable(known[i]) + "'";
+    return result + (cut ? ", ..." : "");
+  }
+
+  void named(EntityKind kind, const RangeItem& item, Flags& chosen) const {
+    if (find_named(kind, item.name, chosen)) return;
+    std::vector<std::string> known;
+    append_names(kind, known);
+    throw error_at(
+        statement_, item.token,
+        "no " + std::string(name(kind)) + " is named '" + printable(item.name) + "'" + hint(item.name, known));
+  }
+};
+
+}  // namespace
+
+const Edges& DerivedTopology::edges() {
+  if (!edges_) edges_ = hextwist::edges(mesh_);
+  return *edges_;
+}
+const Faces& DerivedTopology::faces() {
+  if (!faces_) faces_ = hextwist::faces(mesh_);
+  return *faces_;
+}
+const Sheets& DerivedTopology::sheets() {
+  if (!sheets_) sheets_ = hextwist::sheets(mesh_, edges());
+  return *sheets_;
+}
+
+Index count(const Selector& selector, EntityKind kind) {
+  const auto& [meshed, topology, groups] = selector;
+  if (kind == EntityKind::group) return static_cast<Index>(groups.size());
+  if (is_cad(kind)) return meshed.model ? meshed.model->count(dimension(kind)) : 0;
+  if (meshed.mesh.n_hexes() == 0) return 0;
+  switch (kind) {
+    case EntityKind::node:
+      return meshed.mesh.n_nodes();
+    case EntityKind::edge:
+      return static_cast<Index>(topology.edges().nodes.size());
+    case EntityKind::face:
+      return static_cast<Index>(topology.faces().nodes.size());
+    case EntityKind::hex:
+      return meshed.mesh.n_hexes();
+    case EntityKind::block:
+      return static_cast<Index>(meshed.mesh.blocks.size());
+    case EntityKind::nodeset:
+      return static_cast<Index>(meshed.mesh.node_sets.size());
+    case EntityKind::sideset:
+      return static_cast<Index>(meshed.mesh.side_sets.size());
+    default:
+      return topology.sheets().edges.size();
+  }
+}
+
+std::int64_t id_of(const Selector& selector, EntityKind kind, Index position) {
+  const Mesh& mesh = selector.meshed.mesh;
+  switch (kind) {
+    case EntityKind::node:
+      return node_id(mesh, position);
+    case EntityKind::hex:
+      return hex_id(mesh, position);
+    case EntityKind::block:
+      return mesh.blocks[position].id;
+    case EntityKind::nodeset:
+      return mesh.node_sets[position].id;
+    case EntityKind::sideset:
+      return mesh.side_sets[position].id;
+    case EntityKind::group:
+      return selector.groups[position].id;
+    default:
+      return std::int64_t{position} + 1;
+  }
+}
+
+std::string name_of(const Selector& selector, EntityKind kind, Index position) {
+  const Mesh& mesh = selector.meshed.mesh;
+  if (is_cad(kind)) return selector.meshed.model->name({dimension(kind), position + 1});
+  switch (kind) {
+    case EntityKind::block:
+      return mesh.blocks[position].name;
+    case EntityKind::nodeset:
+      return mesh.node_sets[position].name;
+    case EntityKind::sideset:
+      return mesh.side_sets[position].name;
+    case EntityKind::group:
+      return selector.groups[position].name;
+    default:
+      return "";
+  }
+}
+
+bool matches(std::string_view name, std::string_view pattern) {
+  // The last * is tried against longer and longer text; earlier ones need not be tried again.
+  std::size_t n = 0, p = 0, star = std::string_view::npos, resume = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || same_word(name.substr(n, 1), pattern.substr(p, 1)))) {
+      ++n;
+      ++p;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+std::vector<Index> select(const Selector& selector, const Statement& statement, EntityKind kind, const Range& range,
+                          std::vector<std::string>& notices) {
+  return Evaluation(selector, statement, notices).range(kind, range);
+}
+
+}  // namespace hextwist

@@ -1,0 +1,191 @@
+#include "hextwist/geom/occ/heal_internal.h"
+
+#include <BOPAlgo_Builder.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "hextwist/base/types.h"
+
+namespace hextwist::occ {
+namespace {
+
+int count_kind(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map.Extent();
+}
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return std::abs(properties.Mass());
+}
+
+double size_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
+std::string in_words(double x) {
+  std::ostringstream s;
+  s.precision(3);
+  s << x;
+  return s.str();
+}
+
+TopoDS_Solid solid_from(const TopoDS_Shape& shell) {
+  TopoDS_Solid solid;
+  BRep_Builder builder;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
+bool inside(const TopoDS_Shape& shell, const TopoDS_Solid& solid) {
+  const TopExp_Explorer vertex(shell, TopAbs_VERTEX);
+  if (!vertex.More()) return false;
+  BRepClass3d_SolidClassifier classifier(solid, BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())), 1e-9);
+  return classifier.State() == TopAbs_IN;
+}
+
+void rename(ShapeNames& names, const TopoDS_Shape& from, const TopoDS_Shape& to) {
+  const auto found = names.find(from.TShape().get());
+  if (found != names.end()) names.emplace(to.TShape().get(), std::string(found->second));
+}
+
+}  // namespace
+
+int count_solids(const TopoDS_Shape& shape) {
+  return count_kind(shape, TopAbs_SOLID);
+}
+
+void make_solids(Part& part) {
+  const int n_faces = count_kind(part.shape, TopAbs_FACE);
+  if (n_faces == 0) return;
+  const double tolerance = std::max(1e-6, 1e-6 * size_of(part.shape));
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  sewing.Add(part.shape);
+  sewing.Perform();
+  const TopoDS_Shape sewed = sewing.SewedShape();
+  if (sewed.IsNull()) return;
+  for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
+  }
+  std::vector<TopoDS_Solid> solids;
+  for (TopExp_Explorer shells(sewed, TopAbs_SHELL); shells.More(); shells.Next()) {
+    if (BRep_Tool::IsClosed(shells.Current())) solids.push_back(solid_from(shells.Current()));
+  }
+  if (solids.empty()) {
+    part.notices.push_back("sewed " + std::to_string(n_faces) + " faces, but they do not close: " +
+                           std::to_string(sewing.NbFreeEdges()) + " edges bound one face only");
+    return;
+  }
+  // A shell inside an odd number of others is a cavity of the innermost of them.
+  const std::size_t n = solids.size();
+  std::vector<std::vector<std::size_t>> around(n);
+  for (std::size_t i = 0; i < n && n > 1; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (i != j && inside(solids[i], solids[j])) around[i].push_back(j);
+    }
+  }
+  BRep_Builder builder;
+  TopoDS_Compound result;
+  builder.MakeCompound(result);
+  int n_solids = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (around[i].size() % 2 == 1) continue;
+    TopoDS_Solid solid = solids[i];
+    for (std::size_t j = 0; j < n; ++j) {
+      if (around[j].size() != around[i].size() + 1 || !inside(solids[j], solids[i])) continue;
+      const TopExp_Explorer shell(solids[j], TopAbs_SHELL);
+      builder.Add(solid, shell.Current().Reversed());
+    }
+    builder.Add(result, solid);
+    ++n_solids;
+  }
+  if (n_solids == 1) {
+    part.shape = TopExp_Explorer(result, TopAbs_SOLID).Current();
+  } else {
+    part.shape = result;
+  }
+  part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + std::to_string(n_solids) +
+                         (n_solids == 1 ? " solid" : " solids") + " (tolerance " + in_words(tolerance) + ")");
+}
+
+void glue_solids(Part& part, double tolerance) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(part.shape, TopAbs_SOLID, solids);
+  if (solids.Extent() < 2) {
+    part.notices.push_back("nothing to glue: the model has one solid");
+    return;
+  }
+  constexpr std::array kinds{TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX};
+  const std::array words{" faces", " edges", " vertices"};
+
+  BOPAlgo_Builder fuse;
+  fuse.SetNonDestructive(true);
+  fuse.SetRunParallel(false);
+  if (tolerance > 0) fuse.SetFuzzyValue(tolerance);
+  for (int i = 1; i <= solids.Extent(); ++i) fuse.AddArgument(solids(i));
+  fuse.Perform();
+  if (fuse.HasErrors()) throw Error("the solids could not be glued: OpenCASCADE's general fuse failed");
+
+  BRep_Builder builder;
+  TopoDS_Compound result;
+  builder.MakeCompound(result);
+  TopTools_IndexedMapOfShape taken;
+  std::string split;
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    TopTools_ListOfShape pieces = fuse.Modified(solids(i));
+    if (pieces.IsEmpty()) pieces.Append(solids(i));
+    if (pieces.Extent() > 1 && split.empty()) {
+      split = "solid " + std::to_string(i) + " overlaps another and was cut into " + std::to_string(pieces.Extent()) +
+              " pieces";
+    }
+    for (const TopoDS_Shape& piece : pieces) {
+      rename(part.names, solids(i), piece);
+      if (taken.Contains(piece)) continue;
+      taken.Add(piece);
+      builder.Add(result, piece);
+    }
+  }
+  const double before = volume_of(part.shape), after = volume_of(result);
+  for (const TopAbs_ShapeEnum kind : kinds) {
+    TopTools_IndexedMapOfShape pieces;
+    TopExp::MapShapes(part.shape, kind, pieces);
+    for (int i = 1; i <= pieces.Extent(); ++i) {
+      for (const TopoDS_Shape& image : fuse.Modified(pieces(i))) rename(part.names, pieces(i), image);
+    }
+  }
+  std::string notice = "glued " + std::to_string(solids.Extent()) + " solids:";
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    notice += (k ? ", " : " ") + std::to_string(count_kind(part.shape, kinds[k])) + " -> " +
+              std::to_string(count_kind(result, kinds[k])) + words[k];
+  }
+  if (count_kind(part.shape, TopAbs_FACE) == count_kind(result, TopAbs_FACE)) notice += "; no two solids share a face";
+  part.shape = result;
+  part.notices.push_back(notice);
+  if (!split.empty()) part.notices.push_back(split);
+  if (std::abs(before - after) > 1e-6 * before) {
+    part.notices.push_back("gluing changed the volume from " + in_words(before) + " to " + in_words(after));
+  }
+}
+
+}  // namespace hextwist::occ

@@ -1,0 +1,316 @@
+// CAD files through OpenCASCADE. Its readers share global settings and a global messenger, so one file is read or
+// written at a time, and its chatter is kept from the terminal.
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESControl_Writer.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPConstruct.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+#include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepBasic_ProductDefinition.hxx>
+#include <StepBasic_ProductDefinitionFormation.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_TransferWriter.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "hextwist/geom/occ/cad_text_internal.h"
+#include "hextwist/geom/occ/heal_internal.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/geom/occ/model_internal.h"
+
+namespace hextwist {
+namespace {
+
+using occ::OccModel;
+using occ::Part;
+
+std::mutex& occ_files() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// No printers while it lives.
+class Silence {
+ public:
+  Silence() : messenger_(Message::DefaultMessenger()), printers_(messenger_->Printers()) {
+    messenger_->ChangePrinters().Clear();
+  }
+  ~Silence() { messenger_->ChangePrinters() = printers_; }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  Handle(Message_Messenger) messenger_;
+  Message_SequenceOfPrinters printers_;
+};
+
+std::string lower(std::string s) {
+  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return s;
+}
+
+CadFormat format_by_extension(const std::filesystem::path& file) {
+  const std::string ext = lower(file.extension().string());
+  if (ext == ".step" || ext == ".stp") return CadFormat::step;
+  if (ext == ".brep" || ext == ".brp") return CadFormat::brep;
+  if (ext == ".iges" || ext == ".igs") return CadFormat::iges;
+  return CadFormat::unknown;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::error_code code;
+  if (!std::filesystem::exists(file, code)) throw Error(file.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(file, code)) throw Error(file.string() + ": not a regular file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(file.string() + ": cannot be opened");
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw Error(file.string() + ": cannot be read");
+  std::string result = std::move(text).str();
+  if (result.find_first_not_of(" \t\r\n") == std::string::npos) throw Error(file.string() + ": the file is empty");
+  return result;
+}
+
+std::string to_string(const Handle(TCollection_HAsciiString) & s) {
+  return s.IsNull() ? "" : s->ToCString();
+}
+
+// Names that writers put in when there is none.
+bool meaningful(const std::string& name) {
+  return !name.empty() && name != "NONE" && name.rfind("Open CASCADE", 0) != 0 &&
+         name.find_first_not_of(' ') != std::string::npos;
+}
+
+void collect_names(const STEPControl_Reader& reader, occ::ShapeNames& names) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  // Items (faces, solids, ...) first; a product names its only solid where that has no name of its own.
+  for (const bool products : {false, true}) {
+    for (int i = 1; i <= process->NbMapped(); ++i) {
+      const Handle(Standard_Transient) entity = process->Mapped(i);
+      std::string name;
+      if (products) {
+        const auto definition = Handle(StepBasic_ProductDefinition)::DownCast(entity);
+        if (!definition.IsNull() && !definition->Formation().IsNull() &&
+            !definition->Formation()->OfProduct().IsNull()) {
+          name = to_string(definition->Formation()->OfProduct()->Name());
+          if (!meaningful(name)) name = to_string(definition->Formation()->OfProduct()->Id());
+        }
+      } else if (const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity)) {
+        name = to_string(item->Name());
+      }
+      if (!meaningful(name)) continue;
+      TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+      if (shape.IsNull()) continue;
+      if (products) {
+        if (occ::count_solids(shape) != 1) continue;
+        shape = TopExp_Explorer(shape, TopAbs_SOLID).Current();
+      } else if (shape.ShapeType() == TopAbs_COMPOUND && occ::count_solids(shape) == 1) {
+        shape = TopExp_Explorer(shape, TopAbs_SOLID).Current();
+      }
+      names.emplace(shape.TShape().get(), name);
+    }
+  }
+}
+
+// OpenCASCADE goes on with entities that it could not read and may crash on them.
+void refuse_unreadable_geometry(const STEPControl_Reader& reader, const std::filesystem::path& file) {
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList(true);
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    if (!check->HasFailed() || check->Entity().IsNull()) continue;
+    const std::string kind = check->Entity()->DynamicType()->Name();
+    if (kind.rfind("StepGeom_", 0) != 0 && kind.rfind("StepShape_", 0) != 0) continue;
+    throw Error(file.string() + ": the STEP file is damaged: #" +
+                std::to_string(reader.StepModel()->IdentLabel(check->Entity())) + " cannot be read (" +
+                check->CFail(1) + ")");
+  }
+}
+
+Part read_step(const std::filesystem::path& file) {
+  Part part;
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  STEPControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) throw Error(file.string() + ": not a valid STEP file");
+  refuse_unreadable_geometry(reader, file);
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  if (!lengths.IsEmpty()) {
+    const std::string unit = lower(lengths.First().ToCString());
+    if (unit != "millimetre" && unit != "millimeter" && unit != "mm") {
+      part.notices.push_back("lengths converted from " + unit + " to millimetre");
+    }
+  }
+  reader.TransferRoots();
+  if (reader.NbShapes() == 0) throw Error(file.string() + ": the STEP file holds no shape");
+  part.shape = reader.OneShape();
+  collect_names(reader, part.names);
+  return part;
+}
+
+Part read_iges(const std::filesystem::path& file) {
+  Part part;
+  IGESControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  IGESControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) throw Error(file.string() + ": not a valid IGES file");
+  const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+  if (!model.IsNull()) {
+    const std::string unit = to_string(model->GlobalSection().UnitName());
+    if (!unit.empty() && unit != "MM") part.notices.push_back("lengths converted from " + unit + " to millimetre");
+  }
+  reader.TransferRoots();
+  if (reader.NbShapes() == 0) throw Error(file.string() + ": the IGES file holds no shape");
+  part.shape = reader.OneShape();
+  return part;
+}
+
+Part read_brep(const std::filesystem::path& file, const std::string& text) {
+  Part part;
+  std::istringstream in(text);
+  BRep_Builder builder;
+  BRepTools::Read(part.shape, in, builder);
+  if (in.fail() || part.shape.IsNull()) throw Error(file.string() + ": not a valid BREP file");
+  return part;
+}
+
+CadImport finish(Part part, const CadOptions& options, const std::string& what) {
+  if (part.shape.IsNull()) throw Error(what + ": no shape");
+  if (occ::count_solids(part.shape) == 0) occ::make_solids(part);
+  if (occ::count_solids(part.shape) == 0) {
+    throw Error(what + ": no solid" + (part.notices.empty() ? "" : " (" + part.notices.back() + ")"));
+  }
+  if (options.glue) occ::glue_solids(part, options.glue_tolerance);
+  const occ::ShapeMaps maps = occ::entity_maps(part.shape);
+  occ::Names names;
+  for (std::size_t dim = 0; dim <= 3 && !part.names.empty(); ++dim) {
+    names[dim].resize(static_cast<std::size_t>(maps[dim].Extent()) + 1);
+    for (int id = 1; id <= maps[dim].Extent(); ++id) {
+      const auto found = part.names.find(maps[dim](id).TShape().get());
+      if (found != part.names.end()) names[dim][static_cast<std::size_t>(id)] = found->second;
+    }
+  }
+  return {std::make_shared<OccModel>(part.shape, std::move(names)), std::move(part.notices)};
+}
+
+// OpenCASCADE's exceptions as ours.
+template <class Function>
+auto guarded(const std::string& what, const Function& function) {
+  try {
+    return function();
+  } catch (const Standard_Failure& failure) {
+    const std::string message = failure.GetMessageString() ? failure.GetMessageString() : "";
+    throw Error(what + ": OpenCASCADE failed" + (message.empty() ? "" : ": " + message));
+  }
+}
+
+}  // namespace
+
+CadImport read_cad(const std::filesystem::path& file, const CadOptions& options) {
+  const std::string text = contents(file);
+  CadFormat format = format_by_extension(file);
+  const CadFormat content = format_by_content(text);
+  if (format == CadFormat::unknown) format = content;
+  if (format == CadFormat::unknown) throw Error(file.string() + ": not a STEP, BREP or IGES file");
+  if (content != format)
+    throw Error(file.string() + ": not " + (format == CadFormat::iges ? "an " : "a ") + format_name(format) + " file");
+  if (const std::string defect = text_defect(format, text); !defect.empty()) throw Error(file.string() + ": " + defect);
+  return guarded(file.string(), [&] {
+    const std::lock_guard lock(occ_files());
+    const Silence silence;
+    Part part = format == CadFormat::step   ? read_step(file)
+                : format == CadFormat::iges ? read_iges(file)
+                                            : read_brep(file, text);
+    return finish(std::move(part), options, file.string());
+  });
+}
+
+CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options) {
+  return guarded("shape", [&] {
+    const std::lock_guard lock(occ_files());
+    const Silence silence;
+    Part part;
+    part.shape = shape;
+    return finish(std::move(part), options, "shape");
+  });
+}
+
+namespace {
+
+bool write_step(const std::filesystem::path& file, const OccModel& model) {
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  STEPControl_Writer writer;
+  if (writer.Transfer(model.shape(), STEPControl_AsIs) != IFSelect_RetDone) return false;
+  const Handle(Transfer_FinderProcess) process = writer.WS()->TransferWriter()->FinderProcess();
+  const occ::ShapeMaps maps = occ::entity_maps(model.shape());
+  for (std::size_t dim = 0; dim <= 3; ++dim) {
+    for (std::size_t id = 1; id < model.names()[dim].size(); ++id) {
+      const std::string& name = model.names()[dim][id];
+      if (name.empty()) continue;
+      const auto item = STEPConstruct::FindEntity(process, maps[dim](static_cast<int>(id)));
+      if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(name.c_str()));
+    }
+  }
+  return writer.Write(file.c_str()) == IFSelect_RetDone;
+}
+
+bool write_iges(const std::filesystem::path& file, const OccModel& model) {
+  IGESControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  IGESControl_Writer writer("MM", 1);
+  if (!writer.AddShape(model.shape())) return false;
+  writer.ComputeModel();
+  return writer.Write(file.c_str());
+}
+
+}  // namespace
+
+void write_cad(const std::filesystem::path& file, const Model& model) {
+  const auto* occ_model = dynamic_cast<const OccModel*>(&model);
+  if (!occ_model) throw Error(file.string() + ": this model has no CAD shape to write");
+  const CadFormat format = format_by_extension(file);
+  if (format == CadFormat::unknown) throw Error(file.string() + ": CAD is written as .step, .brep or .iges");
+  std::filesystem::path temporary = file;
+  temporary += ".part";
+  std::error_code code;
+  const bool written = guarded(file.string(), [&] {
+    const std::lock_guard lock(occ_files());
+    const Silence silence;
+    if (format == CadFormat::step) return write_step(temporary, *occ_model);
+    if (format == CadFormat::iges) return write_iges(temporary, *occ_model);
+    std::ofstream out(temporary);
+    BRepTools::Write(occ_model->shape(), out);
+    out.close();
+    return !out.fail();
+  });
+  if (written) std::filesystem::rename(temporary, file, code);
+  if (!written || code) {
+    std::filesystem::remove(temporary, code);
+    throw Error(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace hextwist

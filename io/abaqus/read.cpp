@@ -1,0 +1,395 @@
+// Abaqus .inp (Abaqus Keywords Guide; CalculiX and others write the same): keywords to AbaqusContents.
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "hextwist/io/abaqus/abaqus_internal.h"
+
+namespace hextwist::io {
+
+std::string upper_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return result;
+}
+
+void AbaqusContents::fail(const char* at, const std::string& what) const {
+  for (const auto& source : sources)
+    if (at >= source->data.get() && at <= source->data.get() + source->size) Cursor(*source).fail_at(at, what);
+  throw Error(sources[0]->name + ": " + what);
+}
+
+namespace {
+
+enum class Shape { hex, quad, other, refused, no_geometry };
+
+/// Element types by what they are made of. Names: C3D8R, AC3D20, S4R, T3D2, ...
+Shape shape_of(const std::string& type) {
+  const auto has = [&](std::string_view start) { return type.starts_with(start); };
+  for (const std::string_view solid : {"C3D", "AC3D", "DC3D", "DCC3D", "Q3D", "F3D", "FC3D", "EC3D", "CIN3D", "COH3D"})
+    if (has(solid)) {
+      const std::size_t digit = solid.size();
+      const bool eight = type.size() > digit && type[digit] == '8' &&
+                         (type.size() == digit + 1 || !std::isdigit(static_cast<unsigned char>(type[digit + 1])));
+      return eight ? Shape::hex : Shape::refused;
+    }
+  if (has("SC8")) return Shape::hex;  // continuum shell: eight corners as well
+  if (has("SC6") || has("CSS8")) return has("SC6") ? Shape::refused : Shape::hex;
+  for (const std::string_view quad : {"S4", "M3D4", "R3D4", "SFM3D4", "DS4", "CPS4", "CPE4", "DC2D4", "CAX4"})
+    if (has(quad)) return Shape::quad;
+  return Shape::other;
+}
+
+class Parser {
+ public:
+  explicit Parser(AbaqusContents& contents) : out_(contents) {
+    out_.scopes.push_back(std::make_unique<AbaqusScope>());
+    scope_ = out_.scopes[0].get();
+  }
+
+  void read(std::unique_ptr<Bytes> bytes) {
+    if (out_.sources.size() > 100) throw Error(bytes->name + ": includes files without end");
+    out_.sources.push_back(std::move(bytes));
+    Cursor cursor(*out_.sources.back());
+    while (cursor.more()) {
+      if (*cursor.at != '*') {
+        if (!begun_) cursor.fail("not an Abaqus file: expected a keyword, found " + shown(cursor.word()));
+        cursor.line();
+        continue;
+      }
+      if (cursor.left() > 1 && cursor.at[1] == '*') {
+        comment(cursor.line());
+        continue;
+      }
+      begun_ = true;
+      keyword(cursor);
+    }
+  }
+
+ private:
+  /// The parameters of a keyword line, names in upper case; lines that end with a comma go on.
+  struct Keyword {
+    std::string name;
+    std::map<std::string, std::string> parameters;
+    const char* at;
+    const std::string* find(const std::string& parameter) const {
+      const auto found = parameters.find(parameter);
+      return found == parameters.end() ? nullptr : &found->second;
+    }
+  };
+
+  Keyword split(Cursor& cursor) const {
+    Keyword result;
+    result.at = cursor.at;
+    std::string text(trimmed(cursor.line()).substr(1));
+    while (!text.empty() && text.back() == ',' && cursor.at < cursor.end && *cursor.at != '*')
+      text += trimmed(cursor.line());
+    std::string_view rest = text;
+    for (bool first = true; !rest.empty() || first; first = false) {
+      // A comma in quotes belongs to the name.
+      std::size_t end = 0;
+      for (bool quotes = false; end < rest.size() && (quotes || rest[end] != ','); ++end)
+        if (rest[end] == '"') quotes = !quotes;
+      const std::string_view item = trimmed(rest.substr(0, end));
+      rest.remove_prefix(std::min(rest.size(), end + 1));
+      const auto equals = item.find('=');
+      if (first)
+        result.name = upper_case(item);
+      else if (!item.empty())
+        result.parameters[upper_case(trimmed(item.substr(0, equals)))] =
+            equals == std::string_view::npos ? "" : unquoted(trimmed(item.substr(equals + 1)));
+      if (first && rest.empty()) break;
+    }
+    return result;
+  }
+  static std::string unquoted(std::string_view text) {
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    return std::string(text);
+  }
+  const std::string& required(const Keyword& keyword, const std::string& parameter) const {
+    const std::string* value = keyword.find(parameter);
+    if (!value || value->empty()) out_.fail(keyword.at, "*" + keyword.name + " without " + parameter + "=");
+    return *value;
+  }
+
+  /// Our own comments give sets their ids and real names: "** hextwist block 3 STEEL steel (hot)".
+  void comment(std::string_view line) {
+    constexpr std::string_view mark = "** hextwist ";
+    if (!line.starts_with(mark)) return;
+    out_.ours = true;
+    line.remove_prefix(mark.size());
+    std::array<std::string_view, 3> words;
+    for (auto& word : words) {
+      const auto end = std::min(line.find(' '), line.size());
+      word = line.substr(0, end);
+      line.remove_prefix(std::min(end + 1, line.size()));
+    }
+    int id = 0;
+    if (std::from_chars(words[1].data(), words[1].data() + words[1].size(), id).ec == std::errc{} && id > 0)
+      out_.real_names[{std::string(words[0]), upper_case(words[2])}] = {id, std::string(line)};
+  }
+
+  void keyword(Cursor& cursor) {
+    const Keyword keyword = split(cursor);
+    const std::string& name = keyword.name;
+    if (name == "NODE")
+      nodes(cursor, keyword);
+    else if (name == "ELEMENT")
+      elements(cursor, keyword);
+    else if (name == "NSET" || name == "ELSET")
+      set(cursor, keyword);
+    else if (name == "SURFACE")
+      surface(cursor, keyword);
+    else if (name == "PART" || name == "ASSEMBLY") {
+      out_.scopes.push_back(std::make_unique<AbaqusScope>());
+      scope_ = out_.scopes.back().get();
+      if (const std::string* part = keyword.find("NAME")) scope_->name = *part;
+      if (name == "ASSEMBLY") out_.assembly = scope_;
+    } else if (name == "END PART" || name == "END ASSEMBLY")
+      scope_ = out_.scopes[0].get();
+    else if (name == "INSTANCE")
+      instance(cursor, keyword);
+    else if (name == "INCLUDE")
+      include(keyword, cursor);
+    else if (name == "NGEN" || name == "NFILL" || name == "NCOPY" || name == "ELGEN" || name == "ELCOPY" ||
+             name == "SYSTEM" || name == "NMAP")
+      out_.fail(keyword.at, "*" + name + " is not supported: nodes or elements would be missing or misplaced");
+    // All else is no mesh; its data lines are skipped.
+  }
+
+  /// At a data line: not at the end, a keyword or a comment (those are skipped).
+  bool data_line(Cursor& cursor, bool& interrupted) {
+    while (cursor.more()) {
+      if (*cursor.at != '*') return true;
+      if (cursor.left() < 2 || cursor.at[1] != '*') return false;
+      comment(cursor.line());
+      interrupted = true;
+    }
+    return false;
+  }
+  static void skip_inline(Cursor& cursor) {
+    while (cursor.at < cursor.end && (*cursor.at == ' ' || *cursor.at == '\t' || *cursor.at == '\r')) ++cursor.at;
+  }
+  /// After a number: its comma, if there is one.
+  static bool comma(Cursor& cursor) {
+    skip_inline(cursor);
+    if (cursor.at == cursor.end || *cursor.at != ',') return false;
+    ++cursor.at;
+    skip_inline(cursor);
+    return true;
+  }
+  static bool line_ends(const Cursor& cursor) { return cursor.at == cursor.end || *cursor.at == '\n'; }
+
+  void nodes(Cursor& cursor, const Keyword& keyword) {
+    if (keyword.find("INPUT")) out_.fail(keyword.at, "*NODE with INPUT= is not supported");
+    if (const std::string* system = keyword.find("SYSTEM"); system && upper_case(*system) != "R")
+      out_.fail(keyword.at, "*NODE in a cylindrical or spherical system is not supported");
+    AbaqusScope& to = *scope_;
+    const std::size_t first = to.node_ids.size();
+    bool new_run = true;
+    const char* expected = nullptr;
+    while (data_line(cursor, new_run)) {
+      if (new_run || cursor.at != expected) to.node_runs.push_back({to.node_ids.size(), cursor.at});
+      new_run = false;
+      to.node_ids.push_back(cursor.integer("a node id"));
+      Vec3& point = to.points.emplace_back(Vec3::Zero());
+      bool more = comma(cursor);
+      for (int axis = 0; axis < 3 && more && !line_ends(cursor); ++axis) {
+        const char* at = cursor.at;
+        if (*cursor.at != ',') point[axis] = cursor.real("a coordinate");
+        if (!std::isfinite(point[axis]))
+          cursor.fail_at(at, "a coordinate of node " + std::to_string(to.node_ids.back()) + " is not finite");
+        more = comma(cursor);
+      }
+      if (!more && !line_ends(cursor)) cursor.fail("expected a comma, found " + shown(cursor.word()));
+      cursor.line();
+      expected = cursor.at;
+    }
+    if (const std::string* set = keyword.find("NSET"))
+      to.sets.push_back({AbaqusSet::nodes,
+                         *set,
+                         "",
+                         {to.node_ids.begin() + static_cast<std::ptrdiff_t>(first), to.node_ids.end()},
+                         {},
+                         {},
+                         keyword.at});
+  }
+
+  void elements(Cursor& cursor, const Keyword& keyword) {
+    if (keyword.find("INPUT")) out_.fail(keyword.at, "*ELEMENT with INPUT= is not supported");
+    const std::string type = upper_case(required(keyword, "TYPE"));
+    const Shape shape = shape_of(type);
+    AbaqusScope& to = *scope_;
+    std::vector<std::int64_t> ids;
+    bool ignored = false;
+    while (data_line(cursor, ignored)) {
+      const char* at = cursor.at;
+      const auto id = cursor.integer("an element id");
+      ids.push_back(id);
+      if (shape == Shape::refused)
+        cursor.fail_at(at,
+                       "element " + std::to_string(id) + " is of type " + type + "; only 8-node hexes are accepted");
+      bool more = comma(cursor);
+      if (shape == Shape::hex || shape == Shape::quad) {
+        auto& nodes = shape == Shape::hex ? to.hex_nodes : to.quad_nodes;
+        const int n = shape == Shape::hex ? 8 : 4;
+        for (int c = 0; c < n; ++c) {
+          if (!more)
+            cursor.fail_at(at, "element " + std::to_string(id) + " has " + std::to_string(c) + " of " +
+                                   std::to_string(n) + " nodes");
+          if (line_ends(cursor)) data_line(cursor, ignored);  // goes on in the next line
+          nodes.push_back(cursor.integer("a node"));
+          more = comma(cursor);
+        }
+        if (shape == Shape::hex) to.hex_at.push_back(at);
+      } else {
+        while (more) {
+          if (line_ends(cursor) && !data_line(cursor, ignored)) break;
+          cursor.integer("a node");
+          more = comma(cursor);
+        }
+      }
+      skip_inline(cursor);
+      if (!line_ends(cursor)) cursor.fail("element " + std::to_string(id) + " has more nodes than a " + type);
+    }
+    if (const std::string* set = keyword.find("ELSET"))
+      to.sets.push_back({AbaqusSet::elements, *set, "", ids, {}, {}, keyword.at});
+    auto& kept = shape == Shape::hex ? to.hex_ids : shape == Shape::quad ? to.quad_ids : to.other_ids;
+    kept.insert(kept.end(), ids.begin(), ids.end());
+    if (shape == Shape::other) out_.n_dropped[type] += std::ssize(ids);
+  }
+
+  /// Words of a data line, separated by commas.
+  template <class F>
+  void each_word(Cursor& cursor, F&& f) {
+    const char* at = cursor.at;
+    std::string_view line = cursor.line();
+    while (!line.empty()) {
+      const auto end = std::min(line.find(','), line.size());
+      const std::string_view word = trimmed(line.substr(0, end));
+      f(word, at);
+      at += end + 1;
+      line.remove_prefix(std::min(end + 1, line.size()));
+    }
+  }
+  static std::optional<std::int64_t> number(std::string_view word) {
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || stop != word.data() + word.size()) return {};
+    return value;
+  }
+
+  void set(Cursor& cursor, const Keyword& keyword) {
+    AbaqusSet set{keyword.name == "NSET" ? AbaqusSet::nodes : AbaqusSet::elements,
+                  required(keyword, keyword.name),
+                  "",
+                  {},
+                  {},
+                  {},
+                  keyword.at};
+    if (const std::string* instance = keyword.find("INSTANCE")) set.instance = *instance;
+    if (const std::string* elset = keyword.find("ELSET"); elset && set.kind == AbaqusSet::nodes)
+      out_.fail(keyword.at, "*NSET with ELSET= is not supported");
+    const bool generate = keyword.find("GENERATE") != nullptr;
+    bool ignored = false;
+    while (data_line(cursor, ignored)) {
+      const char* start = cursor.at;
+      std::vector<std::int64_t> range;
+      each_word(cursor, [&](std::string_view word, const char* at) {
+        if (word.empty()) return;
+        const auto id = number(word);
+        if (generate && !id) out_.fail(at, "expected a number, found " + shown(word));
+        if (generate)
+          range.push_back(*id);
+        else if (id)
+          set.ids.push_back(*id);
+        else
+          set.members.push_back({unquoted(word), at});
+      });
+      if (!generate) continue;
+      if (range.size() < 2) out_.fail(start, "GENERATE needs a first and a last id");
+      const std::int64_t step = range.size() > 2 ? range[2] : 1;
+      if (step < 1 || (range[1] - range[0]) / step > 1'000'000'000)
+        out_.fail(start, "a range that cannot be generated");
+      for (std::int64_t id = range[0]; id <= range[1]; id += step) set.ids.push_back(id);
+    }
+    scope_->sets.push_back(std::move(set));
+  }
+
+  void surface(Cursor& cursor, const Keyword& keyword) {
+    const std::string* type = keyword.find("TYPE");
+    const std::string kind = type ? upper_case(*type) : "ELEMENT";
+    AbaqusSet set{AbaqusSet::surface, required(keyword, "NAME"), "", {}, {}, {}, keyword.at};
+    if (kind == "NODE") set.kind = AbaqusSet::nodes;
+    bool ignored = false;
+    while (data_line(cursor, ignored)) {
+      if (kind != "ELEMENT" && kind != "NODE") {
+        cursor.line();
+        continue;
+      }
+      AbaqusMember member;
+      std::string face;
+      int i = 0;
+      each_word(cursor, [&](std::string_view word, const char* at) {
+        if (i == 0) member = {unquoted(word), at};
+        if (i == 1) face = upper_case(word);
+        ++i;
+      });
+      if (kind == "ELEMENT")
+        set.surface_members.emplace_back(member, face);
+      else if (const auto id = number(member.text))
+        set.ids.push_back(*id);
+      else
+        set.members.push_back(member);
+    }
+    if (kind == "ELEMENT" || kind == "NODE") scope_->sets.push_back(std::move(set));
+  }
+
+  void instance(Cursor& cursor, const Keyword& keyword) {
+    const std::string name = upper_case(required(keyword, "PART"));
+    AbaqusInstance instance{required(keyword, "NAME"), nullptr};
+    for (const auto& scope : out_.scopes)
+      if (upper_case(scope->name) == name && scope.get() != out_.assembly) instance.part = scope.get();
+    if (!instance.part) out_.fail(keyword.at, "there is no part " + shown(name));
+    // A translation, then two points of an axis and an angle in degrees.
+    bool ignored = false;
+    for (int line = 0; line < 2 && data_line(cursor, ignored); ++line) {
+      std::array<double, 7> x{};
+      const int n = line == 0 ? 3 : 7;
+      for (int i = 0; i < n; ++i) {
+        if (!line_ends(cursor)) x[i] = cursor.real("a number");
+        comma(cursor);
+      }
+      cursor.line();
+      if (line == 0) {
+        instance.shift = Vec3(x[0], x[1], x[2]);
+        continue;
+      }
+      const Vec3 a(x[0], x[1], x[2]), b(x[3], x[4], x[5]);
+      if (!((b - a).norm() > 0)) out_.fail(keyword.at, "the axis of rotation has no direction");
+      instance.turn = Eigen::AngleAxisd(x[6] * std::numbers::pi / 180, (b - a).normalized()).toRotationMatrix();
+      instance.shift = instance.turn * (instance.shift - a) + a;
+    }
+    out_.instances.push_back(std::move(instance));
+  }
+
+  void include(const Keyword& keyword, const Cursor& cursor) {
+    const std::filesystem::path file(required(keyword, "INPUT"));
+    const auto folder = std::filesystem::path(std::string(cursor.name)).parent_path();
+    read(std::make_unique<Bytes>(read_bytes(file.is_absolute() ? file : folder / file)));
+  }
+
+  AbaqusContents& out_;
+  AbaqusScope* scope_;
+  bool begun_ = false;
+};
+
+}  // namespace
+
+MeshFile read_abaqus(const std::filesystem::path& file) {
+  AbaqusContents contents;
+  Parser(contents).read(std::make_unique<Bytes>(read_bytes(file)));
+  return assemble_abaqus(std::move(contents));
+}
+
+}  // namespace hextwist::io

@@ -1,0 +1,374 @@
+// Exodus II through its library.
+//
+// Element blocks are blocks. Element sets are blocks as well: one with the id of an element block that lies wholly in
+// it is that block (blocks that overlap are written so), any other one gets an id of its own if its id is taken.
+// Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes.
+#include <exodusII.h>
+
+#include <fstream>
+#include <limits>
+
+#include "hextwist/io/exodus/exodus_internal.h"
+#include "hextwist/base/large_array.h"
+
+namespace hextwist::io {
+namespace {
+
+using Int64s = std::vector<std::int64_t>;
+using Ints = std::vector<int>;
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
+    const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
+    std::array<char, 3> magic{};
+    std::ifstream(file, std::ios::binary).read(magic.data(), magic.size());
+    const bool classic = std::string_view(magic.data(), magic.size()) == "CDF";
+    most_items_ = classic ? bytes / 4 : 300 * bytes;
+    ex_opts(0);  // no messages on the terminal
+    int memory = 8, disk = 0;
+    float version = 0;
+    file_.id = ex_open(name_.c_str(), EX_READ, &memory, &disk, &version);
+    if (file_.id < 0) fail("cannot be opened as Exodus II (damaged or another format)");
+    // Positions fit an Index, whatever the file stores; the library refuses those that do not.
+    ex_set_int64_status(file_.id, EX_IDS_INT64_API | EX_MAPS_INT64_API | EX_INQ_INT64_API);
+    const auto length = ex_inquire_int(file_.id, EX_INQ_DB_MAX_USED_NAME_LENGTH);
+    if (length > 0) ex_set_max_name_length(file_.id, static_cast<int>(std::min<std::int64_t>(length, NC_MAX_NAME)));
+    name_length_ = static_cast<std::size_t>(std::max<std::int64_t>(length, 256));
+    check(ex_get_init_ext(file_.id, &init_), "the sizes");
+  }
+
+  MeshFile result() {
+    nodes();
+    blocks();
+    side_sets();
+    node_sets();
+    element_sets();
+    fields(EX_NODAL, Field::On::node);
+    fields(EX_ELEM_BLOCK, Field::On::hex);
+    out_.mesh.fields = merge_components(std::move(out_.mesh.fields));
+    return std::move(out_);
+  }
+
+ private:
+  struct Handle {
+    int id = -1;
+    ~Handle() {
+      if (id >= 0) ex_close(id);
+    }
+  };
+  struct FileBlock {
+    std::int64_t id, first, n;  // elements of the file, 0-based
+    bool hexes;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": " + what); }
+  void check(int status, const std::string& what) const {
+    if (status < 0) fail(what + " cannot be read (damaged file)");
+  }
+  /// A number of items, each at least four bytes in the file (HDF5 files can be compressed, at most about a
+  /// thousandfold): a damaged one must not become a huge allocation.
+  std::size_t size(std::int64_t n, const std::string& what) const {
+    if (n < 0 || n > std::min<std::int64_t>(most_items_, std::numeric_limits<Index>::max()))
+      fail("impossible number of " + what + ": " + std::to_string(n));
+    return static_cast<std::size_t>(n);
+  }
+  Int64s ids(ex_entity_type type, std::int64_t n) const {
+    Int64s result(size(n, "groups"));
+    if (n > 0) check(ex_get_ids(file_.id, type, result.data()), "ids of groups");
+    return result;
+  }
+  std::string group_name(ex_entity_type type, std::int64_t id) const {
+    std::string name(name_length_ + 1, '\0');
+    if (ex_get_name(file_.id, type, id, name.data()) < 0) return "";
+    name.resize(std::strlen(name.c_str()));
+    return std::string(trimmed(name));
+  }
+  int group_id(std::int64_t id, const char* kind) const {
+    if (id < 1 || id > std::numeric_limits<int>::max()) fail(std::string(kind) + " id " + std::to_string(id));
+    return static_cast<int>(id);
+  }
+
+  void nodes() {
+    if (init_.num_dim != 3) fail("has " + std::to_string(init_.num_dim) + " dimensions instead of 3");
+    const auto n = size(init_.num_nodes, "nodes");
+    Int64s map;
+    resize_for_overwrite(map, n);
+    if (n) check(ex_get_id_map(file_.id, EX_NODE_MAP, map.data()), "the node id map");
+    resize_for_overwrite(out_.mesh.points, n);
+    std::vector<double> x(exodus_piece), y(exodus_piece), z(exodus_piece);
+    in_pieces(n, [&](std::size_t first, std::size_t size) {
+      check(ex_get_partial_coord(file_.id, exodus_position(first), exodus_position(size - 1), x.data(), y.data(),
+                                 z.data()),
+            "coordinates");
+      for (std::size_t i = 0; i < size; ++i) {
+        Vec3& point = out_.mesh.points[first + i];
+        point = Vec3(x[i], y[i], z[i]);
+        if (!point.allFinite()) fail("a coordinate of node " + std::to_string(map[first + i]) + " is not finite");
+      }
+    });
+    nodes_ = Ids(std::move(map), "node", [&](std::size_t, const std::string& what) { fail(what); });
+    nodes_.sort(out_.mesh.points);
+    out_.mesh.node_ids = nodes_.stored();
+  }
+  /// Index of the node at a 1-based position in the file.
+  Index node(std::int64_t position, const std::string& who) const {
+    if (position < 1 || position > nodes_.size())
+      fail(who + " names node " + std::to_string(position) + " of " + std::to_string(nodes_.size()));
+    return nodes_.place().empty() ? static_cast<Index>(position - 1) : nodes_.place()[position - 1];
+  }
+
+  void blocks() {
+    const auto n_elements = size(init_.num_elem, "elements");
+    Int64s map;
+    resize_for_overwrite(map, n_elements);
+    if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
+    reserve_large(out_.mesh.hexes, n_elements);
+    resize_large(hex_of_element_, n_elements, Index{-1});
+    std::int64_t first = 0;
+    for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
+      ex_block block{};
+      block.id = id;
+      block.type = EX_ELEM_BLOCK;
+      check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+      const auto n = static_cast<std::int64_t>(size(block.num_entry, "elements"));
+      if (first + n > init_.num_elem) fail("the blocks have more elements than the file says");
+      read_block(block, std::span(map).subspan(first, n), first);
+      first += n;
+    }
+    if (out_.mesh.hexes.empty()) fail("there is no hex in the file");
+    if (out_.mesh.hexes.size() < map.size()) {
+      std::size_t n_kept = 0;
+      for (std::size_t e = 0; e < map.size(); ++e)
+        if (hex_of_element_[e] >= 0) map[n_kept++] = map[e];
+      map.resize(n_kept);
+    }
+    hexes_ = Ids(std::move(map), "element", [&](std::size_t, const std::string& what) { fail(what); });
+    hexes_.sort(out_.mesh.hexes);
+    out_.mesh.hex_ids = hexes_.stored();
+    if (!hexes_.place().empty())
+      for (Index& hex : hex_of_element_)
+        if (hex >= 0) hex = hexes_.place()[hex];
+    for (const FileBlock& block : blocks_) {
+      if (!block.hexes) continue;
+      const std::string name = group_name(EX_ELEM_BLOCK, block.id);
+      if (name == exodus_rest_block) continue;
+      Block& to = group_of_id(out_.mesh.blocks, group_id(block.id, "element block"));
+      to.name = name;
+      grow_large(to.hexes, static_cast<std::size_t>(block.n));
+      to.hexes.insert(to.hexes.end(), hex_of_element_.begin() + block.first,
+                      hex_of_element_.begin() + block.first + block.n);
+      make_set(to.hexes);
+    }
+    quad_sides_ = oriented_sides(out_.mesh, quads_);
+    for (const FileBlock& block : blocks_) {
+      if (block.hexes || block.n == 0 || quad(block.first) < 0) continue;
+      const bool taken = std::ranges::find(out_.mesh.side_sets, block.id, &SideSet::id) != out_.mesh.side_sets.end();
+      quad_sets_.push_back({taken ? 0 : group_id(block.id, "element block"), group_name(EX_ELEM_BLOCK, block.id), {}});
+      for (std::int64_t e = block.first; e < block.first + block.n; ++e)
+        if (const Side side = quad_sides_[quad(e)]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
+      make_set(quad_sets_.back().sides);
+    }
+  }
+
+  /// Turns positions of nodes into indices. element(i): the id of the element that number i belongs to.
+  template <class Element>
+  void indices(std::span<int> positions, const Element& element) const {
+    const auto n = static_cast<unsigned>(nodes_.size());
+    unsigned highest = 0;
+    for (int& position : positions) {
+      const unsigned index = static_cast<unsigned>(position) - 1;
+      highest = std::max(highest, index);
+      position = static_cast<int>(index);
+    }
+    if (highest >= n && !positions.empty())
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        if (static_cast<unsigned>(positions[i]) >= n)
+          node(std::int64_t{positions[i]} + 1, "element " + std::to_string(element(i)));
+    if (!nodes_.place().empty())
+      for (int& position : positions) position = nodes_.place()[position];
+  }
+
+  void read_block(const ex_block& block, std::span<const std::int64_t> map, std::int64_t first) {
+    const std::string name = "element block " + std::to_string(block.id);
+    const std::string type = lower_case(block.topology);
+    const auto starts = [&](std::string_view word) { return type.starts_with(word); };
+    const auto n_nodes = block.num_nodes_per_entry;
+    const bool unnamed = type.empty() || type == "null" || type == "unknown";
+    const bool hexes = map.empty() ? unnamed || starts("hex") : n_nodes == 8 && (starts("hex") || unnamed);
+    blocks_.push_back({block.id, first, std::ssize(map), hexes});
+    if (map.empty()) return;
+    const bool quads = n_nodes == 4 && (starts("quad") || starts("shell"));
+    const bool small = quads || starts("shell") || starts("tri") || starts("quad") || starts("bar") || starts("beam") ||
+                       starts("truss") || starts("edge") || starts("rod") || starts("sphere") || starts("circle") ||
+                       starts("point") || n_nodes == 1;
+    if (!hexes && !small)
+      fail(name + ": element " + std::to_string(map[0]) + " is of type " + block.topology + " with " +
+           std::to_string(n_nodes) + " nodes; only 8-node hexes are accepted");
+    if (!hexes && !quads) {
+      out_.notices.push_back("dropped " + std::to_string(map.size()) + " elements of type " + block.topology + " (" +
+                             name + ")");
+      return;
+    }
+    if (quads) quad_of_element_.resize(hex_of_element_.size(), -1);
+    Ints nodes(exodus_piece * static_cast<std::size_t>(n_nodes));
+    in_pieces(map.size(), [&](std::size_t begin, std::size_t size) {
+      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, exodus_position(begin), exodus_position(size - 1),
+                                nodes.data(), nullptr, nullptr),
+            "nodes of " + name);
+      const auto used = std::span(nodes).first(size * static_cast<std::size_t>(n_nodes));
+      indices(used, [&](std::size_t i) { return map[begin + i / static_cast<std::size_t>(n_nodes)]; });
+      const std::size_t first_element = static_cast<std::size_t>(first) + begin;
+      if (hexes) {
+        const std::size_t n_before = out_.mesh.hexes.size();
+        resize_for_overwrite(out_.mesh.hexes, n_before + size);
+        for (std::size_t k = 0; k < size; ++k) {
+          Hex hex;
+          std::copy_n(&nodes[8 * k], 8, hex.begin());
+          out_.mesh.hexes[n_before + k] = in_file_order(hex);
+          hex_of_element_[first_element + k] = static_cast<Index>(n_before + k);
+        }
+      } else {
+        for (std::size_t k = 0; k < size; ++k) {
+          quad_of_element_[first_element + k] = static_cast<Index>(quads_.size());
+          quads_.push_back({nodes[4 * k], nodes[4 * k + 1], nodes[4 * k + 2], nodes[4 * k + 3]});
+        }
+      }
+    });
+  }
+
+  /// Members and, for side sets, side numbers.
+  std::pair<Ints, Ints> set(ex_entity_type type, std::int64_t id) const {
+    const std::string name = "set " + std::to_string(id);
+    int n = 0, n_factors = 0;
+    check(ex_get_set_param(file_.id, type, id, &n, &n_factors), name);
+    std::pair<Ints, Ints> result;
+    result.first.resize(size(n, "members"));
+    result.second.resize(type == EX_SIDE_SET ? result.first.size() : 0);
+    if (n > 0)
+      check(ex_get_set(file_.id, type, id, result.first.data(), type == EX_SIDE_SET ? result.second.data() : nullptr),
+            name);
+    return result;
+  }
+  Index hex(std::int64_t element, const std::string& who) const {
+    if (element < 1 || element > std::ssize(hex_of_element_))
+      fail(who + " names element " + std::to_string(element) + " of " + std::to_string(hex_of_element_.size()));
+    return hex_of_element_[element - 1];
+  }
+
+  Index quad(std::int64_t element) const { return quad_of_element_.empty() ? -1 : quad_of_element_[element]; }
+
+  void side_sets() {
+    for (const std::int64_t id : ids(EX_SIDE_SET, init_.num_side_sets)) {
+      const std::string who = "side set " + std::to_string(id);
+      SideSet& to = group_of_id(out_.mesh.side_sets, group_id(id, "side set"));
+      to.name = group_name(EX_SIDE_SET, id);
+      const auto [elements, sides] = set(EX_SIDE_SET, id);
+      std::int64_t dropped = 0;
+      for (std::size_t i = 0; i < elements.size(); ++i) {
+        const Index h = hex(elements[i], who);
+        if (h >= 0 && (sides[i] < 1 || sides[i] > 6)) fail(who + " names side " + std::to_string(sides[i]));
+        // A shell's front (1) and back (2) are the quad itself; its edges are no sides of hexes.
+        const Index q = h < 0 ? quad(elements[i] - 1) : -1;
+        if (h >= 0)
+          to.sides.push_back({h, exodus_face[sides[i] - 1]});
+        else if (q >= 0 && sides[i] <= 2 && quad_sides_[q].hex >= 0)
+          to.sides.push_back(quad_sides_[q]);
+        else
+          ++dropped;
+      }
+      make_set(to.sides);
+      if (dropped)
+        out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are no sides of a hex");
+    }
+    for (SideSet& quads : quad_sets_) {
+      const bool taken = std::ranges::find(out_.mesh.side_sets, quads.id, &SideSet::id) != out_.mesh.side_sets.end();
+      SideSet& to = group_of_id(out_.mesh.side_sets, taken || quads.id == 0 ? free_id(out_.mesh.side_sets) : quads.id);
+      to.name = quads.name;
+      to.sides = std::move(quads.sides);
+    }
+  }
+
+  void node_sets() {
+    for (const std::int64_t id : ids(EX_NODE_SET, init_.num_node_sets)) {
+      NodeSet& to = group_of_id(out_.mesh.node_sets, group_id(id, "node set"));
+      to.name = group_name(EX_NODE_SET, id);
+      for (const std::int64_t n : set(EX_NODE_SET, id).first)
+        to.nodes.push_back(node(n, "node set " + std::to_string(id)));
+      make_set(to.nodes);
+    }
+  }
+
+  void element_sets() {
+    for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets)) {
+      Block group{group_id(id, "element set"), group_name(EX_ELEM_SET, id), {}};
+      for (const std::int64_t element : set(EX_ELEM_SET, id).first)
+        if (const Index h = hex(element, "element set " + std::to_string(id)); h >= 0) group.hexes.push_back(h);
+      make_set(group.hexes);
+      auto& blocks = out_.mesh.blocks;
+      const auto same = std::ranges::find(blocks, group.id, &Block::id);
+      const bool whole =
+          same != blocks.end() && same->name == group.name && std::ranges::includes(group.hexes, same->hexes);
+      if (same != blocks.end() && !whole) {
+        group.id = free_id(blocks);
+        out_.notices.push_back("element set " + std::to_string(id) + " is block " + std::to_string(group.id) +
+                               ": an element block has its id");
+      }
+      group_of_id(blocks, group.id) = group;
+    }
+  }
+
+  void fields(ex_entity_type type, Field::On on) {
+    int n = 0;
+    check(ex_get_variable_param(file_.id, type, &n), "fields");
+    const auto n_steps = ex_inquire_int(file_.id, EX_INQ_TIME);
+    if (n <= 0 || n_steps <= 0) return;
+    for (int v = 1; v <= n; ++v) {
+      std::string name(name_length_ + 1, '\0');
+      check(ex_get_variable_name(file_.id, type, v, name.data()), "names of fields");
+      Field field{std::string(trimmed(name.c_str())), on, 1, {}};
+      const int step = static_cast<int>(n_steps);
+      if (on == Field::On::node) {
+        field.values.resize(out_.mesh.points.size());
+        check(ex_get_var(file_.id, step, type, v, 1, init_.num_nodes, field.values.data()), "field " + field.name);
+        nodes_.sort(field.values);
+      } else {
+        field.values.assign(out_.mesh.hexes.size(), std::numeric_limits<double>::quiet_NaN());
+        bool any = false;
+        for (const FileBlock& block : blocks_) {
+          if (!block.hexes || block.n == 0) continue;
+          std::vector<double> values(static_cast<std::size_t>(block.n));
+          if (ex_get_var(file_.id, step, type, v, block.id, block.n, values.data()) != 0)
+            continue;  // not on this block
+          any = true;
+          for (std::int64_t i = 0; i < block.n; ++i) field.values[hex_of_element_[block.first + i]] = values[i];
+        }
+        if (!any) continue;
+      }
+      out_.mesh.fields.push_back(std::move(field));
+    }
+  }
+
+  std::string name_;
+  Handle file_;
+  std::int64_t most_items_ = 0;
+  std::size_t name_length_ = 256;
+  ex_init_params init_{};
+  MeshFile out_;
+  Ids nodes_, hexes_;
+  std::vector<FileBlock> blocks_;
+  std::vector<Index> hex_of_element_;   // -1 for others
+  std::vector<Index> quad_of_element_;  // the same; empty where there are none
+  std::vector<Quad> quads_;
+  std::vector<Side> quad_sides_;
+  std::vector<SideSet> quad_sets_;
+};
+
+}  // namespace
+
+MeshFile read_exodus(const std::filesystem::path& file) {
+  check_readable(file);
+  return Reader(file).result();
+}
+
+}  // namespace hextwist::io

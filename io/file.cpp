@@ -1,0 +1,178 @@
+#include "hextwist/io/file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+namespace hextwist::io {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+}  // namespace
+
+namespace {
+
+/// An ordinary file, open for reading.
+struct Input {
+  int descriptor;
+  std::size_t size = 0;
+
+  explicit Input(const std::filesystem::path& file) : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    const std::string name = file.string();
+    if (descriptor < 0) throw Error(name + ": cannot be opened: " + reason(errno));
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) status.st_mode = 0;
+    const char* wrong = S_ISDIR(status.st_mode) ? "is a folder" : "is not an ordinary file";
+    if (S_ISREG(status.st_mode)) wrong = status.st_size == 0 ? "is empty" : nullptr;
+    if (wrong) {
+      ::close(descriptor);
+      throw Error(name + ": " + wrong);
+    }
+    size = static_cast<std::size_t>(status.st_size);
+  }
+  ~Input() { ::close(descriptor); }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+};
+
+}  // namespace
+
+void ReleaseBytes::operator()(const char* data) const {
+  if (mapped > 0)
+    ::munmap(const_cast<char*>(data), mapped);
+  else
+    delete[] data;
+}
+
+Bytes read_bytes(const std::filesystem::path& file) {
+  const Input input(file);
+  Bytes bytes{file.string(), nullptr, 0};
+  void* mapped = ::mmap(nullptr, input.size, PROT_READ, MAP_PRIVATE, input.descriptor, 0);
+  if (mapped != MAP_FAILED) {
+    bytes.data = {static_cast<const char*>(mapped), ReleaseBytes{input.size}};
+    bytes.size = input.size;
+    return bytes;
+  }
+  auto memory = std::make_unique_for_overwrite<char[]>(input.size);
+  while (bytes.size < input.size) {
+    const auto n = ::read(input.descriptor, memory.get() + bytes.size, input.size - bytes.size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(bytes.name + ": cannot be read: " + reason(errno));
+    if (n == 0) break;
+    bytes.size += static_cast<std::size_t>(n);
+  }
+  bytes.data = {memory.release(), ReleaseBytes{}};
+  return bytes;
+}
+
+void check_readable(const std::filesystem::path& file) {
+  Input{file};
+}
+
+Replacement::Replacement(const std::filesystem::path& file, bool overwrite)
+    : name_(file.string()), overwrite_(overwrite) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  const bool exists = std::filesystem::exists(status);
+  if (exists && !overwrite) fail("exists already and may not be overwritten");
+  if (std::filesystem::is_directory(status)) fail("is a folder");
+  target_ = exists ? std::filesystem::canonical(file, error) : file;
+  if (error && exists) fail("cannot be written: " + error.message());
+  if (exists && !std::filesystem::is_regular_file(status)) {
+    direct_ = true;
+    temporary_ = target_;
+    return;
+  }
+  const auto folder = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, error)) fail("cannot be written: there is no folder " + folder.string());
+  static std::atomic<unsigned> counter = 0;
+  temporary_ = folder / (".hextwist-" + std::to_string(::getpid()) + "-" + std::to_string(++counter) + ".part");
+}
+
+Replacement::~Replacement() {
+  if (committed_ || direct_) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void Replacement::commit() {
+  if (!direct_) {
+    std::error_code error;
+    const auto old = std::filesystem::status(target_, error);
+    const bool exists = std::filesystem::exists(old);
+    if (exists && !overwrite_) fail("exists already and may not be overwritten");
+    if (exists) std::filesystem::permissions(temporary_, old.permissions(), error);  // as the old file had them
+    std::filesystem::rename(temporary_, target_, error);
+    if (error) fail("cannot be written: " + error.message());
+  }
+  committed_ = true;
+}
+
+void Replacement::fail(const std::string& what) const {
+  throw Error(name_ + ": " + what);
+}
+
+Output::Output(const std::filesystem::path& file, bool overwrite)
+    : file_(file, overwrite), buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {
+  const int flags = file_.direct() ? O_WRONLY : O_WRONLY | O_CREAT | O_EXCL;
+  descriptor_ = ::open(file_.temporary().c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) file_.fail("cannot be written: " + reason(errno));
+}
+
+Output::~Output() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Output& Output::operator<<(std::int64_t value) {
+  char* at = room(24);
+  used_ = static_cast<std::size_t>(std::to_chars(at, at + 24, value).ptr - buffer_.get());
+  return *this;
+}
+
+Output& Output::operator<<(double value) {
+  char* at = room(32);
+  used_ = static_cast<std::size_t>(std::to_chars(at, at + 32, value).ptr - buffer_.get());
+  return *this;
+}
+
+void Output::raw_large(const void* bytes, std::size_t n) {
+  flush();
+  if (n >= capacity / 4) return write_out(static_cast<const char*>(bytes), n);
+  std::memcpy(buffer_.get(), bytes, n);
+  used_ = n;
+}
+
+void Output::write_out(const char* bytes, std::size_t n) {
+  while (n > 0) {
+    const auto written = ::write(descriptor_, bytes, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) file_.fail("cannot be written: " + reason(errno));
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
+  }
+}
+
+void Output::flush() {
+  const std::size_t n = used_;
+  used_ = 0;
+  write_out(buffer_.get(), n);
+}
+
+void Output::commit() {
+  flush();
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0) file_.fail("cannot be written: " + reason(errno));
+  file_.commit();
+}
+
+}  // namespace hextwist::io

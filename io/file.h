@@ -1,0 +1,137 @@
+// Whole files in, whole files out: reading in one go, and writing that leaves either the complete file or the old one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hextwist/base/types.h"
+
+namespace hextwist::io {
+
+/// Gives back what holds the bytes of a file: its pages, or memory.
+struct ReleaseBytes {
+  std::size_t mapped = 0;  ///< 0: memory
+  void operator()(const char* data) const;
+};
+
+/// The bytes of a file; name is what error messages call it.
+struct Bytes {
+  std::string name;
+  std::unique_ptr<const char[], ReleaseBytes> data;
+  std::size_t size = 0;
+};
+
+/// The bytes of a whole file, mapped where the system can: no copy of them is made, and pages that were read can go.
+/// As with every mapped file, nobody may cut it short meanwhile (our own writers replace files and never do).
+/// Throws Error when it is missing, a folder, unreadable or empty.
+Bytes read_bytes(const std::filesystem::path& file);
+
+/// Throws the same Errors for a file that a library will read.
+void check_readable(const std::filesystem::path& file);
+
+/// The file that is written in place of another one: a temporary name in the same folder that commit() renames, and
+/// the destructor removes when commit() was not reached. Links are followed; what is no ordinary file (a device, a
+/// pipe) is written directly.
+class Replacement {
+ public:
+  /// Throws Error when the folder is missing or `overwrite` is false and the file exists.
+  Replacement(const std::filesystem::path& file, bool overwrite);
+  ~Replacement();
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  /// Where to write.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  bool direct() const { return direct_; }
+  /// As the caller named it.
+  const std::string& name() const { return name_; }
+  /// Throws Error when the rename fails.
+  void commit();
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::string name_;
+  std::filesystem::path target_, temporary_;
+  bool overwrite_, direct_ = false, committed_ = false;
+};
+
+/// Buffered output. Numbers in text are the shortest that read back to the same bits. Every failed write (full disk)
+/// throws Error.
+class Output {
+ public:
+  Output(const std::filesystem::path& file, bool overwrite);
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  Output& operator<<(std::string_view text) {
+    raw(text.data(), text.size());
+    return *this;
+  }
+  Output& operator<<(const char* text) { return *this << std::string_view(text); }
+  Output& operator<<(char c) {
+    if (used_ == capacity) flush();
+    buffer_[used_++] = c;
+    return *this;
+  }
+  Output& operator<<(std::int64_t value);
+  Output& operator<<(std::int32_t value) { return *this << std::int64_t{value}; }
+  Output& operator<<(std::size_t value) { return *this << static_cast<std::int64_t>(value); }
+  Output& operator<<(double value);
+
+  void raw(const void* bytes, std::size_t n) {
+    if (n > capacity - used_) return raw_large(bytes, n);
+    std::memcpy(buffer_.get() + used_, bytes, n);
+    used_ += n;
+  }
+  /// One value as the machine stores it.
+  template <class T>
+  void put(const T& value) {
+    raw(&value, sizeof value);
+  }
+  template <class T>
+  void put_all(std::span<const T> values) {
+    raw(values.data(), values.size_bytes());
+  }
+  /// value(0) .. value(n - 1), made where they leave from.
+  template <class F>
+  void put_each(std::size_t n, F&& value) {
+    using T = decltype(value(n));
+    for (std::size_t i = 0; i < n;) {
+      const std::size_t piece = std::min(n - i, capacity / sizeof(T));
+      char* at = room(piece * sizeof(T));
+      used_ += piece * sizeof(T);
+      for (const std::size_t end = i + piece; i < end; ++i, at += sizeof(T)) {
+        const T one = value(i);
+        std::memcpy(at, &one, sizeof(T));
+      }
+    }
+  }
+
+  /// Flushes, closes and moves the file to its place.
+  void commit();
+
+ private:
+  static constexpr std::size_t capacity = std::size_t{1} << 18;  // stays in the cache
+  char* room(std::size_t n) {
+    if (n > capacity - used_) flush();
+    return buffer_.get() + used_;
+  }
+  void raw_large(const void* bytes, std::size_t n);
+  void write_out(const char* bytes, std::size_t n);
+  void flush();
+
+  Replacement file_;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t used_ = 0;
+  int descriptor_ = -1;
+};
+
+}  // namespace hextwist::io

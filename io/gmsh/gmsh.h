@@ -1,0 +1,120 @@
+// Gmsh files of all versions: what their sections say, before and after it becomes a mesh.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "hextwist/io/format.h"
+
+namespace hextwist::io {
+
+/// An element type of Gmsh.
+struct GmshType {
+  int dim;
+  int n_nodes;
+  const char* name;
+};
+/// nullptr for a type that this program has not heard of.
+const GmshType* gmsh_type(int type);
+inline constexpr int most_gmsh_nodes = 56;  ///< of the types that it knows
+inline constexpr int gmsh_line = 1, gmsh_quad = 3, gmsh_hex = 5, gmsh_point = 15;
+inline constexpr std::array<int, 4> gmsh_kept = {gmsh_point, gmsh_line, gmsh_quad, gmsh_hex};  // per dimension
+
+/// Elements of one kept type, in file order.
+struct GmshElements {
+  std::vector<std::int64_t> tags;
+  std::vector<Index> nodes;   ///< indices, ids ascending; Gmsh's order; not of hexes
+  std::vector<int> entity;    ///< tag of the entity, 0 none
+  std::vector<int> physical;  ///< versions 1 and 2: physical group, 0 none
+  std::vector<Run> runs;
+};
+
+struct GmshData {
+  Field field;  ///< name, kind (hex: element data), components; values in file order
+  double time = 0;
+  int step = 0;
+  std::vector<std::int64_t> tags;
+};
+
+/// What the sections say. Entities and physical groups are (dim, tag).
+struct GmshContents {
+  int version = 0;  ///< 1, 22, 41
+  Ids nodes;
+  std::vector<Vec3> points;
+  std::vector<Owner> node_entity;           ///< 4.1 only
+  std::vector<Parameters> node_parameters;  ///< 4.1 only, empty when there are none
+  std::array<GmshElements, 4> elements;
+  std::vector<Hex> hexes;                              ///< nodes of elements[3], in our corner order
+  std::map<Owner, std::vector<int>> entity_physicals;  ///< 4.1 only
+  std::map<Owner, std::string> physical_names;
+  std::map<Owner, Owner> parents;  ///< of entities that are parts of others, or only carry a group ("nobody")
+  std::vector<std::pair<Owner, std::vector<std::int64_t>>> more_members;  ///< element tags of physical groups
+  std::vector<GmshData> data;
+  std::map<std::string, std::int64_t> n_dropped;  ///< elements of other types, by name
+  std::vector<std::string> notices;
+
+  /// Nodes of all elements of a dimension, one after the other. Hexes are in our corner order.
+  std::span<const Index> nodes_of(int dim) const {
+    static_assert(sizeof(Hex) == 8 * sizeof(Index));
+    if (dim < 3) return elements[dim].nodes;
+    return {reinterpret_cast<const Index*>(hexes.data()), 8 * hexes.size()};
+  }
+  /// The CAD entity that an entity of the file stands for.
+  Owner owner(Owner entity) const {
+    if (entity.id <= 0) return {};
+    const auto parent = parents.find(entity);
+    return parent == parents.end() ? entity : parent->second;
+  }
+};
+
+/// Values of a section, as text or as the machine stores them.
+struct GmshSource {
+  Cursor& cursor;
+  int integer(std::string_view what) { return cursor.binary ? cursor.raw<std::int32_t>(what) : cursor.small(what); }
+  std::int64_t large(std::string_view what) {
+    return cursor.binary ? cursor.raw<std::int64_t>(what) : cursor.integer(what);
+  }
+  double real(std::string_view what) { return cursor.binary ? cursor.raw<double>(what) : cursor.real(what); }
+  void large_ones(std::span<std::int64_t> to, std::string_view what) {
+    if (cursor.binary) return cursor.raw_all(to, what);
+    for (std::int64_t& value : to) value = cursor.integer(what);
+  }
+  /// Refuses what is not finite.
+  void coordinates(std::span<double> to) {
+    const char* from = cursor.at;
+    if (cursor.binary) cursor.raw_all(to, "a coordinate");
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      if (cursor.binary) {
+        if (!std::isfinite(to[i])) cursor.fail_at(from + i * sizeof(double), "a coordinate is not finite");
+        continue;
+      }
+      cursor.skip_blanks();
+      from = cursor.at;
+      to[i] = cursor.real("a coordinate");
+      if (!std::isfinite(to[i])) cursor.fail_at(from, "a coordinate is not finite");
+    }
+  }
+};
+
+/// Refuses what is no point, line, quad or hex but has a volume; counts what else there is. Returns the dimension if
+/// the element is to be kept, else -1.
+int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at, int type, std::int64_t tag,
+                    std::int64_t count);
+/// Adds an element of a kept type by the ids of its nodes.
+void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std::int64_t tag,
+                      std::span<const std::int64_t> node_ids, const char* at);
+
+// Sections, the cursor at the first thing after the line with the name.
+void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametric);
+void read_gmsh_elements_1(GmshContents& contents, GmshSource& source);
+void read_gmsh_elements_2(GmshContents& contents, GmshSource& source);
+void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool partitioned);
+void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source);
+void read_gmsh_elements_4(GmshContents& contents, GmshSource& source);
+void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on);
+void read_gmsh_parts(GmshContents& contents, Cursor& cursor);
+
+/// Sections to a mesh.
+MeshFile assemble_gmsh(GmshContents&& contents, const Cursor& cursor);
+
+}  // namespace hextwist::io

@@ -1,0 +1,62 @@
+// What a Gmsh file of a mesh will hold: entities, elements and physical groups, before they are put in a format.
+#pragma once
+
+#include "hextwist/io/format.h"
+
+namespace hextwist::io {
+
+/// An entity of the file. Gmsh puts whole entities in physical groups; where a block or set takes a part of a volume
+/// or surface only, that is written as an entity of its own, and `parent` says what it is part of. Entities that
+/// merely carry a group have the parent "nobody".
+struct PlannedEntity {
+  int tag = 0;
+  bool is_part = false;
+  Owner parent;
+  std::vector<int> physicals;
+  std::vector<int> boundary;  ///< tags of the dimension below
+  Box box;
+  bool operator<(const PlannedEntity& other) const { return tag < other.tag; }
+};
+
+/// Elements of one dimension, grouped by entity, entities ascending.
+struct PlannedElements {
+  /// Neighbours on one entity with the same first group, 0 none. Never empty.
+  struct Run {
+    int entity = 0;
+    int physical = 0;
+    std::size_t first = 0, n = 0;
+  };
+  std::vector<Run> runs;
+  std::size_t size = 0;
+  std::vector<Index> items;    ///< which hex, side, curve edge or point each of them is; empty: 0, 1, 2, ...
+  std::vector<Index> nodes;    ///< of those that are no hexes, Gmsh's order
+  std::int64_t first_tag = 1;  ///< of those that are no hexes: they are counted from here
+
+  Index item(std::size_t k) const { return items.empty() ? static_cast<Index>(k) : items[k]; }
+};
+
+struct PlannedGroup {
+  Owner group;  ///< dimension and id
+  std::string name;
+  bool empty = false;
+  std::vector<std::int64_t> more;  ///< versions before 4: members whose own physical tag is another group
+};
+
+struct GmshPlan {
+  std::array<std::vector<PlannedEntity>, 4> entities;
+  std::array<PlannedElements, 4> elements;
+  std::vector<PlannedGroup> groups;
+  int nobody = 0;  ///< volume entity for nodes without owner, 0 when there are none
+
+  PlannedEntity& entity(int dim, int tag);
+  std::size_t n_elements() const;
+  /// Tag of element k of a dimension; hexes have their own ids.
+  std::int64_t tag(const Mesh& mesh, int dim, std::size_t k) const {
+    return dim == 3 ? id_of(mesh.hex_ids, elements[3].item(k)) : elements[dim].first_tag + static_cast<std::int64_t>(k);
+  }
+};
+
+/// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split);
+
+}  // namespace hextwist::io

@@ -1,0 +1,243 @@
+// Nodes, elements and entities of Gmsh's formats 1, 2.2 and 4.1.
+#include <limits>
+
+#include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/base/large_array.h"
+
+namespace hextwist::io {
+namespace {
+
+/// Physical groups of reversed orientation have negative tags.
+int positive(int physical) {
+  return physical == std::numeric_limits<int>::min() ? 0 : std::abs(physical);
+}
+
+}  // namespace
+
+void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametric) {
+  Cursor& cursor = source.cursor;
+  const std::int64_t count = cursor.integer("the number of nodes");
+  cursor.line();
+  const auto n = cursor.check_count(count, cursor.binary ? 28 : 8, "nodes");
+  std::vector<std::int64_t> ids(n);
+  contents.points.resize(n);
+  const std::vector<Run> runs = {{0, cursor.at}};
+  for (std::size_t i = 0; i < n; ++i) {
+    ids[i] = source.integer("a node id");
+    source.coordinates(coordinates(std::span(contents.points).subspan(i, 1)));
+    if (!parametric) continue;
+    // The entity and its parameters: the elements say it better.
+    const int dim = source.integer("a dimension");
+    source.integer("an entity");
+    for (int k = 0; k < dim && dim < 3; ++k) source.real("a parameter");
+  }
+  contents.nodes = Ids(std::move(ids), "node", cursor, parametric ? std::span<const Run>{} : runs);
+  contents.nodes.sort(contents.points);
+}
+
+namespace {
+
+void begin_run(GmshElements& elements, const char* at) {
+  elements.runs.push_back({elements.tags.size(), at});
+}
+
+/// Tag, entity, physical group and nodes of an element of the versions 1 and 2.
+void add_element(GmshContents& contents, GmshSource& source, int dim, int tag, int physical, int entity,
+                 const char* at) {
+  GmshElements& elements = contents.elements[dim];
+  begin_run(elements, at);
+  elements.physical.push_back(positive(physical));
+  elements.entity.push_back(std::max(entity, 0));
+  std::array<std::int64_t, 8> ids;
+  const auto nodes = std::span(ids).first(static_cast<std::size_t>(gmsh_type(gmsh_kept[dim])->n_nodes));
+  for (std::int64_t& id : nodes) id = source.integer("a node");
+  add_gmsh_element(contents, source.cursor, dim, tag, nodes, at);
+}
+
+}  // namespace
+
+void read_gmsh_elements_1(GmshContents& contents, GmshSource& source) {
+  Cursor& cursor = source.cursor;
+  const auto n = cursor.check_count(cursor.integer("the number of elements"), 12, "elements");
+  for (std::size_t i = 0; i < n; ++i) {
+    cursor.skip_blanks();
+    const char* at = cursor.at;
+    const int tag = cursor.small("an element"), type = cursor.small("an element type");
+    const int physical = cursor.small("a physical group"), entity = cursor.small("an entity");
+    const int n_nodes = cursor.small("the number of nodes");
+    const int dim = check_gmsh_type(contents, cursor, at, type, tag, 1);
+    if (n_nodes != gmsh_type(type)->n_nodes)
+      cursor.fail_at(at, "element " + std::to_string(tag) + " has " + std::to_string(n_nodes) + " nodes, a " +
+                             gmsh_type(type)->name + " has " + std::to_string(gmsh_type(type)->n_nodes));
+    if (dim >= 0)
+      add_element(contents, source, dim, tag, physical, entity, at);
+    else
+      for (int k = 0; k < n_nodes; ++k) cursor.integer("a node");
+  }
+}
+
+void read_gmsh_elements_2(GmshContents& contents, GmshSource& source) {
+  Cursor& cursor = source.cursor;
+  const std::int64_t count = cursor.integer("the number of elements");
+  cursor.line();
+  const auto n = cursor.check_count(count, 8, "elements");
+  for (std::size_t done = 0; done < n;) {
+    cursor.skip_text_blanks();
+    const char* at = cursor.at;
+    // Text: tag, type, number of tags, tags, nodes. Binary: the same, with type and number of tags up front for many.
+    int tag = 0, follow = 1;
+    if (!cursor.binary) tag = cursor.small("an element");
+    const int type = source.integer("an element type");
+    if (cursor.binary) follow = source.integer("the number of elements of a type");
+    const int n_tags = source.integer("the number of tags");
+    if (follow < 1 || static_cast<std::size_t>(follow) > n - done || n_tags < 0)
+      cursor.fail_at(at, "a broken element header");
+    cursor.check_count(n_tags, 2, "tags");
+    for (int k = 0; k < follow; ++k) {
+      if (cursor.binary) {
+        at = cursor.at;
+        tag = source.integer("an element");
+      }
+      int physical = 0, entity = 0;
+      for (int t = 0; t < n_tags; ++t) {
+        const int value = source.integer("a tag");
+        if (t == 0) physical = value;
+        if (t == 1) entity = value;
+      }
+      const int dim = check_gmsh_type(contents, cursor, at, type, tag, 1);
+      if (dim >= 0)
+        add_element(contents, source, dim, tag, physical, entity, at);
+      else
+        for (int c = 0; c < gmsh_type(type)->n_nodes; ++c) source.integer("a node");
+    }
+    done += static_cast<std::size_t>(follow);
+  }
+}
+
+void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool partitioned) {
+  Cursor& cursor = source.cursor;
+  const auto list = [&](std::string_view what, auto&& each) {
+    const auto n = cursor.check_count(source.large(what), cursor.binary ? 4 : 2, what);
+    for (std::size_t i = 0; i < n; ++i) each(source.integer(what));
+  };
+  const auto nothing = [](int) {};
+  if (partitioned) {
+    source.large("the number of partitions");
+    const auto n_ghosts = cursor.check_count(source.large("the number of ghost entities"), 4, "ghost entities");
+    for (std::size_t i = 0; i < 2 * n_ghosts; ++i) source.integer("a ghost entity");
+  }
+  std::array<std::size_t, 4> n_entities;
+  for (auto& n : n_entities)
+    n = cursor.check_count(source.large("the number of entities"), cursor.binary ? 36 : 10, "entities");
+  for (int dim = 0; dim < 4; ++dim)
+    for (std::size_t i = 0; i < n_entities[dim]; ++i) {
+      const Owner entity{dim, source.integer("an entity")};
+      if (partitioned) {
+        const int parent_dim = source.integer("a parent's dimension");
+        const int parent = source.integer("a parent");
+        if (parent_dim >= 0 && parent > 0) contents.parents[entity] = {parent_dim, parent};
+        list("partitions", nothing);
+      }
+      for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) source.real("a box");
+      auto& physicals = contents.entity_physicals[entity];
+      list("physical groups", [&](int tag) { physicals.push_back(positive(tag)); });
+      if (dim > 0) list("bounding entities", nothing);
+    }
+}
+
+void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
+  Cursor& cursor = source.cursor;
+  const auto n_blocks = source.large("the number of node blocks");
+  const auto n = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
+  source.large("the lowest node id");
+  source.large("the highest node id");
+  std::vector<std::int64_t> ids;
+  std::vector<Run> runs;
+  resize_for_overwrite(ids, n);
+  resize_for_overwrite(contents.points, n);
+  reserve_large(contents.node_entity, n);
+  std::size_t done = 0;
+  bool any_parametric = false;
+  cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "node blocks");
+  for (std::int64_t block = 0; block < n_blocks; ++block) {
+    cursor.skip_text_blanks();
+    const char* at = cursor.at;
+    const int dim = source.integer("a dimension"), entity = source.integer("an entity");
+    const int parametric = source.integer("whether nodes have parameters");
+    if (dim < 0 || dim > 3) cursor.fail_at(at, "nodes on an entity of dimension " + std::to_string(dim));
+    const auto size = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
+    if (size > n - done) cursor.fail_at(at, "more nodes than the header says");
+    cursor.skip_text_blanks();
+    runs.push_back({done, cursor.at});
+    const auto block_ids = std::span(ids).subspan(done, size);
+    const auto points = std::span(contents.points).subspan(done, size);
+    source.large_ones(block_ids, "a node id");
+    if (!parametric) {
+      source.coordinates(coordinates(points));
+    } else {
+      any_parametric = any_parametric || dim == 1 || dim == 2;
+      if (any_parametric) contents.node_parameters.resize(n);
+      for (std::size_t i = 0; i < size; ++i) {
+        source.coordinates(coordinates(points.subspan(i, 1)));
+        std::array<double, 3> u{};
+        for (int k = 0; k < dim; ++k) u[k] = source.real("a parameter");
+        if (dim == 1 || dim == 2) contents.node_parameters[done + i].u = u[0];
+        if (dim == 2) contents.node_parameters[done + i].v = u[1];
+      }
+    }
+    contents.node_entity.insert(contents.node_entity.end(), size, entity > 0 ? Owner{dim, entity} : Owner{});
+    done += size;
+  }
+  if (done != n) cursor.fail("the header says " + std::to_string(n) + " nodes, there are " + std::to_string(done));
+  contents.nodes = Ids(std::move(ids), "node", cursor, runs);
+  contents.nodes.sort(contents.points);
+  contents.nodes.sort(contents.node_entity);
+  if (any_parametric) contents.nodes.sort(contents.node_parameters);
+}
+
+void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
+  Cursor& cursor = source.cursor;
+  const auto n_blocks = source.large("the number of element blocks");
+  const auto n = cursor.check_count(source.large("the number of elements"), cursor.binary ? 16 : 4, "elements");
+  source.large("the lowest element tag");
+  source.large("the highest element tag");
+  cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "element blocks");
+  std::size_t done = 0;
+  for (std::int64_t block = 0; block < n_blocks; ++block) {
+    cursor.skip_text_blanks();
+    const char* at = cursor.at;
+    const int entity_dim = source.integer("a dimension"), entity = source.integer("an entity");
+    const int type = source.integer("an element type");
+    const auto size = cursor.check_count(source.large("the number of elements"), cursor.binary ? 16 : 4, "elements");
+    if (size > n - done) cursor.fail_at(at, "more elements than the header says");
+    done += size;
+    if (size == 0) continue;
+    cursor.skip_text_blanks();
+    const char* first = cursor.at;
+    const std::int64_t first_tag = source.large("an element");
+    const int dim = check_gmsh_type(contents, cursor, first, type, first_tag, static_cast<std::int64_t>(size));
+    cursor.at = first;
+    const int n_nodes = gmsh_type(type)->n_nodes;
+    if (dim >= 0) {
+      GmshElements& elements = contents.elements[dim];
+      begin_run(elements, first);
+      const std::size_t most = n - done + size + elements.tags.size();  // however many blocks follow
+      reserve_large(elements.tags, most);
+      reserve_large(elements.entity, most);
+      if (dim == 3) reserve_large(contents.hexes, most);
+      elements.entity.insert(elements.entity.end(), size, entity_dim == dim ? std::max(entity, 0) : 0);
+    }
+    std::array<std::int64_t, most_gmsh_nodes> ids;
+    const auto nodes = std::span(ids).first(static_cast<std::size_t>(n_nodes));
+    for (std::size_t i = 0; i < size; ++i) {
+      cursor.skip_text_blanks();
+      at = cursor.at;
+      const auto tag = source.large("an element");
+      source.large_ones(nodes, "a node");
+      if (dim >= 0) add_gmsh_element(contents, cursor, dim, tag, nodes, at);
+    }
+  }
+  if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));
+}
+
+}  // namespace hextwist::io

@@ -1,0 +1,92 @@
+#include "hextwist/io/io.h"
+
+#include "hextwist/io/format.h"
+
+namespace hextwist {
+namespace {
+
+template <MeshFile (*read)(const io::Bytes&)>
+MeshFile read_whole(const std::filesystem::path& file) {
+  return read(io::read_bytes(file));
+}
+
+template <void (*write)(io::Output&, const Mesh&, const Association&, const WriteOptions&)>
+void write_whole(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
+                 const WriteOptions& options) {
+  io::Output out(file, options.overwrite);
+  write(out, mesh, association, options);
+  out.commit();
+}
+
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&,
+                  const WriteOptions& options) {
+  io::write_exodus(file, mesh, options);
+}
+
+struct Format {
+  std::string_view extension;
+  MeshFile (*read)(const std::filesystem::path&);
+  void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&);
+};
+
+constexpr Format formats[] = {
+    {".msh", read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
+    {".e", io::read_exodus, write_exodus},
+    {".exo", io::read_exodus, write_exodus},
+    {".g", io::read_exodus, write_exodus},
+    {".gen", io::read_exodus, write_exodus},
+    {".inp", io::read_abaqus, write_whole<io::write_abaqus>},
+    {".mesh", read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".vtk", read_whole<io::read_vtk>, nullptr},
+    {".vtu", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
+};
+
+const Format* format_of(const std::filesystem::path& file) {
+  const std::string extension = io::lower_case(file.extension().string());
+  for (const Format& format : formats)
+    if (format.extension == extension) return &format;
+  return nullptr;
+}
+
+template <class Does>
+std::string extensions(Does&& does) {
+  std::string result;
+  for (const Format& format : formats)
+    if (does(format)) result += (result.empty() ? "" : " ") + std::string(format.extension);
+  return result;
+}
+
+}  // namespace
+
+std::string readable_extensions() {
+  return extensions([](const Format& format) { return format.read != nullptr; });
+}
+
+std::string writable_extensions() {
+  return extensions([](const Format& format) { return format.write != nullptr; });
+}
+
+MeshFile read_mesh(const std::filesystem::path& file) {
+  const Format* format = format_of(file);
+  if (!format || !format->read)
+    throw Error(file.string() + ": meshes of this kind cannot be read; known are " + readable_extensions());
+  return format->read(file);
+}
+
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
+                const WriteOptions& options) {
+  const Format* format = format_of(file);
+  if (!format || !format->write)
+    throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
+  static const Association nothing;
+  try {
+    format->write(file, mesh, association ? *association : nothing, options);
+  } catch (const Error& error) {
+    // Reasons that lie in the mesh do not know the file's name.
+    const std::string what = error.what();
+    if (what.starts_with(file.string() + ":")) throw;
+    throw Error(file.string() + ": " + what);
+  }
+}
+
+}  // namespace hextwist

@@ -1,0 +1,62 @@
+// Mesh files. Hexes only: a file with any other volume element is refused, naming the first one.
+//
+//   .msh        Gmsh 2.2 and 4.1, text and binary (1.0 is read as well)
+//               Entity tags are owners. Physical groups: 3D are blocks, 2D side sets, 1D and 0D node sets; a node set
+//               is written as a group of curves if it is exactly their nodes, else of points. Where a set takes part of
+//               an entity, the part becomes an entity of its own; the section $HextwistParts, which Gmsh skips, says of
+//               what. Version 2.2 says owners by elements only: nodes on an entity without elements lose theirs.
+//   .e .exo .g .gen   Exodus II; blocks, node sets, side sets, names, ids, fields of the last time step
+//               Blocks that overlap or leave hexes out: the first block of a hex is its element block, blocks that lost
+//               hexes that way are written whole as element sets. No owners.
+//   .vtk        VTK legacy, text and binary (read only)
+//   .vtu        VTK XML: ids, owners, blocks, quality and fields as point and cell data, sets as field data
+//   .inp        Abaqus and CalculiX: C3D8*, *NSET, *ELSET, *SURFACE; parts and instances are read. No owners, no fields
+//   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
+//
+// What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
+// skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode.
+// Quads, lines and points in a file are sides, edges and members of sets; those that are not, and triangles, are
+// dropped with a notice.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+/// What a mesh file says: the mesh, which entities its tags name as owners (partial, unchecked; empty() when the
+/// format has none), and remarks, one line each ("dropped 40 quads that are no side of a hex", ...).
+struct MeshFile {
+  Mesh mesh;
+  Association tags;
+  std::vector<std::string> notices;
+};
+
+/// Reads by extension (case ignored). Node ids are those of the file where it has any, nodes sorted by id; hex ids
+/// likewise, except for Gmsh, where elements of all kinds share one numbering: unless the hexes come first in it (as we
+/// write them), they are counted from 1 in its order.
+/// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
+/// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
+MeshFile read_mesh(const std::filesystem::path& file);
+
+struct WriteOptions {
+  bool binary = true;         ///< where the format has both
+  int gmsh_version = 41;      ///< 22 or 41
+  bool overwrite = true;      ///< false: throw Error if the file exists
+  bool write_quality = true;  ///< .vtu: shape and scaled Jacobian as cell data
+};
+
+/// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole
+/// or as it was. association may be null. Throws Error naming the file and the reason.
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
+                const WriteOptions& options = {});
+
+/// Extensions that can be read or written, for messages: ".msh .e ...".
+std::string readable_extensions();
+std::string writable_extensions();
+
+}  // namespace hextwist

@@ -1,0 +1,321 @@
+// Cells and arrays of VTK become a mesh.
+//
+// Hexes and voxels are hexes. Arrays are fields, but those that write_vtu() makes itself ("hextwist:made") turn back
+// into ids, owners and groups. In other people's files, an integer cell array of a well-known name gives blocks
+// (positive values on hexes) and side sets (on quads).
+#include <limits>
+#include <map>
+
+#include "hextwist/io/vtk/vtk_internal.h"
+#include "hextwist/base/large_array.h"
+
+namespace hextwist::io {
+
+namespace {
+
+/// Cell types below dimension 3; everything else but hexes and voxels is refused.
+constexpr int lower_types[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36, 68, 69, 70, 75, 76, 77};
+constexpr int vtk_pixel = 8, vtk_quad = 9, vtk_voxel = 11, vtk_hex = 12;
+
+std::string type_name(std::int64_t type) {
+  constexpr std::pair<int, const char*> names[] = {
+      {10, "tetrahedron"},   {13, "wedge"},           {14, "pyramid"},           {24, "quadratic tetrahedron"},
+      {25, "quadratic hex"}, {26, "quadratic wedge"}, {27, "quadratic pyramid"}, {29, "triquadratic hex"},
+      {42, "polyhedron"},    {72, "Lagrange hex"}};
+  for (const auto& [number, name] : names)
+    if (number == type) return name;
+  return "cell of type " + std::to_string(type);
+}
+
+constexpr std::string_view group_arrays[] = {"MaterialID",    "CellEntityIds",    "medit:ref",
+                                             "gmsh:physical", "gmsh:geometrical", "BlockId"};
+
+class Assembly {
+ public:
+  Assembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
+
+  MeshFile result() {
+    cells();
+    ours();
+    if (made_.empty()) groups();
+    fields();
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw Error(std::string(cursor_.name) + ": " + what); }
+
+  void cells() {
+    out_.mesh.points = std::move(in_.points);
+    const std::size_t n_cells = in_.types.size(), n_numbers = in_.connectivity.size();
+    reserve_large(out_.mesh.hexes, std::min(n_cells, n_numbers / 8));
+    // In pieces that stay in the cache, so that one loop does for all types of numbers.
+    constexpr std::size_t piece = 1024;
+    std::vector<std::int64_t> types, ends;
+    std::vector<Index> nodes;
+    std::int64_t begin = 0;
+    for (std::size_t first = 0; first < n_cells; first += piece) {
+      const std::size_t n = std::min(piece, n_cells - first);
+      types.resize(n), ends.resize(n);
+      in_.types.copy(first, types);
+      in_.ends.copy(first, ends);
+      const std::int64_t start = begin;
+      for (std::size_t k = 0; k < n; begin = ends[k++])
+        if (ends[k] < begin || ends[k] > static_cast<std::int64_t>(n_numbers))
+          fail("the nodes of cell " + std::to_string(first + k + 1) + " do not fit: they end at " +
+               std::to_string(ends[k]) + " of " + std::to_string(n_numbers));
+      nodes.resize(static_cast<std::size_t>(begin - start));
+      in_.connectivity.copy_indices(static_cast<std::size_t>(start), nodes, out_.mesh.n_nodes());
+      for (std::size_t k = 0, from = 0; k < n; ++k) {
+        const auto to = static_cast<std::size_t>(ends[k] - start);
+        cell(first + k, types[k], std::span(nodes).subspan(from, to - from), static_cast<std::size_t>(start) + from);
+        from = to;
+      }
+    }
+    if (out_.mesh.hexes.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
+    for (const auto& [type, n] : n_dropped_)
+      out_.notices.push_back("dropped " + std::to_string(n) + " cells of type " + std::to_string(type) +
+                             ", which are no hexes or quads");
+  }
+
+  /// `at`: where its nodes stand in the connectivity.
+  void cell(std::size_t i, std::int64_t type, std::span<const Index> nodes, std::size_t at) {
+    const bool hex = type == vtk_hex || type == vtk_voxel, quad = type == vtk_quad || type == vtk_pixel;
+    if (hex && nodes.size() == 8) {
+      check(i, nodes, at);
+      Hex corners;
+      std::ranges::copy(nodes, corners.begin());
+      return add_hex(i, type == vtk_voxel ? corners : in_file_order(corners));
+    }
+    const std::string name = "cell " + std::to_string(i + 1);
+    if (!hex && std::ranges::find(lower_types, type) == std::end(lower_types))
+      fail(name + " is a " + type_name(type) + "; only 8-node hexes are accepted");
+    if (hex || (quad && nodes.size() != 4))
+      fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + (hex ? "8" : "4"));
+    if (only_hexes_)  // up to here
+      for (std::size_t h = 0; h < i; ++h) hex_cells_.push_back(h);
+    only_hexes_ = false;
+    if (!quad) {
+      ++n_dropped_[type];
+      return;
+    }
+    check(i, nodes, at);
+    Quad cycle{nodes[0], nodes[1], nodes[2], nodes[3]};
+    if (type == vtk_pixel) std::swap(cycle[2], cycle[3]);
+    quads_.push_back(cycle);
+    quad_cells_.push_back(i);
+  }
+  void add_hex(std::size_t i, const Hex& hex) {
+    out_.mesh.hexes.push_back(hex);
+    if (!only_hexes_) hex_cells_.push_back(i);
+  }
+  std::size_t cell_of_hex(std::size_t hex) const { return only_hexes_ ? hex : hex_cells_[hex]; }
+  void check(std::size_t i, std::span<const Index> nodes, std::size_t at) const {
+    Index all = 0;
+    for (const Index node : nodes) all |= node;
+    if (all >= 0) return;
+    const auto wrong =
+        at + static_cast<std::size_t>(std::ranges::find_if(nodes, [](Index n) { return n < 0; }) - nodes.begin());
+    fail("cell " + std::to_string(i + 1) + " names point " + std::to_string(in_.connectivity.integer(wrong)) + " of " +
+         std::to_string(out_.mesh.n_nodes()) + " (counted from 0)");
+  }
+
+  const VtkArray* find(VtkArray::On on, std::string_view name) const {
+    for (const VtkArray& array : in_.arrays)
+      if (array.on == on && array.name == name) return &array;
+    return nullptr;
+  }
+  bool is_made(std::string_view name) const { return std::ranges::find(made_, name) != made_.end(); }
+
+  /// What write_vtu() says beyond fields. Such arrays may have been edited by other programs: all is checked.
+  void ours() {
+    Mesh& mesh = out_.mesh;
+    Association& tags = out_.tags;
+    for (const VtkArray& array : in_.arrays)
+      if (array.on == VtkArray::On::file && array.name.starts_with("hextwist:made")) {
+        std::string_view rest = std::string_view(array.name).substr(13);
+        while (!(rest = trimmed(rest)).empty()) {
+          const auto end = std::min(rest.find(' '), rest.size());
+          made_.emplace_back(rest.substr(0, end));
+          rest.remove_prefix(end);
+        }
+      }
+    if (made_.empty()) return;
+    const auto n_nodes = mesh.points.size(), n_hexes = mesh.hexes.size();
+    if (!only_hexes_) fail("groups cannot be kept: there are cells other than hexes");
+    const auto column = [&](VtkArray::On on, const char* name, std::size_t n) {
+      const VtkArray* array = is_made(name) ? find(on, name) : nullptr;
+      return array && array->is_integer() && array->size() == n ? array : nullptr;
+    };
+    mesh.node_ids = ids(column(VtkArray::On::node, "node_id", n_nodes), "node");
+    mesh.hex_ids = ids(column(VtkArray::On::cell, "hex_id", n_hexes), "hex");
+    const VtkArray* dim = column(VtkArray::On::node, "owner_dim", n_nodes);
+    const VtkArray* id = column(VtkArray::On::node, "owner_id", n_nodes);
+    const VtkArray* volume = column(VtkArray::On::cell, "volume", n_hexes);
+    if ((dim && id) || volume || find(VtkArray::On::file, "hextwist:curve_edges") ||
+        find(VtkArray::On::file, "hextwist:surface_faces")) {
+      tags.node_owner.resize(n_nodes);
+      tags.node_parameters.resize(n_nodes);
+      tags.hex_volume.resize(n_hexes);
+    }
+    for (std::size_t i = 0; dim && id && i < n_nodes; ++i)
+      if (const auto d = dim->integer(i); d >= 0 && d <= 3)
+        tags.node_owner[i] = {static_cast<int>(d), static_cast<int>(id->integer(i))};
+    for (std::size_t i = 0; volume && i < n_hexes; ++i) tags.hex_volume[i] = static_cast<int>(volume->integer(i));
+    for (const VtkArray& array : in_.arrays)
+      if (array.on == VtkArray::On::file && array.name.starts_with("hextwist:") && array.is_integer())
+        group(array, std::string_view(array.name).substr(9));
+    const auto by_id = [](auto& groups) {
+      std::ranges::stable_sort(groups, {}, [](const auto& g) { return g.id; });
+      groups.erase(std::ranges::unique(groups, {}, [](const auto& g) { return g.id; }).begin(), groups.end());
+    };
+    by_id(mesh.blocks), by_id(mesh.node_sets), by_id(mesh.side_sets);
+    tidy(tags);
+  }
+
+  /// Ids of nodes or hexes, empty where they are 1..n.
+  std::vector<std::int64_t> ids(const VtkArray* array, const char* kind) const {
+    if (!array || array->size() == 0) return {};
+    if (array->integer(0) < 1) fail(std::string(kind) + " ids are not positive");
+    std::vector<std::int64_t> result;
+    array->visit([&](auto numbers) {
+      for (std::size_t i = 1; i < numbers.size(); ++i)
+        if (numbers[i] <= numbers[i - 1]) fail(std::string(kind) + " ids are not ascending");
+      if (static_cast<std::size_t>(numbers[numbers.size() - 1]) == numbers.size()) return;
+      reserve_large(result, numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) result.push_back(static_cast<std::int64_t>(numbers[i]));
+    });
+    return result;
+  }
+
+  /// Rows of as many columns as there are bounds: each number at least 0 and less than its column's bound.
+  std::vector<Index> rows(const VtkArray& array, std::initializer_list<std::int64_t> bounds) const {
+    std::vector<Index> result;
+    array.visit([&](auto numbers) {
+      const std::size_t n = numbers.size() / bounds.size();
+      reserve_large(result, n * bounds.size());
+      for (std::size_t i = 0, k = 0; i < n; ++i)
+        for (const std::int64_t bound : bounds) {
+          const auto value = static_cast<std::int64_t>(numbers[k++]);
+          if (value < 0 || value >= bound) fail("'" + array.name + "' has an entry " + std::to_string(value));
+          result.push_back(static_cast<Index>(value));
+        }
+    });
+    return result;
+  }
+  std::vector<Side> sides(const VtkArray& array) const {
+    const auto items = rows(array, {out_.mesh.n_hexes(), n_hex_faces});
+    std::vector<Side> result;
+    for (std::size_t i = 0; i < items.size(); i += 2) result.push_back({items[i], items[i + 1]});
+    return result;
+  }
+
+  void group(const VtkArray& array, std::string_view what) {
+    Mesh& mesh = out_.mesh;
+    constexpr std::int64_t any = std::numeric_limits<int>::max();
+    if (what == "curve_edges") {
+      const auto items = rows(array, {mesh.n_nodes(), mesh.n_nodes(), any});
+      for (std::size_t i = 0; i < items.size(); i += 3) {
+        out_.tags.curve_edges.push_back({items[i], items[i + 1]});
+        out_.tags.edge_curve.push_back(items[i + 2]);
+      }
+      return;
+    }
+    if (what == "surface_faces") {
+      const auto items = rows(array, {mesh.n_hexes(), n_hex_faces, any});
+      for (std::size_t i = 0; i < items.size(); i += 3) {
+        out_.tags.surface_faces.push_back({items[i], items[i + 1]});
+        out_.tags.face_surface.push_back(items[i + 2]);
+      }
+      return;
+    }
+    // "block 3 name"
+    const auto blank = std::min(what.find(' '), what.size());
+    const std::string_view kind = what.substr(0, blank);
+    std::string_view rest = what.substr(std::min(blank + 1, what.size()));
+    int id = 0;
+    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), id);
+    if (error != std::errc{} || id < 1) return;
+    rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
+    const std::string name(rest.substr(std::min<std::size_t>(1, rest.size())));
+    if (kind == "block" || kind == "nodeset") {
+      std::vector<Index> items = rows(array, {kind == "block" ? mesh.n_hexes() : mesh.n_nodes()});
+      make_set(items);
+      if (kind == "block")
+        mesh.blocks.push_back({id, name, std::move(items)});
+      else
+        mesh.node_sets.push_back({id, name, std::move(items)});
+    } else if (kind == "sideset") {
+      std::vector<Side> items = sides(array);
+      make_set(items);
+      mesh.side_sets.push_back({id, name, std::move(items)});
+    }
+  }
+
+  void groups() {
+    const auto sides = oriented_sides(out_.mesh, quads_);
+    if (const auto lost = std::ranges::count(sides, -1, &Side::hex))
+      out_.notices.push_back("dropped " + std::to_string(lost) + " quads that are no side of a hex");
+    for (const std::string_view name : group_arrays) {
+      const VtkArray* array = find(VtkArray::On::cell, name);
+      if (!array || array->components != 1 || array->size() != in_.types.size()) continue;
+      const auto value = [&](std::size_t cell) {
+        const double x = array->real(cell);
+        return x >= 1 && x < std::numeric_limits<int>::max() && x == std::floor(x) ? static_cast<int>(x) : 0;
+      };
+      std::map<int, std::vector<Index>> blocks;
+      std::map<int, std::vector<Side>> sets;
+      for (std::size_t h = 0; h < out_.mesh.hexes.size(); ++h)
+        if (const int id = value(cell_of_hex(h))) blocks[id].push_back(static_cast<Index>(h));
+      for (std::size_t q = 0; q < quad_cells_.size(); ++q)
+        if (const int id = value(quad_cells_[q]); id && sides[q].hex >= 0) sets[id].push_back(sides[q]);
+      for (auto& [id, items] : blocks) out_.mesh.blocks.push_back({id, "", std::move(items)});
+      for (auto& [id, items] : sets) {
+        make_set(items);
+        out_.mesh.side_sets.push_back({id, "", std::move(items)});
+      }
+      break;
+    }
+  }
+
+  void fields() {
+    for (const VtkArray& array : in_.arrays) {
+      if (array.on == VtkArray::On::file || is_made(array.name)) continue;
+      const bool node = array.on == VtkArray::On::node;
+      const auto width = static_cast<std::size_t>(array.components);
+      const std::size_t n = node ? out_.mesh.points.size() : in_.types.size();
+      if (array.size() != n * width) {
+        out_.notices.push_back("dropped array '" + array.name + "', which has " + std::to_string(array.size()) +
+                               " values instead of " + std::to_string(n * width));
+        continue;
+      }
+      Field field{array.name, node ? Field::On::node : Field::On::hex, array.components, {}};
+      const std::size_t n_kept = node ? n : out_.mesh.hexes.size();
+      reserve_large(field.values, n_kept * width);
+      array.visit([&](auto numbers) {
+        for (std::size_t i = 0; i < n_kept; ++i)
+          for (std::size_t c = 0; c < width; ++c)
+            field.values.push_back(static_cast<double>(numbers[(node ? i : cell_of_hex(i)) * width + c]));
+      });
+      out_.mesh.fields.push_back(std::move(field));
+    }
+  }
+
+  VtkContents in_;
+  const Cursor& cursor_;
+  MeshFile out_;
+  bool only_hexes_ = true;
+  std::vector<std::size_t> hex_cells_;  // where there are other cells
+  std::vector<std::size_t> quad_cells_;
+  std::map<std::int64_t, std::int64_t> n_dropped_;  // by cell type
+  std::vector<Quad> quads_;
+  std::vector<std::string> made_;
+};
+
+}  // namespace
+
+MeshFile assemble_vtk(VtkContents&& contents, const Cursor& cursor) {
+  return Assembly(std::move(contents), cursor).result();
+}
+
+}  // namespace hextwist::io

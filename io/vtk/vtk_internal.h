@@ -1,0 +1,123 @@
+// VTK's unstructured grids, legacy and XML: cells and arrays before they become a mesh.
+#pragma once
+
+#include <optional>
+
+#include "hextwist/io/format.h"
+
+namespace hextwist::io {
+
+/// Number types by their legacy ("unsigned_char") and XML ("UInt8") names.
+enum class VtkType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+/// Throws through the cursor for a type that is not known.
+VtkType vtk_type(std::string_view name, const Cursor& cursor);
+std::size_t vtk_size(VtkType type);
+
+/// Numbers of a type in memory that need not be aligned.
+template <class T>
+struct Unaligned {
+  const char* data;
+  std::size_t n;
+  std::size_t size() const { return n; }
+  T operator[](std::size_t i) const {
+    T value;
+    std::memcpy(&value, data + i * sizeof(T), sizeof(T));
+    return value;
+  }
+};
+
+/// An array of numbers. They stay where the file has them, in its type; only what must be decoded (text, base64,
+/// compressed, the other byte order) has memory of its own.
+struct VtkArray {
+  enum class On { node, cell, file } on = On::node;
+  std::string name;
+  int components = 1;
+  VtkType type = VtkType::int64;
+  std::string_view bytes;          ///< of the numbers, in this machine's order
+  std::vector<std::uint64_t> own;  ///< what `bytes` is in, where that is not the file
+
+  VtkArray() = default;
+  VtkArray(VtkArray&&) = default;
+  VtkArray& operator=(VtkArray&&) = default;
+
+  std::size_t size() const { return bytes.size() / vtk_size(type); }
+  bool is_integer() const { return type != VtkType::float32 && type != VtkType::float64; }
+  /// Calls f with the numbers in their own type.
+  template <class F>
+  auto visit(F&& f) const {
+    const auto as = [&]<class T>(T) { return f(Unaligned<T>{bytes.data(), size()}); };
+    switch (type) {
+      case VtkType::int8:
+        return as(std::int8_t{});
+      case VtkType::uint8:
+        return as(std::uint8_t{});
+      case VtkType::int16:
+        return as(std::int16_t{});
+      case VtkType::uint16:
+        return as(std::uint16_t{});
+      case VtkType::int32:
+        return as(std::int32_t{});
+      case VtkType::uint32:
+        return as(std::uint32_t{});
+      case VtkType::int64:
+        return as(std::int64_t{});
+      case VtkType::uint64:
+        return as(std::uint64_t{});
+      case VtkType::float32:
+        return as(float{});
+      case VtkType::float64:
+        break;
+    }
+    return as(double{});
+  }
+  /// One number; for many there is visit().
+  double real(std::size_t i) const {
+    return visit([&](auto numbers) { return static_cast<double>(numbers[i]); });
+  }
+  std::int64_t integer(std::size_t i) const {
+    return visit([&](auto numbers) { return static_cast<std::int64_t>(numbers[i]); });
+  }
+  /// Numbers first, first + 1, ... as integers.
+  void copy(std::size_t first, std::span<std::int64_t> to) const {
+    visit([&](auto numbers) {
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] = static_cast<std::int64_t>(numbers[first + i]);
+    });
+  }
+  /// Copies the numbers to memory of its own, if they have none.
+  void keep();
+  /// The same as indices, -1 for what is not in 0..n-1.
+  void copy_indices(std::size_t first, std::span<Index> to, Index n) const {
+    visit([&](auto numbers) {
+      using T = decltype(numbers[0]);
+      const T end = static_cast<T>(n);
+      const bool all_less = static_cast<Index>(end) != n;  // n is more than T can say
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        const T value = numbers[first + i];
+        to[i] = value >= T{0} && (all_less || value < end) ? static_cast<Index>(value) : -1;
+      }
+    });
+  }
+  /// Takes the first number away.
+  void drop_first() { bytes.remove_prefix(vtk_size(type)); }
+};
+
+/// Takes n numbers as this machine or (cursor.swapped) another one stores them. The file must outlive the array.
+void read_vtk_values(Cursor& cursor, VtkType type, std::size_t n, VtkArray& to);
+/// The same as text: n numbers, or all up to the end.
+void read_vtk_text(Cursor& cursor, VtkType type, std::optional<std::size_t> n, VtkArray& to);
+/// Numbers that are made by the reader.
+void set_integers(VtkArray& to, const std::vector<std::int64_t>& numbers);
+
+struct VtkContents {
+  std::vector<Vec3> points;
+  VtkArray connectivity;
+  VtkArray ends;  ///< per cell: the end of its nodes in `connectivity`; integers, not checked
+  VtkArray types;
+  std::vector<VtkArray> arrays;
+};
+
+/// Points from their array. Throws at coordinates that are not finite.
+std::vector<Vec3> vtk_points(const VtkArray& array, const Cursor& cursor);
+MeshFile assemble_vtk(VtkContents&& contents, const Cursor& cursor);
+
+}  // namespace hextwist::io

@@ -1,0 +1,19 @@
+// A mesh on its model.
+#pragma once
+
+#include <memory>
+
+#include "hextwist/geom/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/mesh.h"
+
+namespace hextwist {
+
+/// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
+struct MeshedModel {
+  Mesh mesh;
+  std::shared_ptr<const Model> model;
+  Association association;
+};
+
+}  // namespace hextwist

@@ -1,0 +1,72 @@
+// The kernels behind the metrics, and what they share.
+//
+// Roots are monotone, so where it can be done a metric compares powers at the corners and takes one root at the end.
+#pragma once
+
+#include <array>
+
+#include "hextwist/mesh/hex_lanes.h"
+
+namespace hextwist {
+
+inline constexpr int n_lanes = 4;
+
+/// One metric for one hex, and for several at once. The second argument is the volume that relative size compares with.
+struct Kernel {
+  Lanes<1> (*one)(const LaneHex<1>&, double average);
+  Lanes<n_lanes> (*some)(const LaneHex<n_lanes>&, double average);
+};
+
+extern const Kernel shape_kernel, scaled_jacobian_kernel, mean_ratio_kernel, condition_number_kernel, shear_kernel,
+    oddy_kernel, jacobian_kernel, corner_jacobian_kernel;                                      // corners
+extern const Kernel skew_kernel, taper_kernel, aspect_ratio_kernel;                            // axes
+extern const Kernel edge_ratio_kernel, stretch_kernel, diagonal_kernel;                        // lengths
+extern const Kernel volume_kernel, relative_size_kernel, dimension_kernel, distortion_kernel;  // sizes
+
+/// The worst value of a metric that has no largest one, as in Verdict: finite, so that sums stay finite.
+inline constexpr double unbounded = 1e30;
+
+template <int N>
+Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <int N>
+LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <int N>
+LaneVec<N> scaled(double factor, const LaneVec<N>& a) {
+  return {factor * a.x, factor * a.y, factor * a.z};
+}
+
+/// Squared lengths of the edges.
+template <int N>
+std::array<std::array<Lanes<N>, 4>, 3> squares(const LaneEdges<N>& edges) {
+  std::array<std::array<Lanes<N>, 4>, 3> result;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < 4; ++k) result[axis][k] = edges.along[axis][k].squared();
+  return result;
+}
+template <int N>
+Lanes<N> determinant_at(const LaneEdges<N>& edges, int c) {
+  return determinant(edges.at(0, c), edges.at(1, c), edges.at(2, c));
+}
+/// Principal axes: the sum of the four edges of each direction, four times the Jacobian matrix at the centre.
+template <int N>
+std::array<LaneVec<N>, 3> principal_axes(const LaneEdges<N>& edges) {
+  std::array<LaneVec<N>, 3> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& e = edges.along[axis];
+    axes[axis] = e[0] + e[1] + (e[2] + e[3]);
+  }
+  return axes;
+}
+
+/// a / b where b is positive and the quotient less than `unbounded`, else `unbounded`.
+template <int N>
+Lanes<N> bounded_ratio(const Lanes<N>& a, const Lanes<N>& b) {
+  const Lanes<N> safe = (b > 0).select(b, Lanes<N>::Ones());
+  return (b > 0).select((a / safe).min(unbounded), Lanes<N>::Constant(unbounded));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,245 @@
+#include "hextwist/mesh/smooth/smooth.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+
+#include "hextwist/mesh/smooth/problem_internal.h"
+
+namespace hextwist {
+namespace {
+
+constexpr const char* scheme_names[] = {"mean ratio", "condition number", "laplacian", "untangle"};
+
+void check(const SmoothOptions& options) {
+  if (options.iterations < 0)
+    throw Error("smooth: iterations must not be negative, not " + std::to_string(options.iterations));
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
+    throw Error("smooth: tolerance must be positive and finite, not " + std::to_string(options.tolerance));
+  if (std::isnan(options.average_loss)) throw Error("smooth: average_loss is not a number");
+}
+
+Summary shape_summary(const Mesh& mesh, std::span<const Index> hexes) {
+  if (static_cast<Index>(hexes.size()) == mesh.n_hexes()) return summarize(quality(Metric::shape, mesh));
+  std::vector<double> values(hexes.size());
+  for (std::size_t i = 0; i < hexes.size(); ++i) values[i] = quality(Metric::shape, mesh, hexes[i]);
+  Summary summary = summarize(values);
+  if (summary.count > 0) {
+    summary.min_hex = hexes[summary.min_hex];
+    summary.max_hex = hexes[summary.max_hex];
+  }
+  return summary;
+}
+
+/// How hard to pull at the worst hexes: reference = 1 + margin * (worst - 1).
+struct Emphasis {
+  double weight, margin;
+};
+constexpr Emphasis none = {0, 1};
+constexpr Emphasis gentle = {1, 2};
+constexpr Emphasis rounds[] = {{10, 1.25}, {30, 1.1}, {100, 1.05}};
+constexpr Emphasis milder_rounds[] = {{3, 1.5}, {1, 1.5}, {1, 2}};  // when the first of those costs too much
+constexpr int first_sweeps = 3;                                     // before the first round
+constexpr int max_lifts = 15;                                       // sweeps per round
+constexpr double least_gain = 1e-3;                                 // of the average distortion above 1, per sweep
+constexpr int max_averages = 5;                                     // sweeps per round, until the end
+
+class Smoother {
+ public:
+  Smoother(SmoothState& state, const SmoothOptions& options, const SmoothProgress& progress, SmoothReport& report)
+      : state_(state), options_(options), progress_(progress), report_(report) {}
+
+  void run() {
+    record("start");
+    if (report_.inverted_before > 0 || options_.scheme == SmoothScheme::untangle) {
+      untangle(state_, options_.iterations, [this](const SweepCount& count) { return end_sweep("untangle", count); });
+      report_.not_repaired = inverted(state_.mesh, state_.problem.hexes);
+      report_.converged = report_.not_repaired.empty();
+    }
+    std::ranges::fill(state_.awake, 1);
+    switch (options_.scheme) {
+      case SmoothScheme::mean_ratio:
+        return optimise("shape", sweep_mean_ratio);
+      case SmoothScheme::condition_number:
+        return optimise("condition number", sweep_condition_number);
+      case SmoothScheme::laplacian:
+        return settle("laplacian", sweep_laplacian, none);
+      case SmoothScheme::untangle:
+        return;
+    }
+  }
+
+  void record(const char* stage) {
+    if (!options_.record_history) return;
+    const Summary shape = shape_summary(state_.mesh, state_.problem.hexes);
+    report_.history.push_back({stage, shape.min, shape.average, average_distortion(state_.mesh, state_.problem.hexes),
+                               report_.node_updates, seconds()});
+  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  using Sweep = SweepCount (*)(SmoothState&, const SweepRule&);
+
+  bool end_sweep(const char* stage, const SweepCount& count) {
+    ++report_.sweeps;
+    report_.node_updates += count.updates;
+    record(stage);
+    if (progress_ && !progress_(stage, std::min(1.0, report_.sweeps / std::max(1.0, double(options_.iterations)))))
+      report_.stopped = true;
+    return !finished();
+  }
+  bool finished() const { return report_.stopped || report_.sweeps >= options_.iterations; }
+
+  /// Looks at all hexes again.
+  void measure() { hex_distortions(state_.mesh, state_.problem.hexes, distortions_); }
+  /// The largest distortion among the hexes that are not inverted.
+  double worst() const {
+    double result = 1;
+    for (const double h : distortions_)
+      if (h > result && h < std::numeric_limits<double>::infinity()) result = h;
+    return result;
+  }
+  SweepRule rule(Emphasis emphasis) const {
+    SweepRule rule;
+    rule.limit = worst();
+    rule.tolerance = options_.tolerance;
+    rule.weight = emphasis.weight;
+    rule.reference = 1 + emphasis.margin * (rule.limit - 1);
+    return rule;
+  }
+
+  /// Sweeps until all nodes are at rest, beginning with those that are awake.
+  void settle(const char* stage, Sweep sweep, Emphasis emphasis, int max_sweeps = std::numeric_limits<int>::max()) {
+    measure();
+    const SweepRule fixed_rule = rule(emphasis);
+    const bool watched = sweep == sweep_mean_ratio && emphasis.weight == 0;  // the energy measured is its own
+    double energy = watched ? average_distortion(state_.mesh, state_.problem.hexes) : 0;
+    for (int i = 0; i < max_sweeps && !finished(); ++i) {
+      const SweepCount count = sweep(state_, fixed_rule);
+      if (!end_sweep(stage, count)) return;
+      report_.converged = count.moved * 1000 <= state_.problem.n_nodes();
+      if (watched) {
+        const double before = energy;
+        energy = average_distortion(state_.mesh, state_.problem.hexes);
+        report_.converged |= before - energy < least_gain * (energy - 1);
+      }
+      if (report_.converged) return;
+    }
+  }
+
+  /// Sweeps over the nodes of bad hexes until the worst improves no more. Those that were visited are awake after it,
+  /// beside those that were before.
+  void lift(Sweep sweep, Emphasis emphasis) {
+    std::vector<std::uint8_t> visited = state_.awake;
+    measure();
+    int idle = 0;
+    for (int i = 0; i < max_lifts && idle < 3 && !finished(); ++i) {
+      const SweepRule now = rule(emphasis);
+      if (now.limit < 1 + options_.tolerance * options_.tolerance) break;  // as good as cubes
+      // Below this the power term is less than a hundredth of what it is for the worst.
+      wake_nodes_of_bad_hexes(0.75 * now.limit);
+      for (std::size_t s = 0; s < visited.size(); ++s) visited[s] |= state_.awake[s];
+      const SweepCount count = sweep(state_, now);
+      measure();
+      idle = now.limit - worst() > 1e-3 * (now.limit - 1) ? 0 : idle + 1;
+      if (!end_sweep("worst", count)) break;
+    }
+    state_.awake = visited;
+  }
+  void wake_nodes_of_bad_hexes(double threshold) {
+    std::ranges::fill(state_.awake, 0);
+    for (std::size_t i = 0; i < distortions_.size(); ++i)
+      if (distortions_[i] > threshold)
+        for (const Index node : state_.mesh.hexes[state_.problem.hexes[i]])
+          if (const Index slot = state_.problem.slot[node]; slot >= 0) state_.awake[slot] = 1;
+  }
+
+  void optimise(const char* stage, Sweep sweep) {
+    settle(stage, sweep, gentle, first_sweeps);
+    if (lift_and_average(sweep, rounds[0])) {
+      for (std::size_t i = 1; i < std::size(rounds); ++i)
+        if (!lift_and_average(sweep, rounds[i])) break;
+    } else {
+      for (const Emphasis& emphasis : milder_rounds)
+        if (lift_and_average(sweep, emphasis)) break;
+    }
+    settle("average", sweep, none);
+  }
+  /// One round; taken back when it cost the average too much.
+  bool lift_and_average(Sweep sweep, Emphasis emphasis) {
+    if (finished()) return true;
+    const std::vector<Vec3> points = state_.mesh.points;
+    const std::vector<Parameters> parameters = state_.association.node_parameters;
+    const std::vector<std::uint8_t> awake = state_.awake;
+    lift(sweep, emphasis);
+    settle("average", sweep, none, max_averages);
+    const double least = report_.shape_before.average - options_.average_loss;
+    if (report_.stopped || shape_summary(state_.mesh, state_.problem.hexes).average >= least) return true;
+    state_.mesh.points = points;
+    state_.association.node_parameters = parameters;
+    state_.awake = awake;
+    return false;
+  }
+
+  std::vector<double> distortions_;  // per hex of the problem
+  SmoothState& state_;
+  const SmoothOptions& options_;
+  const SmoothProgress& progress_;
+  SmoothReport& report_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string lower_words(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (c != ' ' && c != '_' && c != '-') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+}  // namespace
+
+const char* name(SmoothScheme scheme) {
+  return scheme_names[static_cast<int>(scheme)];
+}
+
+SmoothScheme smooth_scheme(std::string_view name) {
+  std::string known;
+  for (int i = 0; i < static_cast<int>(std::size(scheme_names)); ++i) {
+    if (lower_words(scheme_names[i]) == lower_words(name)) return static_cast<SmoothScheme>(i);
+    known += (i > 0 ? ", " : "") + std::string(scheme_names[i]);
+  }
+  throw Error("unknown smoothing scheme '" + std::string(name) + "': known are " + known);
+}
+
+SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, const SmoothOptions& options,
+                    const SmoothProgress& progress) {
+  check(options);
+  SmoothReport report;
+  const auto start = std::chrono::steady_clock::now();
+  // Tags of a file may name owners without places on them; those are found when they are needed.
+  if (!association.empty()) association.node_parameters.resize(mesh.points.size());
+  const SmoothProblem problem = make_smooth_problem(mesh, association, model, options);
+  SmoothState state{problem, mesh, association, model, std::vector<std::uint8_t>(problem.nodes.size(), 1)};
+  report.n_nodes = problem.n_nodes();
+  report.shape_before = report.shape_after = shape_summary(mesh, problem.hexes);
+  if (report.shape_before.min == 0) report.not_repaired = inverted(mesh, problem.hexes);
+  report.inverted_before = static_cast<Index>(report.not_repaired.size());
+  if (problem.n_nodes() > 0) {
+    const std::vector<Vec3> points = mesh.points;
+    const std::vector<Parameters> parameters = association.node_parameters;
+    Smoother(state, options, progress, report).run();
+    report.shape_after = shape_summary(mesh, problem.hexes);
+    // Sweeps keep clear of the limit by more than rounding; were that ever not enough, the promise would still hold.
+    if (report.shape_after.min < report.shape_before.min) {
+      mesh.points = points;
+      association.node_parameters = parameters;
+      report.shape_after = report.shape_before;
+    }
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,99 @@
+// Smoothing and untangling: moves nodes so that hexes get better shapes.
+//
+// Guarantees, whatever the scheme and the options:
+//  1. the smallest shape (quality.h) of the hexes around nodes that moved is not below what it was, and no hex is
+//     inverted that was not;
+//  2. only `nodes` move, never `fixed` ones, nodes on vertices, or boundary nodes whose curve or surface is not known.
+//     Nodes on curves and surfaces stay on them (they are results of Model::project) and their parameters follow;
+//  3. the same bits for any number of threads.
+//
+// The default scheme minimises a distortion that is convex in the place of each single node, node by node with exact
+// first and second derivatives, while a term of high power lifts the worst hexes; then takes back what that cost the
+// average, holding the smallest shape. docs/smoothing.md has energies, line search and stopping rule.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hextwist/geom/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/quality/quality.h"
+
+namespace hextwist {
+
+enum class SmoothScheme {
+  mean_ratio,        ///< shape; untangles first where that is needed
+  condition_number,  ///< |A| |A^-1| / 3 at the corners (Knupp 2000) instead; untangles likewise
+  laplacian,         ///< to the average of the edge neighbours, where guarantee 1 allows it
+  untangle,          ///< only until no hex is inverted
+};
+/// "mean ratio", "condition number", "laplacian", "untangle".
+const char* name(SmoothScheme scheme);
+/// By name; case, '_' and '-' do not matter. Throws Error listing the known ones.
+SmoothScheme smooth_scheme(std::string_view name);
+
+struct SmoothOptions {
+  SmoothScheme scheme = SmoothScheme::mean_ratio;
+  /// Nodes that may move, in any order; none given: all.
+  std::optional<std::vector<Index>> nodes;
+  /// Nodes that stay, whatever `nodes` says.
+  std::vector<Index> fixed;
+  /// Boundary nodes stay, even where their owner is known.
+  bool fix_boundary = false;
+  /// Boundary nodes without a known curve or surface move freely in space (else they stay).
+  bool free_boundary = false;
+  /// Sweeps over the nodes at most, all stages together. >= 0.
+  int iterations = 100;
+  /// A node is at rest when its step is shorter than this times its edges; the end is when all but one in a
+  /// thousand are, or (mean ratio) when a sweep gains less than a thousandth of the average distortion above 1. > 0.
+  double tolerance = 1e-2;
+  /// The worst hexes are lifted as far as the average shape stays above its start less this. Shape units; infinite:
+  /// the worst at any price; below 0: the average must rise by as much.
+  double average_loss = 0;
+  /// Fill SmoothReport::history (costs a pass over the hexes per sweep).
+  bool record_history = false;
+};
+
+/// State after a sweep.
+struct SmoothStep {
+  const char* stage = "";  ///< "start", "untangle", "shape", "worst", "average", "laplacian", "condition number"
+  double min_shape = 0;
+  double average_shape = 0;
+  double energy = 0;              ///< average over the corners of (shape at the corner)^(-3/2); infinite while inverted
+  std::int64_t node_updates = 0;  ///< so far
+  double seconds = 0;             ///< so far
+};
+
+struct SmoothReport {
+  Index n_nodes = 0;                  ///< that could move
+  Summary shape_before, shape_after;  ///< over the hexes around those nodes
+  Index inverted_before = 0;          ///< among these hexes
+  std::vector<Index> not_repaired;    ///< hexes that are inverted still, ascending
+  int sweeps = 0;
+  std::int64_t node_updates = 0;  ///< optimisations of one node's place
+  bool converged = false;         ///< ended because nothing moved or improved any more
+  bool stopped = false;           ///< by the progress callback
+  double seconds = 0;
+  std::vector<SmoothStep> history;
+};
+
+/// Called after each sweep with the stage and a fraction 0..1 of the sweeps allowed; false: stop with what is reached.
+using SmoothProgress = std::function<bool(const char* stage, double fraction)>;
+
+/// Smooths in place. association may be empty, model null: then all boundary nodes stay (but see the options), and
+/// parameters are left alone. The mesh must be valid but for inverted hexes.
+/// Throws Error when options are out of range or name nodes that do not exist.
+SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, const SmoothOptions& options = {},
+                    const SmoothProgress& progress = {});
+
+/// The hexes and `layers` layers of hexes around them (each layer: all that share a node with what is there).
+/// hexes in any order; ascending result.
+std::vector<Index> hex_band(const Mesh& mesh, std::span<const Index> hexes, int layers);
+/// Nodes of these hexes that belong to no other hex: moving them changes nothing outside. Ascending.
+std::vector<Index> nodes_inside(const Mesh& mesh, std::span<const Index> hexes);
+
+}  // namespace hextwist

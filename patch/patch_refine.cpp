@@ -1,0 +1,236 @@
+#include "hextwist/patch/patch_refine.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "hextwist/mesh/topology.h"
+#include "hextwist/patch/gaps.h"
+#include "hextwist/sizing/pipeline.h"
+#include "hextwist/base/memory.h"
+#include "hextwist/sizing/stages.h"
+#include "hextwist/sizing/targets.h"
+#include "hextwist/patch/verify_internal.h"
+
+namespace hextwist {
+namespace {
+
+/// Rings that the patch must have beyond every hex that is cut. The farthest that anything reaches is the repair of
+/// inverted children (refine/repair.cpp): the nodes of three rings around them may move, and the hexes at these nodes
+/// are looked at. Smoothing and filling reach less far; how far filling grows shows in the hexes that are cut.
+constexpr int enough_rings = 4;
+
+/// Hexes that the passes cut lie in this ring around the target at most, but for those that filling or enclosing adds.
+int last_ring_cut(const Request& request, Method method) {
+  return method == Method::single ? request.depth.value_or(is_solid(request.kind) ? 0 : 1) + 1 : 2;
+}
+
+/// The target in the whole mesh: what the patch grows around.
+struct Around {
+  std::vector<Index> nodes;  ///< ascending
+  std::vector<Index> hexes;  ///< of a solid target
+  CombinationTarget target;  ///< of any other
+};
+
+Around around_target(const MeshedModel& input, const Request& request) {
+  Around around;
+  if (is_solid(request.kind)) {
+    around.hexes = solid_target(input, request);
+    for (const Index h : around.hexes)
+      around.nodes.insert(around.nodes.end(), input.mesh.hexes[h].begin(), input.mesh.hexes[h].end());
+    std::ranges::sort(around.nodes);
+    around.nodes.erase(std::ranges::unique(around.nodes).begin(), around.nodes.end());
+  } else {
+    std::vector<std::string> told_again;  // by the passes in the patch
+    around.target = sub_element_target(input, request, told_again);
+    around.nodes = around.target.nodes;
+  }
+  return around;
+}
+
+/// The request with nodes and hexes, edges and faces by their numbers in the patch.
+Request request_in(const Patch& patch, const Request& request, const Around& around) {
+  Request local = request;
+  const auto node = [&](Index n) { return patch.local_node(n); };
+  local.fixed.clear();
+  for (const Index n : request.fixed)
+    if (const Index there = node(n); there >= 0) local.fixed.push_back(there);
+  const auto renumber = [&](const auto& items, const auto& number) {
+    local.targets.clear();
+    for (const auto& item : items) local.targets.push_back(number(item));
+    std::ranges::sort(local.targets);
+  };
+  if (request.kind == TargetKind::node) renumber(request.targets, node);
+  if (request.kind == TargetKind::hex)
+    renumber(request.targets, [&](Index h) {
+      return static_cast<Index>(std::ranges::lower_bound(patch.hexes, h) - patch.hexes.begin());
+    });
+  if (request.kind == TargetKind::edge) {
+    const Edges all = edges(patch.meshed.mesh);
+    renumber(around.target.edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });
+  }
+  if (request.kind == TargetKind::face) {
+    const Faces all = faces(patch.meshed.mesh);
+    renumber(around.target.faces, [&](const Quad& q) {
+      return find_face(all, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
+    });
+  }
+  return local;
+}
+
+bool verify_patch(const MeshedModel& input, const Measured& known, const PatchResult& made, const PatchNumbers& numbers,
+                  Report& report) {
+  const Mesh &before = made.patch.meshed.mesh, &after = made.result.refined.mesh;
+  ChangedPart change{input, made.patch.meshed, made.result.refined};
+  change.nodes = made.patch.nodes;
+  change.hexes = made.patch.hexes;
+  change.n_kept = numbers.n_kept;
+  change.gone = numbers.local_gone;
+  for (Index n = 0; n < before.n_nodes(); ++n)
+    if (before.points[n] != after.points[n]) change.moved.push_back(n);
+  change.touched = touched_hexes(after, change.n_kept, change.moved);
+  return verify_change(change, known, report);
+}
+
+/// Arrays as long as they should be: what a session holds, but perhaps not a caller.
+bool is_complete(const MeshedModel& input, const Request& request) {
+  const Mesh& mesh = input.mesh;
+  const Association& association = input.association;
+  return (association.empty() || (association.node_owner.size() == mesh.points.size() &&
+                                  association.node_parameters.size() == mesh.points.size() &&
+                                  association.hex_volume.size() == mesh.hexes.size())) &&
+         std::ranges::all_of(request.fixed, [&](Index n) { return n >= 0 && n < mesh.n_nodes(); });
+}
+
+}  // namespace
+
+bool is_local(const MeshedModel& input, const Request& request) {
+  if (request.sheets || request.through_thickness || request.layers || request.size || request.size_field) return false;
+  if (request.levels == Levels::graded) return false;  // takes coarser neighbours along, however far that goes
+  const Method method = technique(request);
+  if (method == Method::parallel) return !is_solid(request.kind) && request.depth.value_or(0) == 0 && !request.radius;
+  return method == Method::combination || request.radius || !is_whole_model(input, request);
+}
+
+std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                        const Progress& progress, const RingsOf& rings_of) {
+  const Mesh& mesh = input.mesh;
+  if (mesh.n_hexes() < patch_rule.least_mesh || !is_local(input, request) || !is_complete(input, request))
+    return std::nullopt;
+  const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
+  Request asked = request;
+  Report before;
+  if (request.radius) {  // chooses hexes by where they are, so it must see all of them
+    asked.targets = region_target(input, request, before.notices);
+    asked.kind = TargetKind::hex;
+    asked.method = Method::single;
+    asked.radius.reset();
+  }
+  const Around around = around_target(input, asked);
+  if (around.hexes.size() > limit || around.nodes.size() > 8 * limit) return std::nullopt;
+  int n_rings = last_ring_cut(asked, technique(asked)) + enough_rings;
+  constexpr int max_rings = 100;
+  for (; n_rings <= max_rings; n_rings *= 2) {
+    Report report = before;
+    Stages stages(report, progress);
+    stages.begin("patch", 0);
+    std::optional<Rings> rings = rings_of(mesh, around.nodes, around.hexes, n_rings, limit);
+    if (!rings) return std::nullopt;
+    PatchResult made;
+    made.patch = make_patch(input, std::move(rings->hexes));
+    const Request local = request_in(made.patch, asked, around);
+    stages.close();
+    {
+      Pipeline run(made.patch.meshed, local, report, progress);
+      made.result = run_passes(run);
+      made.origin_before = run.origin_before();
+      made.n_kept_before = run.n_kept_before();
+      const PatchNumbers numbers(made.patch, input, made.result.refined.mesh);
+      const bool is_enough = rings->is_all || std::ranges::all_of(numbers.local_gone, [&](Index h) {
+                               return rings->ring[h] + enough_rings <= n_rings;
+                             });
+      if (!is_enough) continue;
+      for (Disappointment& row : report.off_nodes) row.node = numbers.node(row.node);
+      if (!request.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
+      made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
+    }
+    report.hexes_before = mesh.n_hexes();
+    report.nodes_before = mesh.n_nodes();
+    report.hexes_after = made.splice->n_hexes(true);
+    report.nodes_after = made.splice->n_nodes(true);
+    report.peak_memory_bytes = peak_memory();
+    made.result.report = std::move(report);
+    return made;
+  }
+  return std::nullopt;
+}
+
+std::vector<Index> whole_origin(const PatchResult& result, const MeshedModel& input) {
+  const Splice& splice = *result.splice;
+  std::vector<Index> origin(static_cast<std::size_t>(splice.n_hexes(true)));
+  Index old = 0, next = 0;
+  const auto keep_until = [&](Index end) {
+    for (; old < end; ++old) origin[next++] = old;
+  };
+  for (const Index gone : splice.gone()) {
+    keep_until(gone);
+    ++old;
+  }
+  keep_until(input.mesh.n_hexes());
+  const std::vector<Index>& local = result.result.origin;
+  for (std::size_t h = local.size() - (origin.size() - next); h < local.size(); ++h)
+    origin[next++] = result.patch.hexes[local[h]];
+  return origin;
+}
+
+Lineage whole_lineage(const PatchResult& made, const MeshedModel& input) {
+  const Lineage& local = made.result.lineage;
+  const Patch& patch = made.patch;
+  const auto n_patch_nodes = static_cast<Index>(patch.nodes.size());
+  const auto n_patch_hexes = static_cast<Index>(patch.hexes.size());
+  // The mesh that the last pass began with: first the hexes of the input that were not cut by then.
+  const auto input_hex = [&](Index h) { return patch.hexes[made.origin_before.empty() ? h : made.origin_before[h]]; };
+  std::vector<Index> gone;  // by then
+  for (Index kept = 0, h = 0; h < n_patch_hexes; ++h)
+    if (kept < made.n_kept_before && input_hex(kept) == patch.hexes[h])
+      ++kept;
+    else
+      gone.push_back(patch.hexes[h]);
+  const Index n_kept = input.mesh.n_hexes() - static_cast<Index>(gone.size());
+  const auto node = [&](Index n) {
+    return n < n_patch_nodes ? patch.nodes[n] : n - n_patch_nodes + input.mesh.n_nodes();
+  };
+  const auto hex = [&](Index h) {
+    return h < made.n_kept_before ? after_gaps(gone, input_hex(h)) : h - made.n_kept_before + n_kept;
+  };
+
+  Lineage lineage = local;
+  lineage.n_old_nodes = local.n_old_nodes - n_patch_nodes + input.mesh.n_nodes();
+  lineage.n_old_hexes = local.n_old_hexes - made.n_kept_before + n_kept;
+  for (CutEdge& edge : lineage.edges)
+    edge = {node(edge.a), node(edge.b), node(edge.first_node), hex(edge.hex), edge.code};
+  for (CutFace& face : lineage.faces) {
+    face.side.hex = hex(face.side.hex);
+    for (Index& n : face.corners) n = node(n);
+    face.first_node = node(face.first_node);
+  }
+  const Index n_new = static_cast<Index>(local.parent.size());
+  const Index n_final = made.splice->n_hexes(true);
+  for (CutHex& cut : lineage.hexes)
+    cut = {hex(cut.hex), n_final - (n_new - cut.first_child), node(cut.first_node), cut.code};
+  // Hexes that were kept have themselves as parents.
+  lineage.parent.resize(static_cast<std::size_t>(n_final));
+  Index next = 0, old = 0, n_gone = 0;
+  const auto keep_until = [&](Index end) {
+    for (; old < end; ++old) lineage.parent[next++] = old - n_gone;
+  };
+  for (const Index h : made.splice->gone()) {
+    keep_until(h);
+    ++old;
+    if (n_gone < static_cast<Index>(gone.size()) && gone[n_gone] == h) ++n_gone;
+  }
+  keep_until(input.mesh.n_hexes());
+  for (Index h = n_new - (n_final - next); h < n_new; ++h) lineage.parent[next++] = hex(local.parent[h]);
+  return lineage;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,45 @@
+// A request whose change is small, run in a patch.
+#pragma once
+
+#include <memory>
+
+#include "hextwist/patch/patch.h"
+#include "hextwist/patch/splice.h"
+#include "hextwist/patch/verify.h"
+
+namespace hextwist {
+
+/// Where the rings around the target come from: by place, unless somebody knows the neighbours of all nodes.
+using RingsOf = std::function<std::optional<Rings>(const Mesh& mesh, std::span<const Index> nodes,
+                                                   std::span<const Index> at, int n_rings, std::size_t limit)>;
+
+/// What came of it. The lineage and the mesh of `result` are those of the patch; the report is that of the whole.
+struct PatchResult {
+  Patch patch;
+  RefineResult result;
+  std::vector<Index> origin_before;  ///< see Pipeline
+  Index n_kept_before = 0;
+  std::unique_ptr<const Splice> splice;
+  bool is_verified = false;  ///< false (and not a dry run): only verifying everything will do
+};
+
+/// Nothing where the request is not local (is_local) or asks for too much: then the passes over the whole mesh are to
+/// be run. The request has been checked. Throws what they throw.
+std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                        const Progress& progress, const RingsOf& rings_of = rings_by_place);
+
+/// The same after checking the request; and what refine() does with it, or without.
+std::optional<PatchResult> try_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                     const Progress& progress, const RingsOf& rings_of = rings_by_place);
+RefineResult finish(std::optional<PatchResult> made, const MeshedModel& input, const Measured& known,
+                    const Request& request, const Progress& progress);
+
+/// Does the request cut only what lies around its targets? Not so: sheets, directions, sizes, graded levels, one into
+/// eight (planned by sheets), all volumes.
+bool is_local(const MeshedModel& input, const Request& request);
+
+/// Lineage and origin in numbers of the whole.
+Lineage whole_lineage(const PatchResult& result, const MeshedModel& input);
+std::vector<Index> whole_origin(const PatchResult& result, const MeshedModel& input);
+
+}  // namespace hextwist

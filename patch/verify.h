@@ -1,0 +1,37 @@
+// The last stage of a refinement: measures the result and finds out whether it is what was promised.
+#pragma once
+
+#include <memory>
+
+#include "hextwist/patch/outliers.h"
+#include "hextwist/sizing/request.h"
+
+namespace hextwist {
+
+/// What is known of a mesh that validate() has found to be without violations (warnings apart).
+struct Measured {
+  Summary shape, scaled_jacobian;
+  double volume = 0;
+  OffModel off_cad;
+  std::shared_ptr<const Outliers> outliers = nullptr;  ///< may be left out
+};
+Measured measured(const MeshedModel& meshed);
+/// Of the result of a refinement without violations.
+Measured measured_after(const Report& report);
+
+/// refine() for an input that is known: the result is verified where it differs from the input, in time proportional
+/// to the change and a few sweeps over the arrays. What is reported is the same, but for rounding in averages.
+RefineResult refine(const MeshedModel& input, const Measured& known, const Request& request,
+                    const Progress& progress = {});
+
+/// Fills in what the report says of quality, volume, distance from the CAD and violations. known: of the input; null:
+/// everything is measured and validated from scratch.
+///
+/// Why it is enough to look at the change: hexes that were kept and whose nodes did not move are conformal, uninverted
+/// and as good as before among themselves. What is validated from scratch is the part of the mesh made of all new
+/// hexes, all around moved nodes and all that share a node with them; and of hexes at the boundary near new boundary
+/// nodes, for these might lie in a face across a crack. Sides of new hexes with nothing behind must be on the CAD. If
+/// anything at all is found there, or the change is a large part of the mesh, everything is done from scratch.
+void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, Report& report);
+
+}  // namespace hextwist

@@ -1,0 +1,90 @@
+// group: named collections of entities.
+
+#include <algorithm>
+#include <iterator>
+
+#include "hextwist/session/session_internal.h"
+
+namespace hextwist {
+namespace {
+
+using Members = std::vector<std::array<std::int64_t, 4>>;
+
+Group& wanted_group(const Execution& run, std::vector<Group>& groups) {
+  const Command& command = run.command;
+  const Item* name = command.find("name") ? command.find("name") : command.find("word");
+  if (!name) {
+    const Item& id = *command.find("id");
+    const auto found = std::ranges::find(groups, static_cast<int>(id.number), &Group::id);
+    if (found == groups.end())
+      throw error_at(command.statement, id.token,
+                     "there is no group " + std::to_string(static_cast<int>(id.number)) +
+                         "; a new one is made by its name: group \"name\" add ...");
+    return *found;
+  }
+  if (name->text.empty()) throw error_at(command.statement, name->token, "this name is empty");
+  const auto found = std::ranges::find(groups, name->text, &Group::name);
+  if (found != groups.end()) return *found;
+  if (command.has("remove"))
+    throw error_at(command.statement, name->token, "no group is named '" + printable(name->text) + "'");
+  const int id = groups.empty() ? 1 : groups.back().id + 1;
+  groups.push_back({id, name->text, {}});
+  return groups.back();
+}
+
+}  // namespace
+
+std::string members_text(const Selector& selector, const Group& group) {
+  std::string result;
+  for (int k = 0; k < n_entity_kinds; ++k) {
+    const auto kind = static_cast<EntityKind>(k);
+    if (group.members[k].empty()) continue;
+    const auto n = static_cast<std::int64_t>(members(selector, group, kind).size());
+    const auto n_gone = static_cast<std::int64_t>(group.members[k].size()) - n;
+    result += (result.empty() ? "" : ", ") + counted(n, kind);
+    if (n_gone > 0) result += " (" + std::to_string(n_gone) + " more gone)";
+  }
+  return result.empty() ? "empty" : result;
+}
+
+void do_named_group(Execution& run) {
+  const Command& command = run.command;
+  std::vector<Group> groups = run.state.groups ? *run.state.groups : std::vector<Group>();
+  const Selector selector = run.core.selector();
+  std::array<Members, n_entity_kinds> given;
+  for (const Item* range : command.find_all("range"))
+    for (const Index i : run.chosen(*range))
+      given[static_cast<int>(range->kind)].push_back(member_of(selector, range->kind, i));
+  Group& group = wanted_group(run, groups);
+  for (int kind = 0; kind < n_entity_kinds; ++kind) {
+    Members& own = group.members[kind];
+    Members& said = given[kind];
+    std::ranges::sort(said);
+    said.erase(std::ranges::unique(said).begin(), said.end());
+    if (command.has("equals")) own.clear();
+    Members result;
+    if (command.has("remove"))
+      std::ranges::set_difference(own, said, std::back_inserter(result));
+    else if (command.has("xor"))
+      std::ranges::set_symmetric_difference(own, said, std::back_inserter(result));
+    else
+      std::ranges::set_union(own, said, std::back_inserter(result));
+    own = std::move(result);
+  }
+  run.say("group " + std::to_string(group.id) + " '" + printable(group.name) + "': " + members_text(selector, group));
+  run.state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
+}
+
+void forget_members(ModelState& state, bool also_cad) {
+  if (!state.groups || also_cad) {
+    state.groups = nullptr;
+    return;
+  }
+  std::vector<Group> groups = *state.groups;
+  for (Group& group : groups)
+    for (int k = 0; k < n_entity_kinds; ++k)
+      if (!is_cad(static_cast<EntityKind>(k))) group.members[k].clear();
+  state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,33 @@
+#include <tbb/global_control.h>
+
+#include "hextwist/session/session_internal.h"
+
+namespace hextwist {
+
+void do_set(Execution& run) {
+  const Command& command = run.command;
+  if (command.has("glue"))
+    run.state.glue = command.has("on") ? Glue::on : command.has("off") ? Glue::off : Glue::automatic;
+  if (const Item* degrees = command.find("degrees")) run.state.feature_angle = degrees->number;
+  if (const Item* limit = command.find("limit")) run.state.tolerance = limit->number;
+  if (command.has("untangle")) run.state.untangle = command.has("on");
+  if (command.has("duplicate")) run.note("blocks may always overlap: this setting changes nothing here");
+  if (command.has("undo")) {
+    History& history = run.core.history;
+    if (const Item* size = command.find("megabytes")) {
+      history.limit = static_cast<std::size_t>(size->number * 1e6);
+      history.drop_oldest();
+    } else {
+      switch_undo(run, command.has("on"));
+    }
+  }
+  if (const Item* count = command.find("count")) {
+    // Held for the whole process while the session lives: TBB knows no narrower place.
+    run.core.thread_limit.reset();
+    if (count->number >= 1)
+      run.core.thread_limit = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                                    static_cast<std::size_t>(count->number));
+  }
+}
+
+}  // namespace hextwist

@@ -1,0 +1,214 @@
+// Blocks, node sets and side sets: block, nodeset, sideset, delete, reset.
+
+#include <algorithm>
+#include <iterator>
+
+#include "hextwist/command/reader.h"
+#include "hextwist/session/session_internal.h"
+
+namespace hextwist {
+namespace {
+
+Mesh lists_of(const Mesh& mesh) {
+  Mesh lists;
+  lists.blocks = mesh.blocks;
+  lists.node_sets = mesh.node_sets;
+  lists.side_sets = mesh.side_sets;
+  return lists;
+}
+
+/// Calls f with the list of groups of a kind and their members (a pointer to member).
+template <class F>
+auto with_groups(Mesh& lists, EntityKind kind, F f) {
+  switch (kind) {
+    case EntityKind::block:
+      return f(lists.blocks, &Block::hexes);
+    case EntityKind::nodeset:
+      return f(lists.node_sets, &NodeSet::nodes);
+    default:
+      return f(lists.side_sets, &SideSet::sides);
+  }
+}
+
+EntityKind kind_of(const Command& command) {
+  for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
+    if (command.spec->name == name(kind)) return kind;
+  return EntityKind::block;
+}
+/// What its members are called.
+std::string members_text(EntityKind kind, std::size_t n) {
+  const auto count = static_cast<std::int64_t>(n);
+  return kind == EntityKind::block     ? counted(count, EntityKind::hex)
+         : kind == EntityKind::nodeset ? counted(count, EntityKind::node)
+                                       : counted(count, "side", "sides");
+}
+
+/// The side of a face that a side set takes: that of the hex in the volume with the lower id, which the normal of a
+/// surface between volumes points out of; within a volume that of the first hex.
+int forward_side(const Association& association, const std::array<Side, 2>& sides) {
+  if (sides[1].hex < 0 || association.hex_volume.empty()) return 0;
+  return association.hex_volume[sides[1].hex] < association.hex_volume[sides[0].hex] ? 1 : 0;
+}
+
+std::vector<Side> sides_of(const Execution& run, const std::vector<Index>& chosen_faces) {
+  const Command& command = run.command;
+  const Selector selector = run.core.selector();
+  const Faces& faces = selector.topology.faces();
+  std::vector<char> wanted;
+  const Item* which = command.find("which");
+  if (which) {
+    wanted.assign(selector.meshed.mesh.hexes.size(), 0);
+    for (const Index hex : related(selector, which->kind, run.chosen(*which), EntityKind::hex)) wanted[hex] = 1;
+  }
+  const bool both = command.has("both") || command.has("remove"), reverse = command.has("reverse");
+  std::vector<Side> result;
+  for (const Index face : chosen_faces) {
+    const std::array<Side, 2>& sides = faces.sides[face];
+    const int forward = forward_side(selector.meshed.association, sides);
+    for (int i = 0; i < 2; ++i) {
+      if (sides[i].hex < 0 || (which && !wanted[sides[i].hex])) continue;
+      if (which || both || (i == forward) != reverse) result.push_back(sides[i]);
+    }
+  }
+  std::ranges::sort(result);
+  return result;
+}
+
+auto members(const Execution& run, const Item& range, const std::vector<Block>&) {
+  return related(run.core.selector(), range.kind, run.chosen(range), EntityKind::hex);
+}
+auto members(const Execution& run, const Item& range, const std::vector<NodeSet>&) {
+  return related(run.core.selector(), range.kind, run.chosen(range), EntityKind::node);
+}
+auto members(const Execution& run, const Item& range, const std::vector<SideSet>&) {
+  return sides_of(run, related(run.core.selector(), range.kind, run.chosen(range), EntityKind::face));
+}
+
+/// What all ranges of the command give, ascending, each once. Each must give something.
+template <class Groups>
+auto all_members(const Execution& run, EntityKind kind, const Groups& groups) {
+  decltype(members(run, Item{}, groups)) result;
+  for (const Item* range : run.command.find_all("range")) {
+    const auto given = members(run, *range, groups);
+    if (given.empty())
+      throw error_at(run.command.statement, range->range.token,
+                     "there is nothing for a " + std::string(name(kind)) + " there");
+    result.insert(result.end(), given.begin(), given.end());
+  }
+  std::ranges::sort(result);
+  result.erase(std::ranges::unique(result).begin(), result.end());
+  return result;
+}
+
+template <class Group, class Items>
+void note_overlaps(const Execution& run, const std::vector<Group>& groups, Items items, const Group& changed) {
+  for (const Group& other : groups) {
+    if (other.id == changed.id) continue;
+    std::vector<Index> common;
+    std::ranges::set_intersection(other.*items, changed.*items, std::back_inserter(common));
+    if (!common.empty())
+      run.note(counted(static_cast<std::int64_t>(common.size()), EntityKind::hex) + " of block " +
+               std::to_string(changed.id) + (common.size() == 1 ? " is" : " are") + " in block " +
+               std::to_string(other.id) + " too");
+  }
+}
+
+std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, int id) {
+  const Command& command = run.command;
+  return with_groups(lists, kind, [&](auto& groups, auto items) {
+    const auto given = all_members(run, kind, groups);
+    auto group = std::ranges::find(groups, id, [](const auto& g) { return g.id; });
+    const bool remove = command.has("remove");
+    const std::string named = command.spec->name.data() + (" " + std::to_string(id));
+    if (remove && group == groups.end())
+      throw error_at(command.statement, command.find("id")->token, "there is no " + named);
+    if (group == groups.end()) {
+      groups.push_back({id, "", {}});
+      group = groups.end() - 1;
+    }
+    auto& own = (*group).*items;
+    const std::size_t before = own.size();
+    std::remove_reference_t<decltype(own)> result;
+    if (remove)
+      std::ranges::set_difference(own, given, std::back_inserter(result));
+    else
+      std::ranges::set_union(own, given, std::back_inserter(result));
+    own = std::move(result);
+    if (const Item* text = command.find("text")) group->name = text->text;
+    const std::size_t after = own.size();
+    const std::string line = named + ": " + members_text(kind, before) + " -> " + std::to_string(after);
+    if constexpr (std::is_same_v<decltype(own), std::vector<Index>&>)
+      if (kind == EntityKind::block && !remove)
+        if constexpr (requires { group->hexes; }) note_overlaps(run, groups, items, *group);
+    if (after > 0) return line;
+    groups.erase(group);
+    return line + ", so that it is no more";
+  });
+}
+
+}  // namespace
+
+void do_group(Execution& run) {
+  const Command& command = run.command;
+  const EntityKind kind = kind_of(command);
+  const Mesh& mesh = run.state.meshed->mesh;
+  if (mesh.n_hexes() == 0) throw error_at(command.statement, command.items.front().token, "there is no mesh");
+  if (const Item* type = command.find("type")) {
+    if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
+      throw error_at(command.statement, type->token, "elements are hexes with eight nodes (hex8) here");
+    return run.note("every element is a hex8: nothing to change");
+  }
+  const Item* text = command.find("text");
+  if (text && text->text.empty()) throw error_at(command.statement, text->token, "this name is empty");
+  if (!command.find("id"))
+    throw error_at(command.statement, command.items.at(1).token,
+                   "one " + std::string(name(kind)) + " at a time; 'all' goes with 'element type' only");
+  const int id = static_cast<int>(command.find("id")->number);
+  Mesh lists = lists_of(mesh);
+  std::string line;
+  if (command.find("range")) {
+    line = change_members(run, lists, kind, id);
+  } else {
+    line = with_groups(lists, kind, [&](auto& groups, auto) {
+      const auto group = std::ranges::find(groups, id, [](const auto& g) { return g.id; });
+      const std::string named = std::string(name(kind)) + " " + std::to_string(id);
+      if (group == groups.end()) throw error_at(command.statement, command.find("id")->token, "there is no " + named);
+      group->name = text->text;
+      return named + " is called '" + printable(text->text) + "'";
+    });
+  }
+  run.change_sets(std::move(lists));
+  run.say(line);
+}
+
+void do_delete(Execution& run) {
+  const Item& range = *run.command.find("range");
+  const std::vector<Index> positions = run.chosen(range);
+  if (range.kind == EntityKind::group) {
+    std::vector<Group> groups = *run.state.groups;
+    for (auto i = positions.rbegin(); i != positions.rend(); ++i) groups.erase(groups.begin() + *i);
+    run.state.groups = groups.empty() ? nullptr : std::make_shared<const std::vector<Group>>(std::move(groups));
+    return run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + " deleted");
+  }
+  Mesh lists = lists_of(run.state.meshed->mesh);
+  with_groups(lists, range.kind, [&](auto& groups, auto) {
+    for (auto i = positions.rbegin(); i != positions.rend(); ++i) groups.erase(groups.begin() + *i);
+  });
+  run.change_sets(std::move(lists));
+  run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + " deleted");
+}
+
+void do_reset(Execution& run) {
+  if (run.command.has("genesis")) return run.change_sets({});
+  for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
+    if (run.command.has(name(kind))) {
+      Mesh lists = lists_of(run.state.meshed->mesh);
+      with_groups(lists, kind, [](auto& groups, auto) { groups.clear(); });
+      return run.change_sets(std::move(lists));
+    }
+  static_cast<ModelState&>(run.state) = ModelState();
+  run.state.sizing.clear();
+  run.state.last_sizing.clear();
+}
+
+}  // namespace hextwist

@@ -1,0 +1,134 @@
+// smooth, node ... position, and the schemes that CAD entities remember.
+
+#include <algorithm>
+#include <iterator>
+
+#include "hextwist/session/session_internal.h"
+#include "hextwist/mesh/smooth/smooth.h"
+
+namespace hextwist {
+namespace {
+
+/// The scheme named in the command; nullopt: none was.
+std::optional<SmoothScheme> said_scheme(const Execution& run) {
+  const Command& command = run.command;
+  if (!command.has("scheme")) return std::nullopt;
+  for (const auto& [word, scheme] : {std::pair{"mean", SmoothScheme::mean_ratio},
+                                     {"mean_ratio", SmoothScheme::mean_ratio},
+                                     {"condition", SmoothScheme::condition_number},
+                                     {"condition_number", SmoothScheme::condition_number},
+                                     {"laplacian", SmoothScheme::laplacian},
+                                     {"untangle", SmoothScheme::untangle}})
+    if (command.has(word)) return scheme;
+  for (const char* word : {"equipotential", "optimize", "winslow"})
+    if (command.has(word)) run.note("there is no scheme '" + std::string(word) + "' here: mean ratio takes its place");
+  return SmoothScheme::mean_ratio;
+}
+
+SmoothScheme scheme_of(const ModelState& state, Owner owner) {
+  if (state.schemes)
+    for (const auto& [of, scheme] : *state.schemes)
+      if (of == owner) return scheme;
+  return SmoothScheme::mean_ratio;
+}
+
+/// Positions of the targets by scheme, in the order of the schemes.
+std::vector<std::pair<SmoothScheme, std::vector<Index>>> by_scheme(const Execution& run, EntityKind kind,
+                                                                   const std::vector<Index>& positions) {
+  const std::optional<SmoothScheme> said = said_scheme(run);
+  std::vector<std::pair<SmoothScheme, std::vector<Index>>> result;
+  for (const SmoothScheme scheme :
+       {SmoothScheme::untangle, SmoothScheme::laplacian, SmoothScheme::condition_number, SmoothScheme::mean_ratio}) {
+    std::vector<Index> own;
+    for (const Index i : positions)
+      if ((said           ? *said
+           : is_cad(kind) ? scheme_of(run.state, {dimension(kind), i + 1})
+                          : SmoothScheme::mean_ratio) == scheme)
+        own.push_back(i);
+    if (!own.empty()) result.emplace_back(scheme, std::move(own));
+  }
+  return result;
+}
+
+std::string arrow(double before, double after) {
+  return short_number(before) + " -> " + short_number(after);
+}
+
+}  // namespace
+
+void do_smooth(Execution& run) {
+  const Command& command = run.command;
+  SessionState& state = run.state;
+  if (state.meshed->mesh.n_hexes() == 0)
+    throw error_at(command.statement, command.items.front().token, "there is no mesh to smooth");
+  run.stage("select");
+  const Item& range = *command.find("range");
+  const auto targets = by_scheme(run, range.kind, run.chosen(range));
+  MeshedModel meshed = *state.meshed;
+  const MeshState before = state.mesh_state;
+  Index n_nodes = 0;
+  int sweeps = 0;
+  bool at_rest = true;
+  run.stage("smooth");
+  for (const auto& [scheme, positions] : targets) {
+    SmoothOptions options;
+    options.scheme = scheme;
+    options.nodes = related(run.core.selector(), range.kind, positions, EntityKind::node);
+    if (state.fixed_nodes) options.fixed = *state.fixed_nodes;
+    options.fix_boundary = command.has("fixed");
+    if (const Item* limit = command.find("sweeps")) options.iterations = static_cast<int>(limit->number);
+    const SmoothReport report =
+        smooth(meshed.mesh, meshed.association, meshed.model.get(), options, [&](const char* stage, double fraction) {
+          return !run.core.callbacks.progress || run.core.callbacks.progress(stage, fraction);
+        });
+    if (report.stopped) throw Cancelled();
+    if (report.n_nodes == 0)
+      run.note("no node can move there: all are fixed or on vertices");
+    else if (scheme == SmoothScheme::untangle)
+      run.note("no hex is inverted: there is nothing to untangle");
+    n_nodes += report.n_nodes;
+    sweeps += report.sweeps;
+    at_rest = at_rest && report.converged;
+  }
+  run.close_stage();
+  take_meshed(state, std::move(meshed));
+  const QualityRow &was = before.shape, &is = state.mesh_state.shape;
+  std::string line = text_of(command.statement) + ": " + counted(n_nodes, EntityKind::node) + ", " +
+                     counted(sweeps, "sweep", "sweeps") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
+                     arrow(was.average, is.average);
+  if (state.off_cad.node >= 0)
+    line += ", nodes at most " + short_number(state.off_cad.max) + " off " + (state.has_cad ? "the CAD" : "the skin");
+  if (sweeps > 0 && !at_rest) line += "; more sweeps could still improve it";
+  run.say(line + ", " + short_number(run.record.seconds.back().seconds) + " s");
+}
+
+void do_scheme(Execution& run) {
+  const Item& range = *run.command.find("range");
+  const SmoothScheme scheme = *said_scheme(run);
+  note_ignored(run, {"free", "fixed", "beta", "cpu"});
+  auto schemes = run.state.schemes ? *run.state.schemes : std::vector<std::pair<Owner, SmoothScheme>>();
+  const std::vector<Index> positions = run.chosen(range);
+  for (const Index i : positions) {
+    const Owner owner{dimension(range.kind), i + 1};
+    std::erase_if(schemes, [&](const auto& entry) { return entry.first == owner; });
+    schemes.emplace_back(owner, scheme);
+  }
+  run.state.schemes = std::make_shared<const std::vector<std::pair<Owner, SmoothScheme>>>(std::move(schemes));
+  run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + ": 'smooth' uses " + name(scheme));
+}
+
+void do_node(Execution& run) {
+  const std::vector<Index> nodes = run.chosen(*run.command.find("range"));
+  const std::vector<Index> old = run.state.fixed_nodes ? *run.state.fixed_nodes : std::vector<Index>();
+  std::vector<Index> fixed;
+  if (run.command.has("fixed"))
+    std::ranges::set_union(old, nodes, std::back_inserter(fixed));
+  else
+    std::ranges::set_difference(old, nodes, std::back_inserter(fixed));
+  run.say(counted(static_cast<std::int64_t>(nodes.size()), EntityKind::node) +
+          (run.command.has("fixed") ? " fixed" : " free") + "; " + std::to_string(fixed.size()) + " of " +
+          std::to_string(run.state.meshed->mesh.n_nodes()) + " are fixed now");
+  run.state.fixed_nodes = fixed.empty() ? nullptr : std::make_shared<const std::vector<Index>>(std::move(fixed));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,56 @@
+// What a session holds.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hextwist/command/group.h"
+#include "hextwist/session/session.h"
+#include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/sizing/fields/size_field.h"
+
+namespace hextwist {
+
+enum class Glue { automatic, on, off };
+
+/// Mesh and model: what commands change and `undo` brings back. The heavy parts are shared and never changed in place
+/// but as the last thing that a command does (Execution::change_sets, Execution::splice).
+struct ModelState {
+  std::shared_ptr<const MeshedModel> meshed = std::make_shared<MeshedModel>();
+  std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
+  std::filesystem::path cad_file;           ///< empty: the model did not come from a file
+  bool has_cad = false;                     ///< false: no model, or the skin of the mesh
+  bool glued = false;
+  MeshState mesh_state;
+  OffModel off_cad;
+  std::shared_ptr<const Outliers> outliers;  ///< of the mesh; null: not known
+  double cad_volume = 0;
+  /// Nodes that smoothing leaves where they are, ascending; null: none.
+  std::shared_ptr<const std::vector<Index>> fixed_nodes;
+  /// Smoothing schemes of CAD entities that were given one; null: none.
+  std::shared_ptr<const std::vector<std::pair<Owner, SmoothScheme>>> schemes;
+  std::shared_ptr<const std::vector<Group>> groups;  ///< by ascending id; null: none
+};
+
+/// Everything that a command may change; copied before each, so that a failure can put it back.
+struct SessionState : ModelState {
+  /// Sizing functions by name, and the one that was defined last.
+  struct NamedSize {
+    SizeFieldPtr field;
+    std::string text;  ///< the command that made it
+  };
+  std::map<std::string, NamedSize> sizing;
+  std::string last_sizing;
+
+  Glue glue = Glue::automatic;
+  double feature_angle = 35;  ///< degrees
+  double tolerance = 1e-5;    ///< of a mesh on its CAD, relative to the model size
+  bool untangle = true;       ///< repair inverted hexes of a mesh that is read
+  bool finished = false;
+};
+
+}  // namespace hextwist

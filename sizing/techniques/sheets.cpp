@@ -1,0 +1,144 @@
+// Directional refinement: edges of chosen sheets, of the columns behind a surface, or of layers along it are cut; the
+// other directions stay as they are.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/sheets.h"
+#include "hextwist/refine/templates/enclose.h"
+#include "hextwist/refine/templates/trisect.h"
+#include "hextwist/sizing/pipeline.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+namespace {
+
+/// Cuts marked edges in three. With Concave::fill a direction that is concave in a hex is cut whole, and so on.
+void cut_edges(Pipeline& run, const Edges& edges, std::vector<std::uint8_t>& cut) {
+  const Mesh& mesh = run.current().mesh;
+  std::vector<std::uint16_t> codes(mesh.hexes.size(), 0);
+  const auto code = [&](Index h) {
+    int mask = 0;
+    for (int e = 0; e < n_hex_edges; ++e) mask |= (cut[edges.of_hex[h][e]] != 0) << e;
+    return mask;
+  };
+  bool changed = run.request().concave == Concave::fill;
+  while (changed) {
+    changed = false;
+    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+      const int mask = code(h);
+      for (int axis = 0; axis < 3; ++axis) {
+        const int four = mask >> 4 * axis & 15;
+        if (!is_concave_in_a_direction(four << 4 * axis) || four == 15) continue;
+        for (int k = 0; k < 4; ++k) cut[edges.of_hex[h][4 * axis + k]] = 1;
+        ++run.report().filled_hexes;
+        changed = true;
+      }
+    }
+  }
+  for (Index h = 0; h < mesh.n_hexes(); ++h) codes[h] = static_cast<std::uint16_t>(code(h));
+  run.pass(trisect_table(), codes);
+}
+
+double length_of(const Mesh& mesh, const Edge& edge) {
+  return (mesh.points[edge[1]] - mesh.points[edge[0]]).norm();
+}
+
+/// Edges that leave the faces into the hexes behind them, and on from hex to hex to the other side of the mesh.
+std::vector<std::uint8_t> edges_behind(const Mesh& mesh, const Edges& edges, const CombinationTarget& target) {
+  const Faces all = faces(mesh);
+  std::vector<std::uint8_t> cut(edges.nodes.size(), 0);
+  for (const Quad& quad : target.faces) {
+    const Index start = find_face(all, quad);
+    for (const Side& first : all.sides[start]) {
+      // A sheet that crosses itself brings a column back to where it has been: it ends there.
+      Side at = first;
+      for (Index steps = 0; at.hex >= 0 && steps < mesh.n_hexes(); ++steps) {
+        const int axis = at.face >> 1;
+        for (int k = 0; k < 4; ++k) cut[edges.of_hex[at.hex][4 * axis + k]] = 1;
+        const Index opposite = all.of_hex[at.hex][at.face ^ 1];
+        if (opposite == start) break;
+        const auto& sides = all.sides[opposite];
+        at = sides[0].hex == at.hex && sides[0].face == (at.face ^ 1) ? sides[1] : sides[0];
+      }
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+void sheet_passes(Pipeline& run) {
+  const SheetRequest& request = *run.request().sheets;
+  const Mesh& mesh = run.current().mesh;
+  run.stages().begin("sheets", 0);
+  const Edges all = edges(mesh);
+  for (const Index e : request.edges)
+    if (e < 0 || e >= static_cast<Index>(all.nodes.size()))
+      throw Error("there is no edge " + std::to_string(e + 1) + ": edge ids go from 1 to " +
+                  std::to_string(all.nodes.size()));
+  const Sheets of = sheets(mesh, all);
+  std::vector<std::uint8_t> chosen(of.size(), 0);
+  if (!request.crossing) {
+    for (const Index e : request.edges) chosen[of.of_edge[e]] = 1;
+  } else {
+    std::vector<std::uint8_t> wanted(all.nodes.size(), 0), along(of.size(), 0);
+    for (const Index e : request.edges) wanted[e] = along[of.of_edge[e]] = 1;
+    for (const auto& hex : all.of_hex)
+      if (std::ranges::any_of(hex, [&](Index e) { return wanted[e] != 0; }))
+        for (const Index e : hex)
+          if (!along[of.of_edge[e]]) chosen[of.of_edge[e]] = 1;
+  }
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < all.nodes.size(); ++e)
+    if (chosen[of.of_edge[e]]) shortest = std::min(shortest, length_of(mesh, all.nodes[e]));
+  const double above = std::max(request.greater_than.value_or(0), request.factor.value_or(0) * shortest);
+  std::vector<std::uint8_t> cut(all.nodes.size(), 0);
+  Index n_cut = 0, n_edges = 0;
+  for (std::size_t e = 0; e < cut.size(); ++e) {
+    if (!chosen[of.of_edge[e]]) continue;
+    ++n_edges;
+    cut[e] = length_of(mesh, all.nodes[e]) > above;
+    n_cut += cut[e];
+  }
+  run.report().notices.push_back("cut " + std::to_string(n_cut) + " of the " + std::to_string(n_edges) + " edges of " +
+                                 std::to_string(std::ranges::count(chosen, 1)) + " sheets");
+  if (n_cut == 0) return run.keep();
+  cut_edges(run, all, cut);
+}
+
+void thickness_passes(Pipeline& run) {
+  CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
+  for (int i = 0; i < run.request().numsplit; ++i) {
+    run.stages().begin("close", run.fraction());
+    const Edges all = edges(run.current().mesh);
+    std::vector<std::uint8_t> cut = edges_behind(run.current().mesh, all, target);
+    cut_edges(run, all, cut);
+    target = carried_target(target, run.lineage(), run.current().mesh);
+  }
+}
+
+void layer_passes(Pipeline& run) {
+  const LayerRequest& layers = *run.request().layers;
+  CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
+  // The outermost layer is cut off first; what remains of the first layer is then divided in the same way.
+  for (int n = layers.n_layers; n > 1; --n) {
+    run.stages().begin("close", run.fraction());
+    double inner = 0, last = 1;
+    for (int i = 1; i < n; ++i) {
+      inner += last;
+      last *= layers.growth;
+    }
+    std::vector<std::uint8_t> marked(run.current().mesh.points.size(), 0);
+    for (const Index node : target.nodes) marked[node] = 1;
+    const Index n_added = close_enclosure(run.current().mesh.hexes, marked);
+    if (n_added > 0)
+      run.report().notices.push_back("enclosed " + std::to_string(n_added) +
+                                     " nodes more than the target has, for want of a template");
+    run.pass(enclose_table(inner / (inner + last)), enclose_codes(run.current().mesh.hexes, marked));
+    target = carried_target(target, run.lineage(), run.current().mesh);
+  }
+}
+
+}  // namespace hextwist
