@@ -6,7 +6,7 @@
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "range_fixture.h"
+#include "command/range_fixture.h"
 
 namespace hextwist {
 namespace {

@@ -6,7 +6,7 @@
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/command/syntax.h"
-#include "meshed_brick.h"
+#include "command/meshed_brick.h"
 
 namespace hextwist::test {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "range_fixture.h"
+#include "command/range_fixture.h"
 
 namespace hextwist {
 namespace {

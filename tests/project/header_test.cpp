@@ -20,7 +20,7 @@ std::string offence(const std::vector<std::filesystem::path>& headers, const std
   std::string includes;
   for (const auto& header : headers) includes += " -include " + quoted(header.string());
   const Outcome compiled = run(HEXTWIST_CXX_COMPILER " -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I" +
-                               quoted(HEXTWIST_BINARY_DIR "/include") + " -isystem " + quoted(HEXTWIST_EIGEN_INCLUDE) +
+                               quoted(HEXTWIST_SOURCE_DIR "/include") + " -isystem " + quoted(HEXTWIST_EIGEN_INCLUDE) +
                                " -MD -MF " + quoted(scratch.string()) + includes + " -x c++ /dev/null");
   if (compiled.status != 0) return "does not compile on its own:\n" + compiled.output;
   const std::string read = content(scratch);

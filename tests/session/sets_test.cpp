@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/io/io.h"
 #include "support/checkers.h"

@@ -1,4 +1,4 @@
-#include "io_support.h"
+#include "io/io_support.h"
 
 namespace hextwist {
 namespace {

@@ -1,4 +1,4 @@
-#include "sentences.h"
+#include "session/sentences.h"
 
 #include <algorithm>
 #include <cmath>

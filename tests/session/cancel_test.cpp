@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/command/command_error.h"
 
 namespace hextwist {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/session/history_internal.h"
 #include "support/checkers.h"
 

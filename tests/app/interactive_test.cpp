@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 
 namespace hextwist {
 

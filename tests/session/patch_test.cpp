@@ -4,7 +4,7 @@
 #include <random>
 #include <regex>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/patch/patch.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"

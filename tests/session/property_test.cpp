@@ -10,9 +10,9 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "range_fixture.h"
-#include "sentences.h"
-#include "session_fixture.h"
+#include "command/range_fixture.h"
+#include "session/sentences.h"
+#include "session/session_fixture.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 

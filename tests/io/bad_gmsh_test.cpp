@@ -1,5 +1,5 @@
 // One test per message of the Gmsh reader.
-#include "io_support.h"
+#include "io/io_support.h"
 
 namespace hextwist {
 namespace {

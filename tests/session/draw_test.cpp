@@ -7,7 +7,7 @@
 #include <iterator>
 #include <set>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/session/view/picture.h"
 
 namespace hextwist {

@@ -1,6 +1,6 @@
 #include <map>
 
-#include "io_support.h"
+#include "io/io_support.h"
 
 namespace hextwist {
 namespace {

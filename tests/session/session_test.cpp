@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "support/checkers.h"

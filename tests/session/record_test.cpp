@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 
 namespace hextwist {
 

@@ -1,7 +1,7 @@
 // What holds for every format: sets survive all of them, nothing is half-written, broken files are refused.
 #include <sys/mount.h>
 
-#include "io_support.h"
+#include "io/io_support.h"
 
 namespace hextwist {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "command/session_fixture.h"
+#include "session/session_fixture.h"
 #include "hextwist/io/io.h"
 #include "support/checkers.h"
 

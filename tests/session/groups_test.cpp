@@ -1,7 +1,7 @@
 // group: what it collects, and what ranges make of it.
 #include <gtest/gtest.h>
 
-#include "session_fixture.h"
+#include "session/session_fixture.h"
 
 namespace hextwist {
 namespace {
