@@ -17,7 +17,7 @@ Interruptible::~Interruptible() {
   innermost = outer_;
 }
 
-void may_go_on() {
+void check_interrupt() {
   if (innermost) innermost->ask_();
 }
 

@@ -1,8 +1,8 @@
 // Lets somebody stop a long loop from within.
 //
-// Who can stop it makes an Interruptible and calls what takes long; loops over many items call may_go_on() now and
-// then. Only the thread that made it asks, so `ask` need not be safe for several; in the others may_go_on() does
-// nothing. That is enough: it takes part in its own loops.
+// Who can stop it makes an Interruptible and calls what takes long; loops over many items call check_interrupt() now
+// and then. Only the thread that made it asks, so `ask` need not be safe for several; in the others check_interrupt()
+// does nothing. That is enough: it takes part in its own loops.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,12 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 
  private:
-  friend void may_go_on();
+  friend void check_interrupt();
   std::function<void()> ask_;
   const Interruptible* outer_;
 };
 
 /// Throws what the innermost Interruptible of this thread throws; costs nothing to speak of where there is none.
-void may_go_on();
+void check_interrupt();
 
 }  // namespace hextwist

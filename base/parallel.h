@@ -64,7 +64,7 @@ void parallel_chunks(Index n, Index size, F&& f) {
 
 /// The i in 0..n for which wanted(i), ascending.
 template <class Wanted>
-std::vector<Index> where(Index n, Wanted&& wanted) {
+std::vector<Index> indices_where(Index n, Wanted&& wanted) {
   constexpr Index size = 4096;
   const auto scratch = std::make_unique_for_overwrite<Index[]>(static_cast<std::size_t>(n));
   std::vector<Index> n_before(static_cast<std::size_t>(n_chunks(n, size)) + 1);

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "hextwist/command/token.h"
 #include "hextwist/base/types.h"
+#include "hextwist/command/token.h"
 
 namespace hextwist {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/format.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist {
 namespace {

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <memory>
 
-#include "hextwist/session/session.h"
 #include "hextwist/embed/c.h"
 #include "hextwist/embed/mesh_view.h"
+#include "hextwist/session/session.h"
 
 struct hextwist_session {
   hextwist::Session session;

@@ -6,8 +6,8 @@
 #include "hextwist/embed/gmsh_internal.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/renumbered_model.h"
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/mesh/corners.h"
+#include "hextwist/base/large_array.h"
 #include "hextwist/io/io.h"
 #include "hextwist/io/text.h"
-#include "hextwist/base/large_array.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
 

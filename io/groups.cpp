@@ -1,8 +1,8 @@
 #include <limits>
 #include <numeric>
 
-#include "hextwist/io/format.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/format.h"
 
 namespace hextwist::io {
 

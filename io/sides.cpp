@@ -1,8 +1,8 @@
 #include <limits>
 
-#include "hextwist/mesh/corners.h"
-#include "hextwist/io/format.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/io/format.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 template <std::size_t n>
 struct ByLowestNode {
   std::vector<std::array<Index, n>> sorted;
-  Lists of_node;
+  CompressedRows of_node;
   std::vector<char> marked;  // nodes of items
 
   ByLowestNode(std::span<const std::array<Index, n>> items, Index n_nodes) : sorted(items.begin(), items.end()) {

@@ -26,14 +26,18 @@ constexpr int gather_bits(int axis, int c) {
 }
 
 /// Corner at end 0 or 1 of an edge.
-constexpr int edge_corner(int edge, int end) { return spread_bits(edge >> 2, edge & 3) | end << (edge >> 2); }
+constexpr int edge_corner(int edge, int end) {
+  return spread_bits(edge >> 2, edge & 3) | end << (edge >> 2);
+}
 /// The edge between two corners that differ in exactly one bit.
 constexpr int edge_between(int c, int d) {
   const int axis = (c ^ d) == 1 ? 0 : (c ^ d) == 2 ? 1 : 2;
   return 4 * axis + gather_bits(axis, c);
 }
 /// Corner k (0..3, bit frame) of a face.
-constexpr int face_corner(int face, int k) { return spread_bits(face >> 1, k) | (face & 1) << (face >> 1); }
+constexpr int face_corner(int face, int k) {
+  return spread_bits(face >> 1, k) | (face & 1) << (face >> 1);
+}
 
 /// Edge j of a face in its bit frame: j = 0, 1 run along the face's first axis at second coordinate 0, 1;
 /// j = 2, 3 run along its second axis at first coordinate 0, 1. Returns the edge of the hex.

@@ -17,11 +17,11 @@ namespace hextwist {
 void check_nodes(const Mesh& mesh);
 
 /// Per node: 8 * hex + corner of every place where a hex names it, ascending. Throws as check_nodes().
-Lists node_corners(const Mesh& mesh);
+CompressedRows node_corners(const Mesh& mesh);
 /// The same without the check.
-Lists node_corners(std::span<const Hex> hexes, Index n_nodes);
+CompressedRows node_corners(std::span<const Hex> hexes, Index n_nodes);
 /// The same for the nodes begin .. end - 1 alone: the list of node i is [i - begin].
-Lists node_corners(std::span<const Hex> hexes, Index begin, Index end);
+CompressedRows node_corners(std::span<const Hex> hexes, Index begin, Index end);
 
 /// Turns counts into starts: entry i becomes the sum of the counts before i. Returns the sum of all, which may be more
 /// than an Index holds; the entries then mean nothing.
@@ -49,6 +49,6 @@ struct LooseFaces {
   std::vector<std::pair<Index, Side>> more;
 };
 LooseFaces loose_faces(const Mesh& mesh);
-LooseFaces loose_faces(const Mesh& mesh, const Lists& corners);
+LooseFaces loose_faces(const Mesh& mesh, const CompressedRows& corners);
 
 }  // namespace hextwist

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
 namespace {
 
-/// Lists from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
+/// CompressedRows from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
 template <class Pairs>
-Lists collect(Index n_lists, Pairs pairs) {
-  Lists lists;
+CompressedRows collect(Index n_lists, Pairs pairs) {
+  CompressedRows lists;
   lists.first.assign(n_lists + 1, 0);
   pairs([&](Index list, Index) { ++lists.first[list + 1]; });
   for (Index i = 0; i < n_lists; ++i) lists.first[i + 1] += lists.first[i];

@@ -13,8 +13,8 @@ namespace hextwist {
 
 struct Sheets {
   std::vector<Index> of_edge;  ///< per edge: sheet, numbered by their lowest edge
-  Lists edges;                 ///< per sheet: its edges, ascending
-  Lists hexes;                 ///< per sheet: its hexes, ascending, each once even where the sheet crosses itself
+  CompressedRows edges;        ///< per sheet: its edges, ascending
+  CompressedRows hexes;        ///< per sheet: its hexes, ascending, each once even where the sheet crosses itself
   std::vector<Index> n_self_crossings;  ///< per sheet: hexes that it runs through in two or three directions
   std::vector<Index> n_self_touches;    ///< per sheet: faces that it runs along on both sides, so that it lies against
                                         ///< itself there: the edges leaving the face into either hex are in the sheet

@@ -6,9 +6,9 @@
 #include <limits>
 #include <tuple>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
@@ -28,7 +28,7 @@ Index fetch_add(Index& counter, Index step) {
   return std::atomic_ref<Index>(counter).fetch_add(step, std::memory_order_relaxed);
 }
 
-void sort_lists(Lists& lists) {
+void sort_lists(CompressedRows& lists) {
   parallel_ranges(lists.size(), [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
       std::sort(lists.items.begin() + lists.first[i], lists.items.begin() + lists.first[i + 1]);
@@ -116,7 +116,7 @@ std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes
   return nodes;
 }
 
-Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
+CompressedRows node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   // Each thread has a range of nodes and walks along the hexes that have some of them: no counter is shared, every list
   // comes out ascending.
   const auto n_parts = static_cast<Index>(n_threads());
@@ -150,7 +150,7 @@ Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   const auto has_none = [&](Index chunk, Index low, std::uint32_t width) {
     return nodes_of_chunk[chunk].second < low || std::int64_t{nodes_of_chunk[chunk].first} - low >= width;
   };
-  Lists corners;
+  CompressedRows corners;
   resize_large(corners.first, static_cast<std::size_t>(n_nodes) + 1);
   for_each_part([&](Index low, std::uint32_t width) {
     for (Index chunk = 0; chunk < std::ssize(nodes_of_chunk); ++chunk) {
@@ -174,17 +174,17 @@ Lists node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   return corners;
 }
 
-Lists node_corners(std::span<const Hex> hexes, Index n_nodes) {
+CompressedRows node_corners(std::span<const Hex> hexes, Index n_nodes) {
   return node_corners(hexes, 0, n_nodes);
 }
 
-Lists node_corners(const Mesh& mesh) {
+CompressedRows node_corners(const Mesh& mesh) {
   check_nodes(mesh);
   return node_corners(mesh.hexes, mesh.n_nodes());
 }
 
 Edges edges(const Mesh& mesh) {
-  const Lists corners = node_corners(mesh);
+  const CompressedRows corners = node_corners(mesh);
   Edges result;
   resize_large(result.first_of_node, mesh.points.size() + 1);
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
@@ -221,7 +221,7 @@ LooseFaces loose_faces(const Mesh& mesh) {
   return loose_faces(mesh, node_corners(mesh));
 }
 
-LooseFaces loose_faces(const Mesh& mesh, const Lists& corners) {
+LooseFaces loose_faces(const Mesh& mesh, const CompressedRows& corners) {
   LooseFaces result;
   Faces& faces = result.faces;
   resize_large(faces.first_of_node, mesh.points.size() + 1);
@@ -302,16 +302,16 @@ Index find_face(const Faces& faces, const Quad& nodes) {
   return -1;
 }
 
-Lists node_hexes(const Mesh& mesh) {
-  Lists lists = node_corners(mesh);
+CompressedRows node_hexes(const Mesh& mesh) {
+  CompressedRows lists = node_corners(mesh);
   parallel_ranges(static_cast<Index>(lists.items.size()), [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) lists.items[i] >>= 3;
   });
   return lists;
 }
 
-Lists edge_hexes(const Edges& edges, Index n_hexes) {
-  Lists lists;
+CompressedRows edge_hexes(const Edges& edges, Index n_hexes) {
+  CompressedRows lists;
   lists.first.assign(edges.nodes.size() + 1, 0);
   parallel_ranges(n_hexes, [&](Index begin, Index end) {
     for (Index h = begin; h < end; ++h)
@@ -339,7 +339,7 @@ std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads) {
   // Quads by lowest node; then every face of every hex looks there, which is nothing in most places.
   const auto known = [&](Index node) { return node >= 0 && node < mesh.n_nodes(); };
   std::vector<Quad> sorted(quads.begin(), quads.end());
-  Lists of_node;
+  CompressedRows of_node;
   of_node.first.assign(mesh.points.size() + 1, 0);
   for (Quad& quad : sorted) {
     std::ranges::sort(quad);

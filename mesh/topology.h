@@ -18,8 +18,8 @@ namespace hextwist {
 using Edge = std::array<Index, 2>;  ///< nodes, lower first
 using Quad = std::array<Index, 4>;  ///< nodes; bit frame or cycle, as the context says
 
-/// Lists of varying length in two arrays.
-struct Lists {
+/// CompressedRows of varying length in two arrays.
+struct CompressedRows {
   std::vector<Index> first;  ///< n + 1
   std::vector<Index> items;
   std::span<const Index> operator[](Index i) const {
@@ -51,8 +51,8 @@ Index find_edge(const Edges& edges, Index a, Index b);
 Index find_face(const Faces& faces, const Quad& nodes);
 
 /// Hexes around each node; hexes around each edge; both ascending (a hex that names a node twice stands twice).
-Lists node_hexes(const Mesh& mesh);
-Lists edge_hexes(const Edges& edges, Index n_hexes);
+CompressedRows node_hexes(const Mesh& mesh);
+CompressedRows edge_hexes(const Edges& edges, Index n_hexes);
 
 /// Sides with no hex behind them, ascending by (hex, face).
 std::vector<Side> boundary_sides(const Faces& faces);

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
-#include "hextwist/refine/marks.h"
 #include "hextwist/patch/refine.h"
-#include "hextwist/sizing/levels.h"
+#include "hextwist/refine/marks.h"
 #include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/levels.h"
 
 namespace hextwist {
 namespace {
@@ -40,7 +40,7 @@ AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags,
   const std::vector<int> level = levels(input.mesh);
   Request request{.kind = TargetKind::hex, .concave = options.concave, .smooth = options.smooth};
   request.levels = options.keep_gradation ? Levels::graded : Levels::counted;
-  request.targets = where(input.mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
+  request.targets = indices_where(input.mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
   if (request.targets.empty()) return unchanged(input, level);
   return run({with_levels(input.mesh, level), input.model, input.association}, request, progress);
 }
@@ -59,7 +59,7 @@ AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const
                   .concave = options.concave,
                   .smooth = options.smooth};
   request.levels = options.keep_gradation ? Levels::graded : Levels::counted;
-  request.targets = where(input.mesh.n_hexes(), [](Index) { return true; });
+  request.targets = indices_where(input.mesh.n_hexes(), [](Index) { return true; });
   return run({with_levels(input.mesh, levels(input.mesh)), input.model, input.association}, request, progress);
 }
 

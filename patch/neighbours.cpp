@@ -2,15 +2,15 @@
 #include <iterator>
 #include <numeric>
 
-#include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/topology.h"
 #include "hextwist/patch/gaps.h"
 #include "hextwist/patch/neighbours.h"
 
 namespace hextwist {
 
 Neighbours::Neighbours(const Mesh& mesh) : n_serials_(mesh.n_hexes()) {
-  Lists lists = node_hexes(mesh);
+  CompressedRows lists = node_hexes(mesh);
   of_node_.resize(mesh.points.size());
   for (std::size_t n = 0; n < of_node_.size(); ++n) of_node_[n] = {lists.first[n], lists.first[n + 1] - lists.first[n]};
   items_ = std::move(lists.items);

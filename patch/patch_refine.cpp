@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/gaps.h"
+#include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/pipeline.h"
-#include "hextwist/base/memory.h"
 #include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/targets.h"
-#include "hextwist/patch/verify_internal.h"
 
 namespace hextwist {
 namespace {
@@ -149,7 +149,7 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
                                return rings->ring[h] + enough_rings <= n_rings;
                              });
       if (!is_enough) continue;
-      for (Disappointment& row : report.off_nodes) row.node = numbers.node(row.node);
+      for (OffOwner& row : report.off_nodes) row.node = numbers.node(row.node);
       if (!request.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
     }

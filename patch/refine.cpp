@@ -3,9 +3,9 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/patch/patch_refine.h"
+#include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/targets.h"
-#include "hextwist/patch/verify_internal.h"
 
 namespace hextwist {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/parallel.h"
-#include "hextwist/refine/marks.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/patch/patch.h"
+#include "hextwist/refine/marks.h"
 
 namespace hextwist {
 namespace {

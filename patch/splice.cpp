@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "hextwist/base/large_array.h"
-#include "hextwist/refine/split.h"
 #include "hextwist/base/same_bits.h"
 #include "hextwist/patch/splice_lists_internal.h"
+#include "hextwist/refine/split.h"
 
 namespace hextwist {
 namespace {

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <ranges>
 
-#include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/association/off_model.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/off_model.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 #include "hextwist/patch/gaps.h"
@@ -105,9 +105,9 @@ struct Extreme {
   }
 };
 
-/// Summary after some hexes were taken away and others added; the outliers (least, largest) change with them. Where
+/// Summary after some hexes were taken away and others added; the extremes (least, largest) change with them. Where
 /// these don't know the next one, all hexes are asked.
-Summary updated(const Summary& before, Metric metric, const Difference& difference, std::array<OutlierList, 2>& lists) {
+Summary updated(const Summary& before, Metric metric, const Difference& difference, std::array<ExtremeList, 2>& lists) {
   const ChangedPart& change = difference.change;
   const Mesh& input = change.input.mesh;
   // Deviations from the old average keep sums small.
@@ -125,20 +125,20 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
   gone.reserve(difference.whole_taken.size());
   for (const Index h : difference.whole_taken) gone.push_back(hex_id(input, h));
 
-  std::array<Extreme, 2> extremes{Extreme{before.min, before.min_hex}, Extreme{before.max, before.max_hex}};
+  std::array<Extreme, 2> both{Extreme{before.min, before.min_hex}, Extreme{before.max, before.max_hex}};
   for (const bool largest : {false, true}) {
-    OutlierList& list = lists[largest];
-    Extreme& extreme = extremes[largest];
+    ExtremeList& list = lists[largest];
+    Extreme& extreme = both[largest];
     const bool is_gone = std::ranges::binary_search(difference.whole_taken, extreme.hex);
-    OutlierList kept = changed(list, gone, {});
-    if (kept.empty() && is_gone) list = kept = outliers(input, quality(metric, input), largest, difference.whole_taken);
+    ExtremeList kept = changed(list, gone, {});
+    if (kept.empty() && is_gone) list = kept = extremes(input, quality(metric, input), largest, difference.whole_taken);
     if (is_gone && !kept.empty())
       extreme = {largest ? -kept.front().first : kept.front().first, find_hex(input, kept.front().second)};
     extreme.hex = is_gone && kept.empty() ? -1 : after_gaps(difference.whole_gone, extreme.hex);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (extreme.hex < 0 || values[i] == extreme.value || (values[i] > extreme.value) == largest)
         extreme.offer(values[i], difference.whole_after(difference.added[i]), largest);
-    OutlierList come;
+    ExtremeList come;
     for (std::size_t i = 0; i < values.size(); ++i)  // those that are better than the last of the list
       if (const double value = largest ? -values[i] : values[i]; !list.empty() && value <= list.back().first)
         come.emplace_back(value, difference.id_after(difference.added[i]));
@@ -149,10 +149,10 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
   return {.count = n,
           .average = before.average + shift,
           .std_dev = std::sqrt(std::max(0.0, squares / n - shift * shift)),
-          .min = extremes[0].value,
-          .max = extremes[1].value,
-          .min_hex = extremes[0].hex,
-          .max_hex = extremes[1].hex};
+          .min = both[0].value,
+          .max = both[1].value,
+          .min_hex = both[0].hex,
+          .max_hex = both[1].hex};
 }
 
 Box box_of(const Mesh& mesh, const Quad& nodes) {
@@ -169,7 +169,7 @@ std::vector<Index> hexes_around(const ChangedPart& change) {
     for (const Index n : mesh.hexes[h]) near[n] = 1;
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h)
     for (const Index n : mesh.hexes[h]) near[n] = 1;
-  std::vector<Index> around = where(change.n_kept, [&](Index h) {
+  std::vector<Index> around = indices_where(change.n_kept, [&](Index h) {
     return std::ranges::any_of(mesh.hexes[h], [&](Index n) { return near[n] != 0; });
   });
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h) around.push_back(h);
@@ -283,16 +283,16 @@ OffModel off_after(const OffModel& before, const ChangedPart& change) {
 
 Measured measured_without_cad(const Mesh& mesh) {
   Measured result;
-  auto lists = std::make_shared<Outliers>();
-  const auto summary = [&](Metric metric, std::array<OutlierList, 2>& of) {
+  auto lists = std::make_shared<Extremes>();
+  const auto summary = [&](Metric metric, std::array<ExtremeList, 2>& of) {
     const std::vector<double> values = quality(metric, mesh);
-    of = {outliers(mesh, values, false), outliers(mesh, values, true)};
+    of = {extremes(mesh, values, false), extremes(mesh, values, true)};
     return summarize(values);
   };
   result.shape = summary(Metric::shape, lists->shape);
   result.scaled_jacobian = summary(Metric::scaled_jacobian, lists->scaled_jacobian);
   result.volume = volume(mesh);
-  result.outliers = std::move(lists);
+  result.extremes = std::move(lists);
   return result;
 }
 
@@ -306,7 +306,7 @@ Measured measured(const MeshedModel& meshed) {
 }
 
 Measured measured_after(const Report& report) {
-  return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad, report.outliers};
+  return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad, report.extremes};
 }
 
 Index ChangedPart::whole_node(Index node) const {
@@ -319,7 +319,7 @@ std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<cons
   if (moved.empty()) return {};
   std::vector<char> has_moved(after.points.size(), 0);
   for (const Index n : moved) has_moved[n] = 1;
-  return where(
+  return indices_where(
       n_kept, [&](Index h) { return std::ranges::any_of(after.hexes[h], [&](Index n) { return has_moved[n] != 0; }); });
 }
 
@@ -336,11 +336,11 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
   report.shape_before = known.shape;
   report.scaled_jacobian_before = known.scaled_jacobian;
   report.volume_before = known.volume;
-  auto lists = std::make_shared<Outliers>(known.outliers ? *known.outliers : Outliers());
+  auto lists = std::make_shared<Extremes>(known.extremes ? *known.extremes : Extremes());
   report.shape_after = updated(known.shape, Metric::shape, difference, lists->shape);
   report.scaled_jacobian_after =
       updated(known.scaled_jacobian, Metric::scaled_jacobian, difference, lists->scaled_jacobian);
-  report.outliers = std::move(lists);
+  report.extremes = std::move(lists);
   report.volume_after = report.volume_before;
   for (const double v : quality(Metric::volume, change.before.mesh, difference.taken)) report.volume_after -= v;
   for (const double v : quality(Metric::volume, change.after.mesh, difference.added)) report.volume_after += v;
@@ -357,7 +357,7 @@ void verify_all(const MeshedModel& refined, const Measured& before, Report& repo
   report.scaled_jacobian_after = after.scaled_jacobian;
   report.volume_after = after.volume;
   report.off_cad = after.off_cad;
-  report.outliers = after.outliers;
+  report.extremes = after.extremes;
   if (has_only_warnings(refined.mesh)) return;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));

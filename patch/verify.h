@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "hextwist/patch/outliers.h"
+#include "hextwist/patch/extremes.h"
 #include "hextwist/sizing/request.h"
 
 namespace hextwist {
@@ -13,7 +13,7 @@ struct Measured {
   Summary shape, scaled_jacobian;
   double volume = 0;
   OffModel off_cad;
-  std::shared_ptr<const Outliers> outliers = nullptr;  ///< may be left out
+  std::shared_ptr<const Extremes> extremes = nullptr;  ///< may be left out
 };
 Measured measured(const MeshedModel& meshed);
 /// Of the result of a refinement without violations.

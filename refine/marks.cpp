@@ -62,7 +62,7 @@ Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
   if (rest.empty()) return 0;
 
   const auto n_before = n_full();
-  const Lists hexes_of_node = node_hexes(mesh);
+  const CompressedRows hexes_of_node = node_hexes(mesh);
   std::vector<Index> worklist;
   const auto mark_all_nodes = [&](Index h) {
     for (const Index n : mesh.hexes[h]) {
@@ -93,7 +93,7 @@ void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std:
 }
 
 std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
-  return where(static_cast<Index>(hexes.size()), [&](Index h) { return has_marked_corner(hexes[h], marked); });
+  return indices_where(static_cast<Index>(hexes.size()), [&](Index h) { return has_marked_corner(hexes[h], marked); });
 }
 
 }  // namespace hextwist

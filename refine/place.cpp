@@ -30,7 +30,7 @@ template <typename OwnerOf>
 ByOwner group_by_owner(std::size_t n, int dim, const OwnerOf& owner_of) {
   ByOwner groups;
   groups.items =
-      where(static_cast<Index>(n), [&](Index i) { return owner_of(static_cast<std::size_t>(i)).dim == dim; });
+      indices_where(static_cast<Index>(n), [&](Index i) { return owner_of(static_cast<std::size_t>(i)).dim == dim; });
   std::ranges::stable_sort(groups.items, {}, [&](Index i) { return owner_of(i).id; });
   for (std::size_t i = 0; i < groups.items.size(); ++i)
     if (i == 0 || owner_of(groups.items[i]).id != owner_of(groups.items[i - 1]).id) groups.run.push_back(i);
@@ -110,7 +110,7 @@ void place_on_curves(Work& work) {
   const auto& edges = work.lineage.edges;
   const auto owner = [&](std::size_t i) { return work.association.node_owner[edges[i].first_node]; };
   parallel_each(edges.size(), [&](std::size_t i) {
-    if (i % grain == 0) may_go_on();
+    if (i % grain == 0) check_interrupt();
     if (owner(i).dim != 1) return;
     const int curve = owner(i).id;
     const auto [a, b] = curve_interval(work, edges[i], curve);
@@ -193,7 +193,7 @@ std::vector<std::size_t> batch_starts(std::span<const Index> items, const NodesO
 void project_batch(Work& work, int surface, const Batch& batch) {
   std::vector<Projection> result(batch.nodes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), grain), [&](const auto& range) {
-    may_go_on();
+    check_interrupt();
     const std::size_t first = range.begin(), n = range.size();
     work.model.project({2, surface}, std::span(batch.points).subspan(first, n),
                        std::span(batch.seeds).subspan(first, n), std::span(result).subspan(first, n));
@@ -341,7 +341,7 @@ void place_faces_on_surfaces(Work& work, const RimParameters& parameters_of) {
 
 void place_inner_faces(Work& work) {
   parallel_each(work.lineage.faces.size(), [&](std::size_t i) {
-    if (i % grain == 0) may_go_on();
+    if (i % grain == 0) check_interrupt();
     const CutFace& face = work.lineage.faces[i];
     if (work.association.node_owner[face.first_node].dim != 3) return;
     const Cell cell{work, work.split.cut_index(face.side.hex), work.old_mesh.hexes[face.side.hex]};
@@ -355,7 +355,7 @@ void place_inner_faces(Work& work) {
 
 void place_inside_hexes(Work& work) {
   parallel_each(work.lineage.hexes.size(), [&](std::size_t i) {
-    if (i % grain == 0) may_go_on();
+    if (i % grain == 0) check_interrupt();
     const CutHex& hex = work.lineage.hexes[i];
     const auto& inside = work.table.hex(hex.code).inside;
     if (inside.empty()) return;

@@ -23,7 +23,7 @@ void place(const Mesh& old_mesh, const Association& old_association, const Split
            Association& association);
 
 /// A node that is not where its owner is.
-struct Disappointment {
+struct OffOwner {
   Index node = -1;
   Owner owner;
   double distance = 0;  ///< from the owner, model units
@@ -38,8 +38,8 @@ std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
 /// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
 /// (inverted_hexes). progress is asked after each sweep; once it returns false, little more is tried, and the caller
 /// should drop the mesh.
-std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association, std::span<const Index> fixed = {},
-                                            const SmoothProgress& progress = {});
+std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
+                                      Association& association, std::span<const Index> fixed = {},
+                                      const SmoothProgress& progress = {});
 
 }  // namespace hextwist

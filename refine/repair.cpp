@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/place.h"
 
@@ -73,15 +73,15 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
 
 std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
   std::vector<Index> result =
-      where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
+      indices_where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
   for (Index& h : result) h += first;
   return result;
 }
 
-std::vector<Disappointment> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                            Association& association, std::span<const Index> fixed,
-                                            const SmoothProgress& progress) {
-  std::vector<Disappointment> rows;
+std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
+                                      Association& association, std::span<const Index> fixed,
+                                      const SmoothProgress& progress) {
+  std::vector<OffOwner> rows;
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
   const Index first_new = split.lineage.n_old_nodes;
   const auto owner = [&](Index node) { return association.empty() ? Owner{3, 1} : association.node_owner[node]; };

@@ -29,7 +29,7 @@ struct CutList {
 CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& table,
                   std::span<const std::uint16_t> codes) {
   CutList cut;
-  cut.hex = where(static_cast<Index>(codes.size()), [&](Index h) { return codes[h] != 0; });
+  cut.hex = indices_where(static_cast<Index>(codes.size()), [&](Index h) { return codes[h] != 0; });
   resize_for_overwrite(cut.of, cut.hex.size());
   parallel_each(cut.hex.size(), [&](std::size_t i) { cut.of[i] = &table.hex(codes[cut.hex[i]]); });
   cut.nodes = hexes;
@@ -125,7 +125,7 @@ struct Starts {
 
 /// Walks along the nodes; hex_edges and hex_faces get ranks.
 Starts rank_edges_and_faces(const CutList& cut, const SplitTable& table, Split& split) {
-  const Lists corners = node_corners(cut.nodes, cut.n_nodes);
+  const CompressedRows corners = node_corners(cut.nodes, cut.n_nodes);
   const std::vector<Index> n_on_edge = n_nodes_of(table.edge), n_in_face = n_nodes_of(table.face);
   Starts starts;
   resize_for_overwrite(starts.edges, static_cast<std::size_t>(cut.n_nodes) + 1);

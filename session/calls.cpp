@@ -4,11 +4,11 @@
 #include <functional>
 #include <new>
 
-#include "hextwist/session/session_internal.h"
+#include "hextwist/base/memory.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/patch/adapt.h"
-#include "hextwist/base/memory.h"
+#include "hextwist/session/session_internal.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {

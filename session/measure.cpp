@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdio>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/patch/verify.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {
@@ -67,7 +67,7 @@ void take_meshed(SessionState& state, MeshedModel meshed) {
   state.mesh_state.scaled_jacobian = quality_row(mesh, found.scaled_jacobian);
   state.mesh_state.volume = found.volume;
   state.off_cad = found.off_cad;
-  state.outliers = found.outliers;
+  state.extremes = found.extremes;
   state.cad_volume = 0;
   if (meshed.model)
     for (int id = 1; id <= meshed.model->count(3); ++id) state.cad_volume += meshed.model->measure({3, id});

@@ -6,9 +6,9 @@
 #include <map>
 #include <new>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/command/braces.h"
 #include "hextwist/session/session_internal.h"
-#include "hextwist/base/memory.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {

@@ -9,12 +9,12 @@
 
 #include "hextwist/command/expression.h"
 #include "hextwist/command/select/selection.h"
-#include "hextwist/session/session.h"
-#include "hextwist/session/state_internal.h"
 #include "hextwist/command/syntax.h"
-#include "hextwist/session/history_internal.h"
 #include "hextwist/patch/neighbours.h"
 #include "hextwist/patch/patch_refine.h"
+#include "hextwist/session/history_internal.h"
+#include "hextwist/session/session.h"
+#include "hextwist/session/state_internal.h"
 
 namespace hextwist {
 

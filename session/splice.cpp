@@ -1,8 +1,8 @@
 // A session changes its mesh in place where a change is small and nobody else looks at the mesh: in time proportional
 // to the change, but for moving what comes behind it in the arrays.
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/patch/patch_refine.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hextwist/command/group.h"
-#include "hextwist/session/session.h"
 #include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/session/session.h"
 #include "hextwist/sizing/fields/size_field.h"
 
 namespace hextwist {
@@ -27,7 +27,7 @@ struct ModelState {
   bool glued = false;
   MeshState mesh_state;
   OffModel off_cad;
-  std::shared_ptr<const Outliers> outliers;  ///< of the mesh; null: not known
+  std::shared_ptr<const Extremes> extremes;  ///< of the mesh; null: not known
   double cad_volume = 0;
   /// Nodes that smoothing leaves where they are, ascending; null: none.
   std::shared_ptr<const std::vector<Index>> fixed_nodes;

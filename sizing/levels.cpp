@@ -31,11 +31,11 @@ Index close_flags(const Mesh& mesh, std::span<const int> level, std::span<std::u
   // From the finest down: the highest level of a flagged hex at each node flags all lower ones there.
   Index n_added = 0;
   std::vector<int> highest(mesh.points.size(), -1);
-  std::vector<Index> fresh = where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
+  std::vector<Index> fresh = indices_where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
   while (!fresh.empty()) {
     for (const Index h : fresh)
       for (const Index n : mesh.hexes[h]) highest[n] = std::max(highest[n], level[h]);
-    fresh = where(mesh.n_hexes(), [&](Index h) {
+    fresh = indices_where(mesh.n_hexes(), [&](Index h) {
       return !flags[h] && std::ranges::any_of(mesh.hexes[h], [&](Index n) { return highest[n] > level[h]; });
     });
     for (const Index h : fresh) flags[h] = 1;
@@ -55,7 +55,7 @@ Index grade_marks(const Mesh& mesh, Concave concave, std::span<std::uint8_t> mar
   std::vector<std::uint8_t> flags = whole();
   const auto n_before = std::ranges::count(flags, 1);
   while (close_flags(mesh, level, flags) > 0) {
-    mark_nodes(mesh.hexes, where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; }), marked);
+    mark_nodes(mesh.hexes, indices_where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; }), marked);
     if (concave == Concave::fill) fill_concave(mesh, marked);
     flags = whole();
   }

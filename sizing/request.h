@@ -19,7 +19,7 @@
 
 namespace hextwist {
 
-struct Outliers;
+struct Extremes;
 class SizeField;
 
 enum class TargetKind { node, edge, face, hex, vertex, curve, surface, volume };
@@ -143,12 +143,12 @@ struct Report {
   Summary shape_before, shape_after;
   Summary scaled_jacobian_before, scaled_jacobian_after;
   OffModel off_cad;
-  std::shared_ptr<const Outliers> outliers;  ///< of the result (outliers.h), for who refines it again
+  std::shared_ptr<const Extremes> extremes;  ///< of the result (extremes.h), for who refines it again
   double volume_before = 0, volume_after = 0;
-  std::vector<Disappointment> off_nodes;  ///< nodes that were left off their owner
-  std::vector<Violation> violations;      ///< of the result; empty unless something is wrong with it
-  std::optional<SizeReport> sizes;        ///< of a request for sizes; absent for a dry run
-  std::vector<std::string> notices;       ///< decisions taken, one line each
+  std::vector<OffOwner> off_nodes;    ///< nodes that were left off their owner
+  std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
+  std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
+  std::vector<std::string> notices;   ///< decisions taken, one line each
   std::vector<StageTime> seconds;
   double total_seconds = 0;
   std::size_t peak_memory_bytes = 0;  ///< of the process so far

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/sizing/request.h"
 #include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/request.h"
 
 namespace hextwist {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/mesh/locate.h"
-#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist {

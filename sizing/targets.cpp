@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/split_table.h"
 #include "hextwist/sizing/target_distance.h"
@@ -61,7 +61,8 @@ std::vector<Index> hexes_within(const MeshedModel& input, const Request& request
   const std::vector<Vec3> centres = centroids(input.mesh);
   std::vector<double> distance(centres.size());
   TargetDistance(input, request.kind, request.targets).evaluate(centres, distance);
-  std::vector<Index> found = where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *request.radius; });
+  std::vector<Index> found =
+      indices_where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *request.radius; });
   if (found.empty())
     throw Error("no hex has its centroid within " + std::to_string(*request.radius) +
                 " of the target: the nearest is " + std::to_string(*std::ranges::min_element(distance)) + " away");
@@ -251,7 +252,8 @@ CombinationTarget carried_target(const CombinationTarget& target, const Lineage&
 std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
   std::vector<std::uint8_t> wanted(static_cast<std::size_t>(lineage.n_old_hexes), 0);
   for (const Index h : hexes) wanted[h] = 1;
-  return where(static_cast<Index>(lineage.parent.size()), [&](Index h) { return wanted[lineage.parent[h]] != 0; });
+  return indices_where(static_cast<Index>(lineage.parent.size()),
+                       [&](Index h) { return wanted[lineage.parent[h]] != 0; });
 }
 
 std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "hextwist/command/select/range.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/command/select/range.h"
 #include "hextwist/command/written.h"
 #include "hextwist/mesh/quality/quality.h"
 

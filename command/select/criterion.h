@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hextwist/mesh/entity.h"
 #include "hextwist/command/token.h"
+#include "hextwist/mesh/entity.h"
 
 namespace hextwist {
 

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "hextwist/command/select/criterion.h"
-#include "hextwist/mesh/entity.h"
 #include "hextwist/command/token.h"
+#include "hextwist/mesh/entity.h"
 
 namespace hextwist {
 

@@ -3,10 +3,10 @@
 
 #include <deque>
 
-#include "hextwist/mesh/entity.h"
 #include "hextwist/embed/arrays.h"
 #include "hextwist/embed/mesh_view.h"
 #include "hextwist/embed/python/convert_internal.h"
+#include "hextwist/mesh/entity.h"
 
 namespace hextwist::python {
 

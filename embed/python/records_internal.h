@@ -1,8 +1,8 @@
 // Records of commands as dictionaries.
 #pragma once
 
-#include "hextwist/session/record_json.h"
 #include "hextwist/embed/python/convert_internal.h"
+#include "hextwist/session/record_json.h"
 
 namespace hextwist::python {
 

@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/association/association.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/patch/refine.h"
 
 int main(int argc, char** argv) try {

@@ -12,11 +12,11 @@
 #include <cmath>
 #include <mutex>
 
-#include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/geom/curvature.h"
+#include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/geom/facet/curvature_internal.h"
-#include "hextwist/geom/incidence.h"
 #include "hextwist/geom/facet/skin.h"
+#include "hextwist/geom/incidence.h"
 
 namespace hextwist {
 namespace {

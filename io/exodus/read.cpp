@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
-#include "hextwist/io/exodus/exodus_internal.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/exodus/exodus_internal.h"
 
 namespace hextwist::io {
 namespace {

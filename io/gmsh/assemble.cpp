@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "hextwist/mesh/corners.h"
-#include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
 namespace {

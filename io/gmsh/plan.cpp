@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
 namespace {

@@ -1,8 +1,8 @@
 // Nodes, elements and entities of Gmsh's formats 1, 2.2 and 4.1.
 #include <limits>
 
-#include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/gmsh/gmsh.h"
 
 namespace hextwist::io {
 namespace {

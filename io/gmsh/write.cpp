@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "hextwist/base/large_array.h"
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/io/gmsh/plan_internal.h"
-#include "hextwist/base/large_array.h"
 
 namespace hextwist::io {
 namespace {

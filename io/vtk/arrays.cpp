@@ -1,8 +1,8 @@
 // Arrays of numbers in VTK's files.
 #include <optional>
 
-#include "hextwist/io/vtk/vtk_internal.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/vtk/vtk_internal.h"
 
 namespace hextwist::io {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "hextwist/io/vtk/vtk_internal.h"
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/vtk/vtk_internal.h"
 
 namespace hextwist::io {
 

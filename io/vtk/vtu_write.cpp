@@ -6,8 +6,8 @@
 #include <functional>
 #include <span>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/format.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist::io {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist {
 namespace {
@@ -35,11 +35,11 @@ std::vector<int> edge_tags(const Skin& skin, const SkinEdges& edges, const Tags&
 }
 
 std::vector<Index> boundary(const Faces& faces) {
-  return where(static_cast<Index>(faces.sides.size()), [&](Index f) { return faces.sides[f][1].hex < 0; });
+  return indices_where(static_cast<Index>(faces.sides.size()), [&](Index f) { return faces.sides[f][1].hex < 0; });
 }
 
 std::vector<Index> faces_between(const Faces& faces, std::span<const int> hex_volume) {
-  return where(static_cast<Index>(faces.sides.size()), [&](Index f) {
+  return indices_where(static_cast<Index>(faces.sides.size()), [&](Index f) {
     const auto& [first, second] = faces.sides[f];
     return second.hex >= 0 && hex_volume[first.hex] != hex_volume[second.hex];
   });

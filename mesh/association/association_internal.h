@@ -61,12 +61,12 @@ Skin make_skin(const Mesh& mesh, const Faces& faces, std::span<const Index> sele
 /// The skin's edges, each with its quads.
 struct SkinEdges {
   std::vector<Edge> nodes;  ///< ascending, lower node first
-  Lists quads;
+  CompressedRows quads;
 };
 SkinEdges make_edges(const Skin& skin);
 
 /// Distinct values per node, ascending, from (node, value) pairs in any order.
-Lists group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs);
+CompressedRows group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs);
 
 /// Projects points[i] onto entity id[i] of one dimension, seeds[i] given or seeds empty; on all threads.
 std::vector<Projection> project_all(const Model& model, int dim, std::span<const int> id, std::span<const Vec3> points,

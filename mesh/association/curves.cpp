@@ -10,8 +10,8 @@
 #include <limits>
 #include <numeric>
 
-#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -90,8 +90,8 @@ std::string list_of(const char* kind, std::span<const int> ids) {
 
 /// Puts nodes that stand at CAD vertices on them: per vertex the nearest node within tolerance of which no face or
 /// edge lies on an entity that the vertex does not bound.
-void match_vertices(const ModelFacts& facts, const Skin& skin, const Lists& node_surfaces, const Lists& node_curves,
-                    CurveMatch& match) {
+void match_vertices(const ModelFacts& facts, const Skin& skin, const CompressedRows& node_surfaces,
+                    const CompressedRows& node_curves, CurveMatch& match) {
   std::vector<Index> by_x(skin.nodes.size());
   std::iota(by_x.begin(), by_x.end(), 0);
   const auto x = [&](Index n) { return skin.points[n].x(); };
@@ -145,7 +145,7 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
   const auto parts_surfaces = [&](Index e) {
     return std::ranges::any_of(edges.quads[e], [&](Index q) { return surfaces.quad_surface[q] != first_surface(e); });
   };
-  for (const Index e : where(
+  for (const Index e : indices_where(
            n_edges, [&](Index i) { return !facts.surface_seams[first_surface(i) - 1].empty() || parts_surfaces(i); })) {
     const auto ids = surfaces_at(edges, surfaces.quad_surface, e);
     const auto more = candidates_of(facts, skin, edges, e, ids, tags.empty() ? 0 : tags[e]);
@@ -208,8 +208,8 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
   parallel_each(skin.quads.size(), [&](std::size_t q) {
     for (std::size_t c = 0; c < 4; ++c) node_surface[4 * q + c] = {skin.quads[q][c], surfaces.quad_surface[q]};
   });
-  const Lists curves_at = group(skin.n_nodes(), node_curve);
-  const Lists surfaces_of = group(skin.n_nodes(), node_surface);
+  const CompressedRows curves_at = group(skin.n_nodes(), node_curve);
+  const CompressedRows surfaces_of = group(skin.n_nodes(), node_surface);
   match_vertices(facts, skin, surfaces_of, curves_at, match);
   for (Index n = 0; n < skin.n_nodes(); ++n) {
     if (match.node_owner[n].dim == 0) continue;

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist::detail {

@@ -1,9 +1,9 @@
 // Who owns what, in both directions, and how far nodes are from their owners.
 #include <algorithm>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/association/off_model.h"
-#include "hextwist/base/parallel.h"
 
 namespace hextwist {
 
@@ -57,7 +57,7 @@ std::vector<Index> nodes_on(const Association& association, const Model& model, 
   wanted[entity.dim][entity.id] = 1;
   for (int dim = 0; dim < entity.dim; ++dim)
     for (const int id : model.adjacent(entity, dim)) wanted[dim][id] = 1;
-  return where(static_cast<Index>(association.node_owner.size()), [&](Index n) {
+  return indices_where(static_cast<Index>(association.node_owner.size()), [&](Index n) {
     const Owner owner = association.node_owner[n];
     if (owner.dim > entity.dim) return false;  // most nodes of most meshes
     return owner && wanted[owner.dim][owner.id];

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "hextwist/base/interrupt.h"
-#include "hextwist/mesh/association/association_internal.h"
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/association_internal.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist::detail {
@@ -59,7 +59,7 @@ Skin make_skin(const Mesh& mesh, const Faces& faces, std::span<const Index> sele
     for (const Index node : faces.nodes[skin.faces[q]])
       std::atomic_ref(local[node]).store(0, std::memory_order_relaxed);
   });
-  skin.nodes = where(mesh.n_nodes(), [&](Index node) { return local[node] == 0; });
+  skin.nodes = indices_where(mesh.n_nodes(), [&](Index node) { return local[node] == 0; });
   skin.points.resize(skin.nodes.size());
   parallel_each(skin.nodes.size(), [&](std::size_t i) {
     local[skin.nodes[i]] = static_cast<Index>(i);
@@ -94,8 +94,8 @@ SkinEdges make_edges(const Skin& skin) {
   });
   tbb::parallel_sort(uses.begin(), uses.end());
   SkinEdges edges;
-  edges.quads.first =
-      where(static_cast<Index>(uses.size()), [&](Index i) { return i == 0 || uses[i].nodes != uses[i - 1].nodes; });
+  edges.quads.first = indices_where(static_cast<Index>(uses.size()),
+                                    [&](Index i) { return i == 0 || uses[i].nodes != uses[i - 1].nodes; });
   resize_for_overwrite(edges.nodes, edges.quads.first.size());
   parallel_each(edges.nodes.size(), [&](std::size_t e) {
     const std::uint64_t nodes = uses[edges.quads.first[e]].nodes;
@@ -107,8 +107,8 @@ SkinEdges make_edges(const Skin& skin) {
   return edges;
 }
 
-Lists group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs) {
-  Lists all, lists;
+CompressedRows group(Index n_nodes, std::span<const std::pair<Index, Index>> pairs) {
+  CompressedRows all, lists;
   all.first.assign(n_nodes + 1, 0);
   for (const auto& [node, value] : pairs) ++all.first[node];
   std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
@@ -155,7 +155,7 @@ std::vector<Projection> project_all(const Model& model, int dim, std::span<const
         std::array<Parameters, batch> seed;
         std::array<Projection, batch> out;
         for (Index b = from; b < to; ++b) {
-          may_go_on();
+          check_interrupt();
           const std::size_t n = batches[b].end - batches[b].begin;
           for (std::size_t i = 0; i < n; ++i) {
             at[i] = points[order[batches[b].begin + i]];

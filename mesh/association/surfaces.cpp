@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "hextwist/base/interrupt.h"
-#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -36,15 +36,15 @@ struct Hits {
 };
 
 /// Projects the nodes onto the given surfaces and drops what lies off.
-Hits hits(const ModelFacts& facts, const Skin& skin, const Lists& candidates) {
+Hits hits(const ModelFacts& facts, const Skin& skin, const CompressedRows& candidates) {
   std::vector<int> id(candidates.items.begin(), candidates.items.end());
   std::vector<Vec3> points(id.size());
   parallel_each(skin.nodes.size(), [&](std::size_t n) {
     for (Index i = candidates.first[n]; i < candidates.first[n + 1]; ++i) points[i] = skin.points[n];
   });
   const auto all = project_all(facts.model, 2, id, points);
-  const std::vector<Index> on =
-      where(static_cast<Index>(id.size()), [&](Index i) { return all[i].distance <= facts.node_tolerance(2, id[i]); });
+  const std::vector<Index> on = indices_where(
+      static_cast<Index>(id.size()), [&](Index i) { return all[i].distance <= facts.node_tolerance(2, id[i]); });
   Hits kept;
   kept.surface.resize(on.size());
   kept.at.resize(on.size());
@@ -61,7 +61,7 @@ Hits hits(const ModelFacts& facts, const Skin& skin, const Lists& candidates) {
 
 /// Surfaces near the nodes of the quads for which `wanted` holds.
 template <class Wanted>
-Lists near_surfaces(const ModelFacts& facts, const Skin& skin, Wanted wanted) {
+CompressedRows near_surfaces(const ModelFacts& facts, const Skin& skin, Wanted wanted) {
   constexpr Index chunk_size = 512;
   double reach = 0;
   for (const double t : facts.entity_tolerance[2]) reach = std::max(reach, t);
@@ -70,10 +70,10 @@ Lists near_surfaces(const ModelFacts& facts, const Skin& skin, Wanted wanted) {
     if (wanted(q))
       for (const Index node : skin.quads[q]) needed[node] = 1;
   std::vector<std::vector<Index>> found(n_chunks(skin.n_nodes(), chunk_size));
-  Lists lists;
+  CompressedRows lists;
   lists.first.assign(skin.nodes.size() + 1, 0);
   parallel_chunks(skin.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
-    may_go_on();
+    check_interrupt();
     for (Index n = begin; n < end; ++n) {
       if (!needed[n]) continue;
       const auto ids = facts.model.near(2, skin.points[n], reach);
@@ -243,7 +243,7 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
         for (const int s : facts.model.near(2, p, reach)) near[n] |= between[s];
     }
   });
-  const std::vector<Index> candidate_faces = where(static_cast<Index>(faces.nodes.size()), [&](Index f) {
+  const std::vector<Index> candidate_faces = indices_where(static_cast<Index>(faces.nodes.size()), [&](Index f) {
     return faces.sides[f][1].hex >= 0 && std::ranges::all_of(faces.nodes[f], [&](Index n) { return near[n] != 0; });
   });
   const Skin skin = make_skin(mesh, faces, candidate_faces);

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <string>
 
-#include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist::detail {
 namespace {
@@ -25,7 +25,7 @@ std::vector<Index> parts(const Mesh& mesh, const Faces& faces, std::span<const I
   resize_for_overwrite(part, mesh.hexes.size());
   resize_for_overwrite(root, mesh.hexes.size());
   parallel_each(root.size(), [&](std::size_t hex) { root[hex] = find_root(joined, static_cast<Index>(hex)); });
-  const std::vector<Index> roots = where(mesh.n_hexes(), [&](Index hex) { return root[hex] == hex; });
+  const std::vector<Index> roots = indices_where(mesh.n_hexes(), [&](Index hex) { return root[hex] == hex; });
   n_parts = static_cast<Index>(roots.size());
   for (Index i = 0; i < n_parts; ++i) joined[roots[i]] = i;  // a root's number from here on
   parallel_each(part.size(), [&](std::size_t hex) { part[hex] = joined[root[hex]]; });

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist {
@@ -57,7 +57,7 @@ std::vector<Owner> freedom(const Mesh& mesh, const Association& association, con
 }
 
 /// Greedy colours in the order of the slots; corners: per slot 8 * hex + corner.
-std::vector<Index> colour(const Mesh& mesh, const std::vector<Index>& slot, const Lists& corners) {
+std::vector<Index> colour(const Mesh& mesh, const std::vector<Index>& slot, const CompressedRows& corners) {
   std::vector<Index> colour_of(corners.size(), -1);
   std::vector<Index> taken;  // per colour: the last slot that could not have it
   for (Index s = 0; s < corners.size(); ++s) {
@@ -88,7 +88,7 @@ SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& associati
   SmoothProblem problem;
   problem.slot.assign(mesh.points.size(), -1);
   std::vector<Index> used;  // movable nodes, ascending
-  Lists corners;            // per movable node, ascending: 8 * hex + corner
+  CompressedRows corners;   // per movable node, ascending: 8 * hex + corner
   {
     std::vector<Index> count(mesh.points.size(), 0);
     for (const Hex& hex : mesh.hexes)

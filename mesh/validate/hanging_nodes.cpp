@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 
 namespace hextwist {

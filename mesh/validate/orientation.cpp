@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/quality/quality.h"
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 
@@ -77,7 +77,7 @@ std::vector<Index> mirrored_hexes(const Mesh& mesh, const std::vector<double>& v
   std::vector<double> total(mesh.hexes.size(), 0);
   for (Index h = 0; h < mesh.n_hexes(); ++h)
     if (against[h] && std::isfinite(volumes[h])) total[find_root(patch, h)] += volumes[h];
-  return where(mesh.n_hexes(), [&](Index h) { return against[h] && total[find_root(patch, h)] < 0; });
+  return indices_where(mesh.n_hexes(), [&](Index h) { return against[h] && total[find_root(patch, h)] < 0; });
 }
 
 }  // namespace

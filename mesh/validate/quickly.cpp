@@ -7,10 +7,10 @@
 #include <atomic>
 #include <cstdint>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/parallel.h"
-#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 
@@ -63,7 +63,7 @@ bool faces_are_sound(const Mesh& mesh, std::span<const FaceUse> uses, std::vecto
 
 /// The faces whose lowest node is in begin .. end - 1; sides with nothing behind go to skin.
 bool faces_are_sound(const Mesh& mesh, Index begin, Index end, std::vector<Side>& skin) {
-  const Lists corners = node_corners(mesh.hexes, begin, end);
+  const CompressedRows corners = node_corners(mesh.hexes, begin, end);
   constexpr Index size = 4096;
   std::vector<std::vector<Side>> of_chunk(n_chunks(end - begin, size));
   std::atomic<bool> sound = true;

@@ -9,11 +9,11 @@
 #include <numeric>
 #include <tuple>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/parallel.h"
-#include "hextwist/mesh/quality/quality.h"
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 
 namespace hextwist {
@@ -93,7 +93,7 @@ std::vector<Index> sorted_nodes(const Quad& quad) {
 
 std::vector<Index> find_bad_indices(const Mesh& mesh, Report& report) {
   const auto missing = [&](Index node) { return node < 0 || node >= mesh.n_nodes(); };
-  auto bad = where(mesh.n_hexes(), [&](Index h) { return std::ranges::any_of(mesh.hexes[h], missing); });
+  auto bad = indices_where(mesh.n_hexes(), [&](Index h) { return std::ranges::any_of(mesh.hexes[h], missing); });
   for (const Index h : bad) {
     const auto n = std::ranges::count_if(mesh.hexes[h], missing);
     report.add(ViolationKind::bad_index, {h}, {},
@@ -105,7 +105,7 @@ std::vector<Index> find_bad_indices(const Mesh& mesh, Report& report) {
 
 std::vector<char> find_not_finite(const Mesh& mesh, Report& report) {
   std::vector<char> bad(mesh.points.size(), 0);
-  for (const Index n : where(mesh.n_nodes(), [&](Index i) { return !mesh.points[i].allFinite(); })) {
+  for (const Index n : indices_where(mesh.n_nodes(), [&](Index i) { return !mesh.points[i].allFinite(); })) {
     bad[n] = 1;
     report.add(ViolationKind::not_finite, {}, {n}, report.nodes({n}) + " has a coordinate that is not finite");
   }
@@ -113,7 +113,7 @@ std::vector<char> find_not_finite(const Mesh& mesh, Report& report) {
 }
 
 std::vector<Index> find_repeated_nodes(const Mesh& mesh, Report& report) {
-  auto bad = where(mesh.n_hexes(), [&](Index h) {
+  auto bad = indices_where(mesh.n_hexes(), [&](Index h) {
     const Hex& hex = mesh.hexes[h];
     bool twice = false;
     for (int i = 0; i < 8; ++i)
@@ -133,7 +133,7 @@ std::vector<Index> find_repeated_nodes(const Mesh& mesh, Report& report) {
 }
 
 /// Returns all but the first of each group, as indices of the part.
-std::vector<Index> find_duplicate_hexes(const Part& part, const Lists& corners, Report& report) {
+std::vector<Index> find_duplicate_hexes(const Part& part, const CompressedRows& corners, Report& report) {
   const Mesh& mesh = *part.mesh;
   std::vector<Index> first_copy(mesh.hexes.size(), -1);  // of hexes that have an earlier copy
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
@@ -152,7 +152,7 @@ std::vector<Index> find_duplicate_hexes(const Part& part, const Lists& corners, 
           first = i;
     }
   });
-  auto copies = where(mesh.n_hexes(), [&](Index h) { return first_copy[h] >= 0; });
+  auto copies = indices_where(mesh.n_hexes(), [&](Index h) { return first_copy[h] >= 0; });
   std::map<Index, std::vector<Index>> groups;
   for (const Index h : copies) groups[first_copy[h]].push_back(part.original_of(h));
   for (auto& [first, group] : groups) {
@@ -184,18 +184,18 @@ void find_unused_nodes(const Mesh& mesh, Report& report) {
     if (!used[n]) report.add(ViolationKind::unused_node, {}, {n}, report.nodes({n}) + " belongs to no hex");
 }
 
-std::vector<Index> hexes_at(const Lists& corners, Index node) {
+std::vector<Index> hexes_at(const CompressedRows& corners, Index node) {
   std::vector<Index> hexes;
   for (const Index corner : corners[node]) hexes.push_back(corner >> 3);
   return hexes;
 }
-std::vector<Index> hexes_at(const Lists& corners, const Edge& edge) {
+std::vector<Index> hexes_at(const CompressedRows& corners, const Edge& edge) {
   std::vector<Index> hexes;
   std::ranges::set_intersection(hexes_at(corners, edge[0]), hexes_at(corners, edge[1]), std::back_inserter(hexes));
   return hexes;
 }
 
-void find_hanging_nodes(const Part& part, const Lists& corners, std::span<const Side> skin, Report& report) {
+void find_hanging_nodes(const Part& part, const CompressedRows& corners, std::span<const Side> skin, Report& report) {
   const auto all = hanging_nodes(*part.mesh, skin);
   std::vector<std::span<const HangingNode>> of_node;
   for (std::size_t begin = 0, end; begin < all.size(); begin = end) {
@@ -253,7 +253,7 @@ void find_folded_faces(const Part& part, const Faces& faces, Report& report) {
                      sorted_nodes(face_nodes(mesh.hexes[a.hex], a.face)), twisted});
   };
   // Turning alike is in order when one of the two is mirrored: that one is inverted.
-  for (const Index face : where(static_cast<Index>(faces.nodes.size()), [&](Index i) {
+  for (const Index face : indices_where(static_cast<Index>(faces.nodes.size()), [&](Index i) {
          const auto& [a, b] = faces.sides[i];
          return b.hex >= 0 && turn_alike(mesh.hexes[a.hex], a.face, mesh.hexes[b.hex], b.face) &&
                 (volume(mesh, a.hex) < 0) == (volume(mesh, b.hex) < 0);
@@ -264,7 +264,7 @@ void find_folded_faces(const Part& part, const Faces& faces, Report& report) {
   const auto sum = [&](Index face) {
     return std::accumulate(faces.nodes[face].begin(), faces.nodes[face].end(), std::int64_t{0});
   };
-  for (const Index node : where(mesh.n_nodes(), [&](Index n) {
+  for (const Index node : indices_where(mesh.n_nodes(), [&](Index n) {
          const Index begin = faces.first_of_node[n], end = faces.first_of_node[n + 1];
          bool any = end - begin > 32;
          for (Index i = begin; i < end && !any; ++i)
@@ -305,7 +305,7 @@ int n_groups_around(const Faces& faces, std::span<const Index> corners) {
   return n_groups;
 }
 
-void find_torn_edges(const Part& part, const Faces& faces, const Lists& corners, std::span<const Side> skin,
+void find_torn_edges(const Part& part, const Faces& faces, const CompressedRows& corners, std::span<const Side> skin,
                      Report& report) {
   const Mesh& mesh = *part.mesh;
   // Hexes around an edge form fans between two quads of the skin each.
@@ -335,7 +335,7 @@ void find_torn_edges(const Part& part, const Faces& faces, const Lists& corners,
   // Nodes not at such an edge.
   std::vector<char> on_skin(mesh.points.size(), 0);
   for (const auto& [a, b] : rims) on_skin[a] = on_skin[b] = 1;
-  for (const Index node : where(
+  for (const Index node : indices_where(
            mesh.n_nodes(), [&](Index n) { return on_skin[n] && !torn[n] && n_groups_around(faces, corners[n]) > 1; })) {
     std::vector<Index> hexes = part.originals_of(hexes_at(corners, node));
     const std::string text = report.hexes(hexes) + " meet at " + report.nodes({node}) + " in " +
@@ -347,7 +347,7 @@ void find_torn_edges(const Part& part, const Faces& faces, const Lists& corners,
 void find_inverted(const Part& part, const std::vector<char>& not_finite, Report& report) {
   const Mesh& mesh = *part.mesh;
   const auto jacobians = min_corner_jacobian(mesh);
-  for (const Index h : where(mesh.n_hexes(), [&](Index i) {
+  for (const Index h : indices_where(mesh.n_hexes(), [&](Index i) {
          return !(jacobians[i] > 0) &&
                 std::ranges::none_of(mesh.hexes[i], [&](Index node) { return not_finite[node]; });
        })) {
@@ -407,7 +407,7 @@ std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options
 
   Part part(mesh);
   part.drop(sorted_unique(unsound));
-  Lists corners = node_corners(*part.mesh);
+  CompressedRows corners = node_corners(*part.mesh);
   if (const auto copies = find_duplicate_hexes(part, corners, report); !copies.empty()) {
     part.drop(copies);
     corners = node_corners(*part.mesh);

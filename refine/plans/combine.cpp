@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/mesh/corners.h"
 
 namespace hextwist {
 namespace {

@@ -5,12 +5,12 @@
 #include <numeric>
 #include <optional>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/union_find.h"
-#include "hextwist/refine/plans/eight_internal.h"
-#include "hextwist/refine/templates/enclose.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
+#include "hextwist/refine/plans/eight_internal.h"
+#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/templates/trisect.h"
 
 namespace hextwist {
@@ -24,7 +24,7 @@ constexpr std::size_t max_groups = 4;
 /// Tells the unions of the regions' nodes and hexes from the rest of the mesh, and holds the marks of one region.
 struct Surroundings {
   const Mesh& mesh;
-  Lists around;                      ///< hexes around each node
+  CompressedRows around;             ///< hexes around each node
   std::vector<std::uint8_t> target;  ///< per hex
   std::vector<std::uint8_t> fixed;   ///< per node: in some region
   std::vector<std::uint32_t> marks;  ///< per node: bit p, pass p; all 0 between regions

@@ -11,7 +11,7 @@ namespace {
 constexpr int undecided = -2, in_three = -1;
 
 /// Sheets that cross each sheet or have to be kept apart from it, each once.
-Lists crossings(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart) {
+CompressedRows crossings(const RegionMesh& region, const std::vector<std::pair<Index, Index>>& apart) {
   std::vector<std::pair<Index, Index>> pairs;
   pairs.reserve(6 * region.hexes.size() + 2 * apart.size());
   for (const auto& [a, b] : apart) {
@@ -25,7 +25,7 @@ Lists crossings(const RegionMesh& region, const std::vector<std::pair<Index, Ind
           pairs.emplace_back(sheet_of(region.sheets, region.edges, h, a), sheet_of(region.sheets, region.edges, h, b));
   std::ranges::sort(pairs);
   pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-  Lists result;
+  CompressedRows result;
   result.first.assign(region.sheets.size() + 1, 0);
   for (const auto& [sheet, other] : pairs) {
     ++result.first[sheet + 1];
@@ -81,7 +81,7 @@ class Coloring {
   }
 
   const RegionMesh& region_;
-  const Lists crossings_;
+  const CompressedRows crossings_;
   std::vector<int> pass_;
 };
 
@@ -94,7 +94,7 @@ struct NodeTree {
 
 NodeTree node_tree(const RegionMesh& region) {
   const Index n = region.mesh.n_nodes();
-  Lists edges;
+  CompressedRows edges;
   edges.first.assign(n + 1, 0);
   for (const auto& [a, b] : region.edges.nodes) {
     ++edges.first[a + 1];

@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "hextwist/base/union_find.h"
-#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/marks.h"
+#include "hextwist/refine/templates/enclose.h"
 
 namespace hextwist {
 namespace {
@@ -131,7 +131,7 @@ std::vector<std::uint8_t> part_to_go_first(std::span<const Hex> hexes, std::span
 }
 
 /// Grows the marks around one hex until all have templates, or undoes that where it takes more than `limit` nodes.
-Index close_around(std::span<const Hex> hexes, const Lists& hexes_of_node, Index start, Index limit,
+Index close_around(std::span<const Hex> hexes, const CompressedRows& hexes_of_node, Index start, Index limit,
                    std::span<std::uint8_t> marked) {
   std::vector<Index> added, waiting = {start};
   while (!waiting.empty()) {
@@ -177,7 +177,7 @@ Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked
 Index close_enclosure_nearby(const Mesh& mesh, std::span<std::uint8_t> marked, Index limit) {
   const std::vector<Index> without = hexes_without_template(mesh.hexes, marked);
   if (without.empty()) return 0;
-  const Lists hexes_of_node = node_hexes(mesh);
+  const CompressedRows hexes_of_node = node_hexes(mesh);
   Index n_added = 0;
   for (const Index h : without) n_added += close_around(mesh.hexes, hexes_of_node, h, limit, marked);
   return n_added;

@@ -8,9 +8,9 @@
 #include <bit>
 #include <stdexcept>
 
+#include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/cube_mesh.h"
 #include "hextwist/refine/templates/enclose_internal.h"
-#include "hextwist/refine/marks.h"
 
 namespace hextwist {
 namespace {

@@ -15,11 +15,11 @@
 #include <cstring>
 
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/refine/origin.h"
 #include "hextwist/refine/plans/combine.h"
+#include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/templates/enclose_internal.h"
-#include "hextwist/refine/origin.h"
-#include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/trisect.h"
 
 namespace {

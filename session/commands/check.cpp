@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/validate/validate.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

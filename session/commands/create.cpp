@@ -1,6 +1,6 @@
-#include "hextwist/session/session_internal.h"
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/primitives.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

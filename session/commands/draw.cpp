@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <limits>
 
-#include "hextwist/session/view/picture.h"
 #include "hextwist/command/reader.h"
-#include "hextwist/session/session_internal.h"
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/file.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/session/session_internal.h"
+#include "hextwist/session/view/picture.h"
 
 namespace hextwist {
 namespace {

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <set>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/base/interrupt.h"
-#include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/association/association.h"
-#include "hextwist/io/io.h"
 #include "hextwist/base/union_find.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/validate/validate.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

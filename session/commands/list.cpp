@@ -4,9 +4,9 @@
 #include <array>
 #include <map>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <sstream>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

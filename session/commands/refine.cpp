@@ -2,11 +2,11 @@
 #include <functional>
 #include <iterator>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/patch/adapt.h"
-#include "hextwist/sizing/targets.h"
 #include "hextwist/patch/verify.h"
+#include "hextwist/session/session_internal.h"
+#include "hextwist/sizing/targets.h"
 
 namespace hextwist {
 namespace {
@@ -130,9 +130,8 @@ Request request_of(const Execution& run) {
   if (const Item* splits = command.find("splits")) {
     request.numsplit = static_cast<int>(splits->number);
     if (request.numsplit > max_numsplit && !whole)
-      throw error_at(
-          command.statement, splits->token,
-          "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
+      throw error_at(command.statement, splits->token,
+                     "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
   }
   if (const Item* layers = command.find("layers")) request.depth = static_cast<int>(layers->number);
   read_sizes(run, request);
@@ -167,7 +166,7 @@ Measured known_of(const SessionState& state) {
         find_hex(mesh, row.max_hex)};
   };
   return {summary(state.mesh_state.shape), summary(state.mesh_state.scaled_jacobian), state.mesh_state.volume,
-          state.off_cad, state.outliers};
+          state.off_cad, state.extremes};
 }
 
 std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
@@ -195,7 +194,7 @@ struct Ids {
 /// measured the result already.
 ModelState state_after(const Execution& run, const Report& report, const Ids& ids) {
   if (!report.off_nodes.empty()) {
-    const auto worst = std::ranges::max_element(report.off_nodes, {}, &Disappointment::distance);
+    const auto worst = std::ranges::max_element(report.off_nodes, {}, &OffOwner::distance);
     run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +
              " could not be put where they belong; the worst is node " + std::to_string(ids.node(worst->node)) + ", " +
              short_number(worst->distance) + " from " + to_string(worst->owner));
@@ -205,7 +204,7 @@ ModelState state_after(const Execution& run, const Report& report, const Ids& id
   state.mesh_state.scaled_jacobian = ids.row(report.scaled_jacobian_after);
   state.mesh_state.volume = report.volume_after;
   state.off_cad = report.off_cad;
-  state.outliers = report.outliers;
+  state.extremes = report.extremes;
   state.tags = nullptr;
   return state;
 }

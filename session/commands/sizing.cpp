@@ -1,6 +1,6 @@
 // Sizing functions by name: `sizing function ...`, `sizing field ...`.
-#include "hextwist/session/session_internal.h"
 #include "hextwist/io/io.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

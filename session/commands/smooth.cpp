@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

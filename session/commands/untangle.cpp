@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "hextwist/session/session_internal.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
+#include "hextwist/session/session_internal.h"
 
 namespace hextwist {
 namespace {

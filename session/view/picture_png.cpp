@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hextwist/session/view/picture.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/session/view/picture.h"
 
 namespace hextwist {
 namespace {

@@ -7,8 +7,8 @@ namespace hextwist {
 namespace {
 
 /// Per node the nodes that edges lead to.
-Lists neighbours(const Edges& edges, std::size_t n_nodes) {
-  Lists lists;
+CompressedRows neighbours(const Edges& edges, std::size_t n_nodes) {
+  CompressedRows lists;
   lists.first.assign(n_nodes + 1, 0);
   for (const Edge& edge : edges.nodes)
     for (const Index n : edge) ++lists.first[static_cast<std::size_t>(n) + 1];
@@ -23,7 +23,7 @@ Lists neighbours(const Edges& edges, std::size_t n_nodes) {
 }  // namespace
 
 void limit_gradation(const Edges& edges, std::span<const Vec3> points, double slope, std::span<double> sizes) {
-  const Lists next_to = neighbours(edges, points.size());
+  const CompressedRows next_to = neighbours(edges, points.size());
   struct Entry {
     double size;
     Index node;

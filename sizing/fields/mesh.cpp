@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/locate.h"
-#include "hextwist/base/parallel.h"
 #include "hextwist/sizing/fields/gradation.h"
 #include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/targets.h"

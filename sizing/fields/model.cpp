@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "hextwist/base/box_tree.h"
-#include "hextwist/geom/curvature.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/geom/curvature.h"
 #include "hextwist/sizing/fields/size_field.h"
 
 namespace hextwist {

@@ -1,9 +1,9 @@
 // One into eight: parallel hex sheet operations on whole hexes and layers of them, and what is decided for each region.
 #include <algorithm>
 
+#include "hextwist/refine/marks.h"
 #include "hextwist/refine/plans/eight.h"
 #include "hextwist/refine/templates/enclose.h"
-#include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
 #include "hextwist/sizing/pipeline.h"

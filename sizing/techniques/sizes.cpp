@@ -4,15 +4,15 @@
 #include <numbers>
 #include <optional>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/factors.h"
+#include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/levels.h"
 #include "hextwist/sizing/pipeline.h"
-#include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/target_distance.h"
 #include "hextwist/sizing/targets.h"
@@ -63,7 +63,7 @@ std::vector<Vec3> corners_of(const Mesh& mesh, std::span<const Index> hexes) {
 std::vector<Index> too_large_hexes(const Mesh& mesh, const SizeField& wish, std::span<const std::uint8_t> in_zone,
                                    const AtTarget& target) {
   const double least = wish.least();
-  std::vector<Index> asked = where(mesh.n_hexes(), [&](Index h) { return in_zone[h] != 0; });
+  std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) { return in_zone[h] != 0; });
   std::vector<double> size = actual_sizes(mesh, asked);
   std::size_t n = 0;
   for (std::size_t i = 0; i < asked.size(); ++i)
@@ -332,8 +332,9 @@ bool size_passes(Pipeline& run, SizeTechnique technique) {
     carry_all();
   }
   if (n_passes == 0) run.keep();
-  SizeReport report = size_report(
-      run.current().mesh, where(run.current().mesh.n_hexes(), [&](Index h) { return in_report[h] != 0; }), *wish);
+  SizeReport report =
+      size_report(run.current().mesh,
+                  indices_where(run.current().mesh.n_hexes(), [&](Index h) { return in_report[h] != 0; }), *wish);
   report.n_passes = n_passes;
   report.unmet = std::move(unmet);
   run.report().sizes = std::move(report);

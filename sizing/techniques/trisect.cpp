@@ -1,6 +1,6 @@
 // Single hex sheet operations: whole hexes and layers of them.
-#include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
+#include "hextwist/refine/marks.h"
 #include "hextwist/sizing/levels.h"
 #include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/targets.h"

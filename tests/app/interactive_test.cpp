@@ -76,7 +76,7 @@ class Terminal {
   std::string seen_;
 };
 
-TEST(Interactive, CompletesWordsAndNamesShowsTheCaretAndKeepsHistory) {
+TEST(Interactive, completes_words_and_names_shows_the_caret_and_keeps_history) {
   Terminal terminal;
   terminal.until("hextwist> ");
   terminal.answer("create brick x 1 interval 2; block 1 name 'steel'; nodeset 2 node 1 2 name 'soft rubber'");
@@ -92,7 +92,7 @@ TEST(Interactive, CompletesWordsAndNamesShowsTheCaretAndKeepsHistory) {
   EXPECT_NE(lines.find("list block steel"), std::string::npos) << lines;
 }
 
-TEST(Interactive, ControlCCancelsTheRunningCommandAndLeavesTheSessionAsItWas) {
+TEST(Interactive, control_c_cancels_the_running_command_and_leaves_the_session_as_it_was) {
   Terminal terminal;
   terminal.until("hextwist> ");
   terminal.answer("create sphere radius 1 interval 3; nodeset 1 node 1");

@@ -60,7 +60,7 @@ Json report(const std::string& name) {
   return Json::parse(content(path(name)));
 }
 
-TEST(Program, DoneIsZero) {
+TEST(Program, done_is_zero) {
   const Outcome outcome =
       run("-c 'create brick x 1 interval 4; refine hex 1' -o " + path("a.vtu") + " --json " + path("a.json"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -70,7 +70,7 @@ TEST(Program, DoneIsZero) {
   EXPECT_TRUE(report("a.json")["ok"]);
 }
 
-TEST(Program, AFailedCommandIsOneAndLeavesTheOldOutput) {
+TEST(Program, a_failed_command_is_one_and_leaves_the_old_output) {
   std::ofstream(path("a.msh")) << "old";
   const Outcome outcome = run("-c 'create brick x 1 interval 4; refine hex 65; refine hex 1' -o " + path("a.msh") +
                               " --json " + path("a.json"));
@@ -87,7 +87,7 @@ TEST(Program, AFailedCommandIsOneAndLeavesTheOldOutput) {
   EXPECT_EQ(json["commands"][1]["error_place"]["column"], 41);
 }
 
-TEST(Program, WrongUsageIsTwo) {
+TEST(Program, wrong_usage_is_two) {
   for (const std::string arguments : {"--bogus", "a.msh b.msh", "-c", "--threads x", "-c reset -o out.bogus",
                                       "-c reset -o out", "check", "check --bogus a.msh", "-c reset --json"}) {
     const Outcome outcome = run(arguments);
@@ -96,7 +96,7 @@ TEST(Program, WrongUsageIsTwo) {
   }
 }
 
-TEST(Program, HelpAndVersionAreDone) {
+TEST(Program, help_and_version_are_done) {
   EXPECT_EQ(run("--version").out, "hextwist " HEXTWIST_VERSION "\n");
   const Outcome help = run("--help");
   EXPECT_EQ(help.status, 0);
@@ -104,7 +104,7 @@ TEST(Program, HelpAndVersionAreDone) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
 }
 
-TEST(Program, BadInputIsOneClearLine) {
+TEST(Program, bad_input_is_one_clear_line) {
   std::ofstream(path("cut.msh")) << "$MeshFormat\n4.1 0 8\n";
   std::ofstream(path("cut.step")) << "ISO-10303-21;\nHEADER;\n";
   for (const std::string& arguments : std::vector<std::string>{
@@ -118,14 +118,14 @@ TEST(Program, BadInputIsOneClearLine) {
   }
 }
 
-TEST(Program, AFullDiskLeavesNoHalfFile) {
+TEST(Program, a_full_disk_leaves_no_half_file) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const Outcome outcome = run("-c 'create brick x 1' --json /dev/full");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("the report can't be written"), std::string::npos) << outcome.err;
 }
 
-TEST(Program, CommandsAndJournalsRunInTheirOrder) {
+TEST(Program, commands_and_journals_run_in_their_order) {
   std::ofstream(path("a.jou")) << "refine hex 1 # comment\nquality hex all\n";
   const Outcome outcome =
       run("-c 'create brick x 1 interval 4' " + path("a.jou") + " -c list -c 'refine hex 64' --json " + path("a.json"));
@@ -137,14 +137,14 @@ TEST(Program, CommandsAndJournalsRunInTheirOrder) {
                                                 "refine hex 1", "quality hex all", "list", "refine hex 64"}));
 }
 
-TEST(Program, ErrorsInJournalsNameFileLineAndColumn) {
+TEST(Program, errors_in_journals_name_file_line_and_column) {
   std::ofstream(path("a.jou")) << "create brick x 1\n\nrefine hexx 1\n";
   const Outcome outcome = run(path("a.jou"));
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.err.starts_with("error: " + path("a.jou") + ":3:8: expected node")) << outcome.err;
 }
 
-TEST(Program, KeepGoingRunsTheRestAndStillFails) {
+TEST(Program, keep_going_runs_the_rest_and_still_fails) {
   const Outcome outcome = run("--keep-going -c 'bogus; create brick x 1 interval 4; refine hex 99; refine hex 1' -o " +
                               path("a.vtu") + " --json " + path("a.json"));
   EXPECT_EQ(outcome.status, 1);
@@ -153,7 +153,7 @@ TEST(Program, KeepGoingRunsTheRestAndStillFails) {
   EXPECT_EQ(report("a.json")["commands"][3]["hexes_after"], 138);
 }
 
-TEST(Program, StandardInputIsReadWhenThereAreNoCommands) {
+TEST(Program, standard_input_is_read_when_there_are_no_commands) {
   const Outcome good = run("-o " + path("a.vtu"), "create brick x 1 \\\n interval 4\nrefine hex 1\nquit\nbogus\n");
   EXPECT_EQ(good.status, 0) << good.err;
   EXPECT_TRUE(std::filesystem::exists(path("a.vtu")));
@@ -164,7 +164,7 @@ TEST(Program, StandardInputIsReadWhenThereAreNoCommands) {
   EXPECT_EQ(run("--keep-going", "bogus\nbogus\ncreate brick x 1\n").status, 1);
 }
 
-TEST(Program, TheReportHasTheFieldsThatScriptsRelyOn) {
+TEST(Program, the_report_has_the_fields_that_scripts_rely_on) {
   run("-c 'create brick x 1 interval 4; refine hex 1' --json " + path("a.json"));
   const Json json = report("a.json");
   ASSERT_EQ(json["commands"].size(), 2u);
@@ -196,13 +196,13 @@ TEST(Program, TheReportHasTheFieldsThatScriptsRelyOn) {
   EXPECT_GT(row["seconds"].size(), 3u);
 }
 
-TEST(Program, BytesThatAreNoTextDoNotSpoilTheReport) {
+TEST(Program, bytes_that_are_no_text_do_not_spoil_the_report) {
   const Outcome outcome = run("--json " + path("a.json"), "refine \xff\xfe \"\xc3\"\n");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(report("a.json")["commands"].size(), 1u);
 }
 
-TEST(Program, CheckTellsGoodMeshesFromBadOnes) {
+TEST(Program, check_tells_good_meshes_from_bad_ones) {
   Mesh mesh = test::grid(2, 2, 2);
   write_mesh(path("good.msh"), mesh, nullptr);
   const Outcome good = run("check " + path("good.msh") + " --json " + path("a.json"));
@@ -218,7 +218,7 @@ TEST(Program, CheckTellsGoodMeshesFromBadOnes) {
   EXPECT_EQ(run("check " + path("none.msh")).status, 1);
 }
 
-TEST(Program, CheckOnRealCad) {
+TEST(Program, check_on_real_cad) {
   if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
   const std::string part = (test::data_folder() / "cad" / "plate_hole").string();
   const Outcome outcome = run("check " + part + "_1k.msh --cad " + part + ".step --json " + path("a.json"));
@@ -228,7 +228,7 @@ TEST(Program, CheckOnRealCad) {
             1);
 }
 
-TEST(Program, TheMainJobEndToEnd) {
+TEST(Program, the_main_job_end_to_end) {
   if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
   const std::string part = (test::data_folder() / "cad" / "plate_hole").string();
   const std::string out = path("fine.msh");
@@ -244,7 +244,7 @@ TEST(Program, TheMainJobEndToEnd) {
   EXPECT_EQ(run("check " + out + " --cad " + part + ".step").status, 0);
 }
 
-TEST(Program, TheNumberOfThreadsDoesNotChangeTheResult) {
+TEST(Program, the_number_of_threads_does_not_change_the_result) {
   for (const char* threads : {"1", "2", "8"})
     ASSERT_EQ(
         run(std::string("--threads ") + threads + " -c 'create sphere radius 1 interval 2; refine surface 1' -o " +

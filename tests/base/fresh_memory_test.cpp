@@ -64,7 +64,7 @@ TEST(fresh_memory, where_finds_the_same_as_one_loop) {
       std::vector<Index> expected;
       for (Index i = 0; i < n; ++i)
         if (wanted(i)) expected.push_back(i);
-      EXPECT_EQ(where(n, wanted), expected) << n << ", " << modulus;
+      EXPECT_EQ(indices_where(n, wanted), expected) << n << ", " << modulus;
     }
 }
 

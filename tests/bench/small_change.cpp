@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "groups.h"
-#include "hextwist/session/session.h"
+#include "hextwist/patch/verify.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
-#include "hextwist/patch/verify.h"
+#include "hextwist/session/session.h"
 #include "measure.h"
 #include "meshes.h"
 

@@ -3,10 +3,10 @@
 
 #include <numbers>
 
+#include "command/range_fixture.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "command/range_fixture.h"
 
 namespace hextwist {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using test::Ids;
 using Fixture = test::RangeFixture;
 
-TEST(Criteria, CoordinatesChooseMeshEntities) {
+TEST(Criteria, coordinates_choose_mesh_entities) {
   Fixture f;
   EXPECT_EQ(f.ids("hex with x_coord < 1 and y_coord < 1"), (Ids{1, 13}));
   EXPECT_EQ(f.n("node with x_coord = 0"), 12u);
@@ -30,7 +30,7 @@ TEST(Criteria, CoordinatesChooseMeshEntities) {
   EXPECT_EQ(f.n("node with id <> 1"), 59u);
 }
 
-TEST(Criteria, CadEntitiesHaveTheirMeasures) {
+TEST(Criteria, cad_entities_have_their_measures) {
   Fixture f;
   EXPECT_EQ(f.ids("curve with length > 3"), (Ids{1, 2, 3, 4}));
   EXPECT_EQ(f.ids("curve with length = 3"), (Ids{5, 6, 7, 8}));
@@ -51,7 +51,7 @@ TEST(Criteria, CadEntitiesHaveTheirMeasures) {
   EXPECT_EQ(f.ids("curve with length = 2.9 tolerance 0.2"), (Ids{5, 6, 7, 8}));
 }
 
-TEST(Criteria, MeshEntitiesHaveTheirMeasures) {
+TEST(Criteria, mesh_entities_have_their_measures) {
   Fixture f;
   f.meshed.mesh.points[0] -= Vec3(1, 0, 0);
   EXPECT_EQ(f.ids("edge with length > 1.5"), (Ids{1}));
@@ -70,7 +70,7 @@ TEST(Criteria, MeshEntitiesHaveTheirMeasures) {
   EXPECT_EQ(f.ids("nodeset with element_count = 1"), (Ids{5}));
 }
 
-TEST(Criteria, RoundThingsHaveARadius) {
+TEST(Criteria, round_things_have_a_radius) {
   // The shipped models: a cylinder's side, a sphere, circles and arcs, through OpenCASCADE.
   const std::string models = std::string(HEXTWIST_SOURCE_DIR) + "/models/";
   Fixture f;
@@ -89,7 +89,7 @@ TEST(Criteria, RoundThingsHaveARadius) {
   EXPECT_EQ(f.n("surface with radius = 3"), 1u);
 }
 
-TEST(Criteria, FacetsArePlanarWhenTheMeshIsFlatThere) {
+TEST(Criteria, facets_are_planar_when_the_mesh_is_flat_there) {
   Fixture f;
   FacetResult own = associate_with_own_skin(f.meshed.mesh);
   f.meshed.model = own.model;
@@ -102,7 +102,7 @@ TEST(Criteria, FacetsArePlanarWhenTheMeshIsFlatThere) {
   EXPECT_EQ(f.n("surface with is_planar"), 5u);
 }
 
-TEST(Criteria, AndAndOrGoFromLeftToRightAndNotTakesAComparison) {
+TEST(Criteria, and_and_or_go_from_left_to_right_and_not_takes_a_comparison) {
   Fixture f;
   EXPECT_EQ(f.ids("hex with id = 1 or id = 2 and id = 2"), (Ids{2}));
   EXPECT_EQ(f.ids("hex with id = 1 or (id = 2 and id = 2)"), (Ids{1, 2}));
@@ -114,7 +114,7 @@ TEST(Criteria, AndAndOrGoFromLeftToRightAndNotTakesAComparison) {
   EXPECT_EQ(f.n("hex with -x_coord > -1"), 6u);
 }
 
-TEST(Criteria, WithIsAboutTheKindBeforeIt) {
+TEST(Criteria, with_is_about_the_kind_before_it) {
   Fixture f;
   EXPECT_EQ(f.ids("curve in surface 1 with length > 2"), (Ids{5, 7}));
   EXPECT_EQ(f.ids("edge in surface all with x_coord = 0").size(), 17u);
@@ -127,7 +127,7 @@ TEST(Criteria, WithIsAboutTheKindBeforeIt) {
   EXPECT_EQ(f.ids("hex 1 to 4 with x_coord > 2"), (Ids{3, 4}));
 }
 
-TEST(Ranges, CommonToMeansInAllOfThem) {
+TEST(Ranges, common_to_means_in_all_of_them) {
   Fixture f;
   EXPECT_EQ(f.ids("curve common_to surface 1 3"), (Ids{9}));
   EXPECT_EQ(f.ids("vertex common_to surface 1 3 5"), (Ids{1}));
@@ -142,7 +142,7 @@ TEST(Ranges, CommonToMeansInAllOfThem) {
   EXPECT_EQ(f.n("hex common_to block all"), 0u);
 }
 
-TEST(Ranges, ExceptTakesIdsOrAWholeRangeOfTheSameKind) {
+TEST(Ranges, except_takes_ids_or_a_whole_range_of_the_same_kind) {
   Fixture f;
   EXPECT_EQ(f.n("face all except face in surface all"), f.n("face all") - 52);
   EXPECT_EQ(f.n("face in volume 1 except face in surface all"), f.n("face all") - 52);
@@ -158,7 +158,7 @@ TEST(Ranges, ExceptTakesIdsOrAWholeRangeOfTheSameKind) {
             "18: only curves can be taken from a list of curves; 'curve in surface ...' names those that lie there");
 }
 
-TEST(Ranges, NamesMayHaveWildcardsAndStandWithoutAKind) {
+TEST(Ranges, names_may_have_wildcards_and_stand_without_a_kind) {
   Fixture f;
   EXPECT_EQ(f.ids("block \"*t\""), (Ids{20, 10}));
   EXPECT_EQ(f.ids("block 'l?ft'"), (Ids{10}));
@@ -181,7 +181,7 @@ TEST(Ranges, NamesMayHaveWildcardsAndStandWithoutAKind) {
   EXPECT_FALSE(matches("a", "a?"));
 }
 
-TEST(Ranges, AtNamesTheNearest) {
+TEST(Ranges, at_names_the_nearest) {
   Fixture f;
   EXPECT_EQ(f.ids("vertex (at 4 0 0)"), (Ids{2}));
   EXPECT_EQ(f.ids("vertex ( at 3.9, 0.1, 0.2 )"), (Ids{2}));
@@ -204,7 +204,7 @@ TEST(Ranges, AtNamesTheNearest) {
   EXPECT_EQ(f.error("volume (at 0 0 0 ordinal 2)"), "8: there is no volume of ordinal 2: there are 1");
 }
 
-TEST(Ranges, EveryPairOfKindsIsRelatedBothWays) {
+TEST(Ranges, every_pair_of_kinds_is_related_both_ways) {
   Fixture f;
   f.meshed.mesh.blocks[1].hexes = {0, 1, 5};
   f.groups.push_back({1, "mixed", {}});
@@ -233,7 +233,7 @@ TEST(Ranges, EveryPairOfKindsIsRelatedBothWays) {
     }
 }
 
-TEST(Ranges, GroupsStandForTheirMembers) {
+TEST(Ranges, groups_stand_for_their_members) {
   Fixture f;
   f.groups.push_back({1, "mixed", {}});
   f.groups[0].members[static_cast<int>(EntityKind::curve)] = {{1}, {6}, {99}};
@@ -251,7 +251,7 @@ TEST(Ranges, GroupsStandForTheirMembers) {
 }
 
 // The ways in which journals of today's tools say it.
-TEST(Ranges, AreReadAsJournalsWriteThem) {
+TEST(Ranges, are_read_as_journals_write_them) {
   Fixture f;
   f.groups = {{1, "all_vol", {}}, {2, "gaps", {}}};
   f.groups[0].members[static_cast<int>(EntityKind::volume)] = {{1}};

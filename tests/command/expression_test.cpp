@@ -7,8 +7,8 @@
 #include <random>
 
 #include "hextwist/command/braces.h"
-#include "hextwist/session/session.h"
 #include "hextwist/command/syntax.h"
+#include "hextwist/session/session.h"
 
 namespace hextwist {
 namespace {
@@ -22,7 +22,7 @@ std::string text_from(std::string_view text) {
   return text_of(evaluate(text, variables).value);
 }
 
-TEST(Expressions, ArithmeticIsTheUsual) {
+TEST(Expressions, arithmetic_is_the_usual) {
   for (const auto& [text, value] : std::vector<std::pair<const char*, double>>{
            {"1 + 2 * 3", 7},
            {"(1 + 2) * 3", 9},
@@ -76,7 +76,7 @@ TEST(Expressions, ArithmeticIsTheUsual) {
     EXPECT_NEAR(number_of(text), value, 1e-12) << text;
 }
 
-TEST(Expressions, TextsAreJoinedAndFormatted) {
+TEST(Expressions, texts_are_joined_and_formatted) {
   EXPECT_EQ(text_from("\"part_\" // a"), "part_3");
   EXPECT_EQ(text_from("'a \"b\"'"), "a \"b\"");
   EXPECT_EQ(text_from("toupper(name) // tolower(\"ABC\") // tostring(0.5)"), "LEFTabc0.5");
@@ -88,7 +88,7 @@ TEST(Expressions, TextsAreJoinedAndFormatted) {
   EXPECT_EQ(std::stod(text_from("1/3")), 1.0 / 3);
 }
 
-TEST(Expressions, AssignmentsStayAndFailuresChangeNothing) {
+TEST(Expressions, assignments_stay_and_failures_change_nothing) {
   Variables variables;
   EXPECT_EQ(evaluate("n = 3", variables).assigned, "n");
   evaluate("n += 2", variables);
@@ -117,7 +117,7 @@ struct Wrong {
   const char* message;
 };
 
-TEST(Expressions, ErrorsPointAtWhatIsWrong) {
+TEST(Expressions, errors_point_at_what_is_wrong) {
   for (const auto& [text, offset, message] : std::vector<Wrong>{
            {"", 0, "there is nothing between the braces"},
            {"1 +", 3, "the expression ends too early"},
@@ -170,7 +170,7 @@ TEST(Expressions, ErrorsPointAtWhatIsWrong) {
   EXPECT_THROW(evaluate(std::string(100000, '-'), variables), ExpressionError);
 }
 
-TEST(Expressions, GarbageIsRefusedOrWorthSomething) {
+TEST(Expressions, garbage_is_refused_or_worth_something) {
   const unsigned seed = std::random_device{}();
   RecordProperty("seed", static_cast<int>(seed));
   std::mt19937 random(seed);
@@ -206,7 +206,7 @@ std::string expanded(std::string_view text, Variables variables = {}) {
   return result;
 }
 
-TEST(Braces, ValuesTakeTheirPlaceInCommands) {
+TEST(Braces, values_take_their_place_in_commands) {
   const Variables variables = {{"n", 3.0}, {"h", 0.5}, {"s", std::string("left")}, {"c", std::string("refine hex 1")}};
   EXPECT_EQ(expanded("refine curve {n} numsplit {n - 1}", variables), "<refine curve 3 numsplit 2>");
   EXPECT_EQ(expanded("refine curve {n} to {n*2} by {n-1}", variables), "<refine curve 3 to 6 by 2>");
@@ -224,7 +224,7 @@ TEST(Braces, ValuesTakeTheirPlaceInCommands) {
   EXPECT_EQ(expanded("import mesh '{\"a\" // n}.msh'", variables), "<import mesh \"a3.msh\">");
 }
 
-TEST(Braces, LinesMayBeExpressionsAlone) {
+TEST(Braces, lines_may_be_expressions_alone) {
   EXPECT_EQ(expanded("{h = 0.5}"), "[h = 0.5]");
   EXPECT_EQ(expanded("#{h = 0.5}"), "[h = 0.5]");
   EXPECT_EQ(expanded("# {h = 0.5}"), "");
@@ -234,7 +234,7 @@ TEST(Braces, LinesMayBeExpressionsAlone) {
   EXPECT_EQ(expanded("{1 + 1}"), "[2]");
 }
 
-TEST(Braces, ErrorsPointIntoThem) {
+TEST(Braces, errors_point_into_them) {
   const auto error = [](std::string_view text) -> std::string {
     Variables variables;
     try {
@@ -261,7 +261,7 @@ TEST(Braces, ErrorsPointIntoThem) {
   EXPECT_EQ(error("{''}"), "1: this leaves no command");
 }
 
-TEST(Braces, VariablesLiveInTheSession) {
+TEST(Braces, variables_live_in_the_session) {
   Session session;
   std::vector<std::string> output;
   session.set_callbacks(

@@ -32,7 +32,7 @@ struct Row {
   const char* means;
 };
 
-TEST(Grammar, WordsMayBeShortAndInAnyCase) {
+TEST(Grammar, words_may_be_short_and_in_any_case) {
   for (const auto& [said, means] : std::vector<Row>{
            {"refine curve 3", "refine curve 3"},
            {"REF Cur 3 NUMSPL 2", "refine curve 3 numsplit 2"},
@@ -80,12 +80,12 @@ TEST(Grammar, WordsMayBeShortAndInAnyCase) {
   }
 }
 
-TEST(Grammar, AMetricThatIsAKindOfEntityIsNotCutShortWhereTheKindCouldStand) {
+TEST(Grammar, a_metric_that_is_a_kind_of_entity_is_not_cut_short_where_the_kind_could_stand) {
   EXPECT_EQ(to_string(parsed("quality hex 9 volum histogram")), "quality hex 9 volume histogram");
   EXPECT_EQ(error_of("quality hex in hex 9 volum histogram").column(), 22);
 }
 
-TEST(Grammar, ValuesArriveWithTheirNames) {
+TEST(Grammar, values_arrive_with_their_names) {
   const Command command = parsed("refine curve 3 to 9 by 2 except 5 in surface 1 numsplit 2");
   EXPECT_TRUE(command.has("numsplit"));
   EXPECT_EQ(command.find("splits")->number, 2);
@@ -107,7 +107,7 @@ struct Wrong {
   const char* message;  // part of it
 };
 
-TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
+TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
            {"foo", 1, "expected block, check, create, curve, delete"},
            {"refine crve 3", 8,
@@ -230,7 +230,7 @@ TEST(Grammar, ErrorsPointAtTheWrongWordAndSayWhatCouldStandThere) {
   }
 }
 
-TEST(Grammar, TheCaretStandsUnderTheWord) {
+TEST(Grammar, the_caret_stands_under_the_word) {
   EXPECT_STREQ(
       error_of("reset\nrefine crve 3\n", "part.jou").what(),
       "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
@@ -243,7 +243,7 @@ TEST(Grammar, TheCaretStandsUnderTheWord) {
                "expected an id, all, except, in, common_to or with, found 'x'\n    hex x\n        ^");
 }
 
-TEST(Grammar, AVeryLongLineShowsTheEnvironsOfTheWord) {
+TEST(Grammar, a_very_long_line_shows_the_environs_of_the_word) {
   std::string text = "refine hex";
   for (int i = 1; i < 5000; ++i) text += " " + std::to_string(i);
   const CommandError error = error_of(text + " bogus 1 2 3");
@@ -251,13 +251,13 @@ TEST(Grammar, AVeryLongLineShowsTheEnvironsOfTheWord) {
   EXPECT_LT(std::string(error.what()).size(), 600u);
 }
 
-TEST(Grammar, RangesCannotBeNestedWithoutEnd) {
+TEST(Grammar, ranges_cannot_be_nested_without_end) {
   std::string text = "refine hex in";
   for (int i = 0; i < 100000; ++i) text += " hex in";
   EXPECT_NE(error_of(text).message().find("nested too deeply"), std::string::npos);
 }
 
-TEST(Grammar, CompletionOffersWhatCouldStandThere) {
+TEST(Grammar, completion_offers_what_could_stand_there) {
   using List = std::vector<std::string>;
   EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reset"}));
   EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
@@ -274,7 +274,7 @@ TEST(Grammar, CompletionOffersWhatCouldStandThere) {
   EXPECT_EQ(completions("import mesh \"a"), List{});
 }
 
-TEST(Grammar, EveryCommandHasHelpAndItsExamplesParse) {
+TEST(Grammar, every_command_has_help_and_its_examples_parse) {
   for (const CommandSpec& spec : language()) {
     if (spec.syntax.empty()) continue;
     EXPECT_FALSE(spec.summary.empty()) << spec.name;
@@ -289,7 +289,7 @@ TEST(Grammar, EveryCommandHasHelpAndItsExamplesParse) {
   EXPECT_THROW(help("bogus"), Error);
 }
 
-TEST(Grammar, TheManualHasEveryCommandAndExample) {
+TEST(Grammar, the_manual_has_every_command_and_example) {
   std::ifstream file(std::string(HEXTWIST_SOURCE_DIR) + "/docs/commands.md");
   const std::string manual{std::istreambuf_iterator<char>(file), {}};
   for (const CommandSpec& spec : language()) {
@@ -303,7 +303,7 @@ TEST(Grammar, TheManualHasEveryCommandAndExample) {
   }
 }
 
-TEST(Grammar, GarbageGivesAnErrorWithAPlaceOrParsesAndNeverCrashes) {
+TEST(Grammar, garbage_gives_an_error_with_a_place_or_parses_and_never_crashes) {
   const unsigned seed = std::random_device{}();
   RecordProperty("seed", static_cast<int>(seed));
   std::mt19937 random(seed);

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "command/meshed_brick.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/command/syntax.h"
-#include "command/meshed_brick.h"
 
 namespace hextwist::test {
 

@@ -11,7 +11,7 @@ namespace {
 using test::Ids;
 using Fixture = test::RangeFixture;
 
-TEST(Ranges, ListsSpansStepsAndExceptions) {
+TEST(Ranges, lists_spans_steps_and_exceptions) {
   Fixture f;
   EXPECT_EQ(f.ids("hex 3 1 3"), (Ids{1, 3}));
   EXPECT_EQ(f.ids("hex 3 to 6"), (Ids{3, 4, 5, 6}));
@@ -26,7 +26,7 @@ TEST(Ranges, ListsSpansStepsAndExceptions) {
   EXPECT_TRUE(f.notices.empty());
 }
 
-TEST(Ranges, IdsThatDoNotExistAreNamed) {
+TEST(Ranges, ids_that_do_not_exist_are_named) {
   Fixture f;
   EXPECT_EQ(f.error("hex 25"), "5: hex 25 does not exist; hexes are 1 to 24");
   EXPECT_EQ(f.error("hex 1 to 999999999"), "10: hex 25 does not exist; hexes are 1 to 24");
@@ -46,7 +46,7 @@ TEST(Ranges, IdsThatDoNotExistAreNamed) {
   EXPECT_EQ(f.error("curve all"), "7: there are no curves: no CAD and no mesh was read");
 }
 
-TEST(Ranges, IdsWithGapsAreSkippedInSpansAndSaid) {
+TEST(Ranges, ids_with_gaps_are_skipped_in_spans_and_said) {
   Fixture f;
   f.meshed.mesh.hex_ids.clear();
   for (int i = 1; i <= 24; ++i) f.meshed.mesh.hex_ids.push_back(i <= 4 ? i : i + 100);
@@ -59,7 +59,7 @@ TEST(Ranges, IdsWithGapsAreSkippedInSpansAndSaid) {
   EXPECT_EQ(f.error("hex 1 to 125"), "10: hex 125 does not exist; hexes are 1 to 124");
 }
 
-TEST(Ranges, NamesStandForIds) {
+TEST(Ranges, names_stand_for_ids) {
   Fixture f;
   EXPECT_EQ(f.ids("block left"), (Ids{10}));
   EXPECT_EQ(f.ids("block \"LEFT\" 20"), (Ids{20, 10}));  // in the order of the mesh
@@ -68,7 +68,7 @@ TEST(Ranges, NamesStandForIds) {
   EXPECT_EQ(f.n("face in sideset 'low x'"), 2u);
 }
 
-TEST(Ranges, InGoesDown) {
+TEST(Ranges, in_goes_down) {
   Fixture f;
   EXPECT_EQ(f.n("node in hex 1"), 8u);
   EXPECT_EQ(f.n("edge in hex 1 2"), 20u);
@@ -84,7 +84,7 @@ TEST(Ranges, InGoesDown) {
   EXPECT_EQ(f.n("hex in sheet in hex 1"), 18u);  // all but those with another place in each direction
 }
 
-TEST(Ranges, InGoesUp) {
+TEST(Ranges, in_goes_up) {
   Fixture f;
   EXPECT_EQ(f.ids("hex in vertex 1"), (Ids{1}));
   EXPECT_EQ(f.ids("hex in curve 1"), (Ids{1, 2, 3, 4}));
@@ -101,7 +101,7 @@ TEST(Ranges, InGoesUp) {
   EXPECT_EQ(f.n("sheet in hex 1"), 3u);
 }
 
-TEST(Ranges, InBetweenCadEntitiesNeedsNoMesh) {
+TEST(Ranges, in_between_cad_entities_needs_no_mesh) {
   Fixture f;
   f.meshed.mesh = {};
   f.meshed.association = {};
@@ -111,7 +111,7 @@ TEST(Ranges, InBetweenCadEntitiesNeedsNoMesh) {
   EXPECT_EQ(f.error("hex in surface 3"), "5: there are no hexes: no mesh was read");
 }
 
-TEST(Ranges, ExceptAndInBelongToTheListBeforeThem) {
+TEST(Ranges, except_and_in_belong_to_the_list_before_them) {
   Fixture f;
   EXPECT_EQ(f.ids("hex 1 to 6 except 2 3 in curve 1"), (Ids{1, 4}));
   EXPECT_EQ(f.ids("curve in surface 1 3 except 3"), f.ids("curve in surface 1"));

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

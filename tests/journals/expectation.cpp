@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 

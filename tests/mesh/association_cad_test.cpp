@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/association/association.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

@@ -1,8 +1,8 @@
 // Meshes without CAD: the facet model of their own skin owns them.
 #include <gtest/gtest.h>
 
-#include "hextwist/mesh/association/association.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

@@ -115,7 +115,7 @@ TEST(topology, hexes_around_nodes_and_edges_ascend) {
     std::vector<std::vector<Index>> of_node(mesh.points.size());
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       for (const Index n : mesh.hexes[h]) of_node[n].push_back(h);
-    const Lists around = node_hexes(mesh);
+    const CompressedRows around = node_hexes(mesh);
     ASSERT_EQ(around.size(), mesh.n_nodes());
     for (Index n = 0; n < mesh.n_nodes(); ++n) EXPECT_TRUE(std::ranges::equal(around[n], of_node[n]));
 
@@ -123,7 +123,7 @@ TEST(topology, hexes_around_nodes_and_edges_ascend) {
     std::vector<std::vector<Index>> of_edge(e.nodes.size());
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       for (const Index edge : e.of_hex[h]) of_edge[edge].push_back(h);
-    const Lists around_edge = edge_hexes(e, mesh.n_hexes());
+    const CompressedRows around_edge = edge_hexes(e, mesh.n_hexes());
     ASSERT_EQ(around_edge.size(), std::ssize(e.nodes));
     for (Index i = 0; i < around_edge.size(); ++i) EXPECT_TRUE(std::ranges::equal(around_edge[i], of_edge[i]));
   }
@@ -215,7 +215,7 @@ TEST(topology, is_the_same_for_any_number_of_threads) {
   const Mesh mesh = test::shuffled(test::grid(30, 31, 32), random);
   std::vector<Edges> e;
   std::vector<Faces> f;
-  std::vector<Lists> around;
+  std::vector<CompressedRows> around;
   for (const int threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     e.push_back(edges(mesh));

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/patch/refine.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"

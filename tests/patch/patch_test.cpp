@@ -289,7 +289,7 @@ TEST(patch, requests_that_look_farther_than_their_target_do_not_use_one) {
 
 /// Per node its hexes, as asked for and as they are.
 void expect_neighbours_of(const Mesh& mesh, const Neighbours& neighbours) {
-  const Lists lists = node_hexes(mesh);
+  const CompressedRows lists = node_hexes(mesh);
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     std::vector<Index> found;
     neighbours.hexes_at({&n, 1}, found);
@@ -338,13 +338,13 @@ TEST(splice, neighbours_follow_the_mesh_there_and_back) {
   EXPECT_FALSE(later.apply(*done.back(), false));
 }
 
-TEST(outliers, know_who_is_next_when_the_extremes_are_cut) {
+TEST(extremes, know_who_is_next_when_the_extremes_are_cut) {
   const Mesh mesh = grid(30, 30, 30);
   std::mt19937 random(3);
   std::vector<double> values(mesh.hexes.size());
   for (double& value : values) value = static_cast<double>(random() % 5000);
   for (const bool largest : {false, true}) {
-    OutlierList list = outliers(mesh, values, largest);
+    ExtremeList list = extremes(mesh, values, largest);
     std::vector<std::pair<double, std::int64_t>> all;
     for (Index h = 0; h < mesh.n_hexes(); ++h) all.emplace_back(largest ? -values[h] : values[h], hex_id(mesh, h));
     std::ranges::sort(all);
@@ -355,7 +355,7 @@ TEST(outliers, know_who_is_next_when_the_extremes_are_cut) {
       for (int i = 0; i < 30; ++i) gone.push_back(all[random() % (i % 2 ? 100 : all.size())].second);
       std::ranges::sort(gone);
       std::erase_if(all, [&](const auto& item) { return std::ranges::binary_search(gone, item.second); });
-      OutlierList come;
+      ExtremeList come;
       for (int i = 0; i < 5; ++i)
         come.emplace_back((largest ? -1.0 : 1.0) * static_cast<double>(random() % 5000), 100000 + 5 * round + i);
       all.insert(all.end(), come.begin(), come.end());

@@ -89,8 +89,7 @@ TEST(Layering, every_source_is_listed_for_the_build) {
 }
 
 TEST(Layering, no_file_is_longer_than_600_lines) {
-  for (const std::string folder :
-       all_folders({"tests", "models", "examples"}))
+  for (const std::string folder : all_folders({"tests", "models", "examples"}))
     for (const auto& file : files_below(folder, {".h", ".c", ".cpp", ".py", ".sh", ".txt"}))
       EXPECT_LE(lines(content(file)).size(), 600u) << file;
 }

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/association/association.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "source_tree.h"

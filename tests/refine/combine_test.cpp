@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/split.h"
+#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "support/checkers.h"
 #include "support/grids.h"

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "hextwist/refine/plans/eight_internal.h"
-#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/split.h"
+#include "hextwist/refine/templates/enclose.h"
 #include "support/grids.h"
 
 namespace hextwist {

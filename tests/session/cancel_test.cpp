@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "session/session_fixture.h"
 #include "hextwist/command/command_error.h"
+#include "session/session_fixture.h"
 
 namespace hextwist {
 namespace {
@@ -63,14 +63,14 @@ std::string model(const std::string& name) {
   return std::string(HEXTWIST_SOURCE_DIR) + "/models/" + name;
 }
 
-TEST(Cancel, LeavesTheSessionAsItWasAtEveryCallWhileNodesArePlaced) {
+TEST(Cancel, leaves_the_session_as_it_was_at_every_call_while_nodes_are_placed) {
   const std::string part =
       "import brep '" + model("plate_hole.brep") + "'; import mesh '" + model("plate_hole.msh") + "'";
   EXPECT_GT(cancel_everywhere(part, "refine surface all numsplit 2", "place"), 10) << "placing asks now and then";
   cancel_everywhere(part, "refine curve 10 size 0.6 bias 1.5 smooth", "place");
 }
 
-TEST(Cancel, LeavesTheSessionAsItWasAtEveryCallWhileAMeshIsRead) {
+TEST(Cancel, leaves_the_session_as_it_was_at_every_call_while_a_mesh_is_read) {
   const std::string before = "import brep '" + model("bearing_plate.brep") + "'";
   EXPECT_GT(cancel_everywhere(before, "import mesh '" + model("bearing_plate.msh") + "'", "associate"), 2)
       << "associating asks now and then";

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
-#include "session/session_fixture.h"
 #include "hextwist/session/view/picture.h"
+#include "session/session_fixture.h"
 
 namespace hextwist {
 
@@ -91,7 +91,7 @@ int row_of(const Colour& colour) {
   return -1;
 }
 
-TEST(Draw, APictureHasTheSizeAskedAndShowsTheMesh) {
+TEST(Draw, a_picture_has_the_size_asked_and_shows_the_mesh) {
   Fixture f;
   f.session.run("create brick x 2 interval 1");
   const Pixels usual = drawn(f, "");
@@ -106,7 +106,7 @@ TEST(Draw, APictureHasTheSizeAskedAndShowsTheMesh) {
   EXPECT_EQ(front.at(5, 5), (Colour{255, 255, 255}));
 }
 
-TEST(Draw, WhatIsNearerHidesWhatIsBehind) {
+TEST(Draw, what_is_nearer_hides_what_is_behind) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; reset block");
   // Blocks below and above the middle; x runs to the right when seen from -y.
@@ -125,7 +125,7 @@ TEST(Draw, WhatIsNearerHidesWhatIsBehind) {
   EXPECT_NE(f.all_output().find("  block 2: orange"), std::string::npos) << f.all_output();
 }
 
-TEST(Draw, EveryKindOfEntityCanBeDrawn) {
+TEST(Draw, every_kind_of_entity_can_be_drawn) {
   Fixture f;
   f.session.run("create brick x 3 interval 3; nodeset 1 curve 1; sideset 1 surface 1; block 2 hex 1 2 3");
   std::set<std::ptrdiff_t> areas;
@@ -141,7 +141,7 @@ TEST(Draw, EveryKindOfEntityCanBeDrawn) {
   EXPECT_GT(areas.size(), 8u);
 }
 
-TEST(Draw, QualityGivesTheColours) {
+TEST(Draw, quality_gives_the_colours) {
   Fixture f;
   f.session.run("create brick x 3 interval 3");
   const Pixels cubes = drawn(f, "quality shape from 0 -1 0 pixels 200 200");
@@ -155,7 +155,7 @@ TEST(Draw, QualityGivesTheColours) {
   EXPECT_EQ(scale_colour(2), scale_colour(1));
 }
 
-TEST(Draw, APageStandsByItself) {
+TEST(Draw, a_page_stands_by_itself) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; block 7 hex 1 name '</script><b>&'");
   const auto file = folder() / "a.html";
@@ -177,7 +177,7 @@ TEST(Draw, APageStandsByItself) {
   EXPECT_NE(f.all_output().find("24 faces drawn"), std::string::npos);
 }
 
-TEST(Draw, MistakesLeaveNoFile) {
+TEST(Draw, mistakes_leave_no_file) {
   Fixture f;
   EXPECT_EQ(f.error("draw to 'a.png'"), "there is no mesh to draw");
   f.session.run("create brick x 2 interval 2");
@@ -191,7 +191,7 @@ TEST(Draw, MistakesLeaveNoFile) {
   EXPECT_NE(f.error("draw to '/no/folder/a.png'").find("there is no folder"), std::string::npos);
 }
 
-TEST(Draw, TheNumberOfThreadsDoesNotChangeAPicture) {
+TEST(Draw, the_number_of_threads_does_not_change_a_picture) {
   Fixture f;
   f.session.run("create sphere radius 1; refine surface 1; set threads 1");
   const std::vector<Colour> one = drawn(f, "quality shape").colours;

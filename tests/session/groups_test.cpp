@@ -8,7 +8,7 @@ namespace {
 
 using Fixture = test::Fixture;
 
-TEST(Groups, CollectEntitiesUnderAName) {
+TEST(Groups, collect_entities_under_a_name) {
   Fixture f;
   f.session.run(
       "create brick x 3 interval 3; group \"rim\" add curve 1 2; group rim add vertex 5; group 1 add curve 3");
@@ -27,7 +27,7 @@ TEST(Groups, CollectEntitiesUnderAName) {
   EXPECT_EQ(f.error("list curve in rim"), "nothing is named 'rim'; there are 'brick', 'other'");
 }
 
-TEST(Groups, TakeSeveralKindsInOneCommand) {
+TEST(Groups, take_several_kinds_in_one_command) {
   Fixture f;
   f.session.run("create brick x 3 interval 3; group g add surface 1 curve 2 surface 1 3; list group g");
   EXPECT_EQ(f.output.back(), "group 1 'g': 1 curve, 2 surfaces");
@@ -42,7 +42,7 @@ TEST(Groups, TakeSeveralKindsInOneCommand) {
   EXPECT_EQ(f.output.back(), "group 1 'g': 1 node, 2 hexes");
 }
 
-TEST(Groups, AreUndoneAndForgottenWithTheirModel) {
+TEST(Groups, are_undone_and_forgotten_with_their_model) {
   Fixture f;
   f.session.run("create brick x 3 interval 3; group a add curve 1; group a add curve 2; undo; list group 1");
   EXPECT_EQ(f.output.back(), "group 1 'a': 1 curve");
@@ -54,7 +54,7 @@ TEST(Groups, AreUndoneAndForgottenWithTheirModel) {
   EXPECT_EQ(f.error("list group all"), "there are no groups");
 }
 
-TEST(Groups, MembersThatAreGoneCountNoLonger) {
+TEST(Groups, members_that_are_gone_count_no_longer) {
   Fixture f;
   f.session.run(
       "create brick x 3 interval 3; group a add hex 1 14; group a add edge 1; group a add face 1; group a add node 64; "
@@ -66,7 +66,7 @@ TEST(Groups, MembersThatAreGoneCountNoLonger) {
   EXPECT_GT(f.session.meshed().mesh.n_hexes(), 27);
 }
 
-TEST(Groups, ErrorsSayWhatIsMissing) {
+TEST(Groups, errors_say_what_is_missing) {
   Fixture f;
   f.session.run("create brick x 3 interval 3");
   EXPECT_EQ(f.error("group 3 add curve 1"),

@@ -4,8 +4,8 @@
 #include <random>
 #include <regex>
 
-#include "session/session_fixture.h"
 #include "hextwist/patch/patch.h"
+#include "session/session_fixture.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
 
@@ -113,7 +113,7 @@ std::string random_command(const Mesh& mesh, std::mt19937& random) {
   }
 }
 
-TEST(PatchedSession, DoesWhatOneWithoutPatchesDoes) {
+TEST(PatchedSession, does_what_one_without_patches_does) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
@@ -139,7 +139,7 @@ TEST(PatchedSession, DoesWhatOneWithoutPatchesDoes) {
   }
 }
 
-TEST(PatchedSession, IsAsItWasAfterACommandThatIsCancelledOrFails) {
+TEST(PatchedSession, is_as_it_was_after_a_command_that_is_cancelled_or_fails) {
   Fixture f;
   const MeshedModel meshed = brick(14, 13, 12);
   f.session.take(meshed.mesh, meshed.model);
@@ -165,7 +165,7 @@ TEST(PatchedSession, IsAsItWasAfterACommandThatIsCancelledOrFails) {
   EXPECT_TRUE(same_bits(f.session.meshed(), MeshedModel{meshed.mesh, meshed.model, f.session.meshed().association}));
 }
 
-TEST(PatchedSession, ChangesTheMeshInPlaceAlsoInAJournal) {
+TEST(PatchedSession, changes_the_mesh_in_place_also_in_a_journal) {
   const auto journal = written("small.jou", "refine hex 100\nrefine hex 200\nundo\nrefine node 9\n");
   Fixture f;
   const MeshedModel meshed = brick(14, 13, 12);

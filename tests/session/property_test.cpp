@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "command/range_fixture.h"
 #include "hextwist/command/braces.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/pattern_internal.h"
@@ -10,7 +11,6 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "command/range_fixture.h"
 #include "session/sentences.h"
 #include "session/session_fixture.h"
 #include "support/association_checkers.h"
@@ -98,10 +98,10 @@ void check_fixed_points(int n_per_command) {
     }
 }
 
-TEST(Properties, WhatIsPrintedIsAFixedPointForEveryCommand) {
+TEST(Properties, what_is_printed_is_a_fixed_point_for_every_command) {
   check_fixed_points(300);
 }
-TEST(SlowProperties, WhatIsPrintedIsAFixedPointForEveryCommand) {
+TEST(SlowProperties, what_is_printed_is_a_fixed_point_for_every_command) {
   check_fixed_points(20000);
 }
 
@@ -144,10 +144,10 @@ void check_meaning(int n) {
   EXPECT_GT(n_good, n / 10);
 }
 
-TEST(Properties, ARangeMeansTheSameAsWhatIsPrintedOfIt) {
+TEST(Properties, a_range_means_the_same_as_what_is_printed_of_it) {
   check_meaning(2000);
 }
-TEST(SlowProperties, ARangeMeansTheSameAsWhatIsPrintedOfIt) {
+TEST(SlowProperties, a_range_means_the_same_as_what_is_printed_of_it) {
   check_meaning(100000);
 }
 
@@ -266,10 +266,10 @@ void check_sessions(int n_sessions, int n_commands) {
   EXPECT_GT(n_done, (n_done + n_refused) / 5) << "most commands are refused";
 }
 
-TEST(Properties, RandomCommandsOnRandomModelsKeepEveryPromise) {
+TEST(Properties, random_commands_on_random_models_keep_every_promise) {
   check_sessions(40, 12);
 }
-TEST(SlowProperties, RandomCommandsOnRandomModelsKeepEveryPromise) {
+TEST(SlowProperties, random_commands_on_random_models_keep_every_promise) {
   check_sessions(150, 15);
 }
 
@@ -365,10 +365,10 @@ void check_garbage(int n) {
   EXPECT_GT(n_wrong, n / 2);
 }
 
-TEST(Properties, GarbageGetsAnErrorWithAPlaceAndChangesNothing) {
+TEST(Properties, garbage_gets_an_error_with_a_place_and_changes_nothing) {
   check_garbage(8000);
 }
-TEST(SlowProperties, GarbageGetsAnErrorWithAPlaceAndChangesNothing) {
+TEST(SlowProperties, garbage_gets_an_error_with_a_place_and_changes_nothing) {
   check_garbage(200000);
 }
 

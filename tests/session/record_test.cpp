@@ -17,7 +17,7 @@ std::string content(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-TEST(Record, WritesCommandsThatSucceedAsTyped) {
+TEST(Record, writes_commands_that_succeed_as_typed) {
   const auto file = folder() / "a.jou";
   const auto nested = written("nested.jou", "refine hex 2\nbogus\nrefine hex 3\n");
   Fixture f;
@@ -35,7 +35,7 @@ TEST(Record, WritesCommandsThatSucceedAsTyped) {
   EXPECT_EQ(g.session.meshed().mesh, f.session.meshed().mesh);
 }
 
-TEST(Record, KeepsFilesUnlessToldOtherwise) {
+TEST(Record, keeps_files_unless_told_otherwise) {
   const auto file = written("a.jou", "list\n");
   const std::string record = "record '" + file.string() + "'";
   Fixture f;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "session/session_fixture.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "session/session_fixture.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 
@@ -18,7 +18,7 @@ using test::Fixture, test::folder, test::written;
 
 namespace {
 
-TEST(Session, CreatesRefinesAndChecksABrick) {
+TEST(Session, creates_refines_and_checks_a_brick) {
   Fixture f;
   EXPECT_EQ(f.session.run("create brick x 1 interval 4; refine hex 1; check"), 0);
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 138);
@@ -48,7 +48,7 @@ TEST(Session, CreatesRefinesAndChecksABrick) {
   EXPECT_NE(f.all_output().find("no violations"), std::string::npos);
 }
 
-TEST(Session, CreatesSolidsWithTheIntervalsAsked) {
+TEST(Session, creates_solids_with_the_intervals_asked) {
   Fixture f;
   f.session.run("create brick x 4 y 3 z 2 interval 8 6 4");
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8 * 6 * 4);
@@ -63,7 +63,7 @@ TEST(Session, CreatesSolidsWithTheIntervalsAsked) {
   EXPECT_NE(f.error("create sphere radius 1e80").find("radius"), std::string::npos);
 }
 
-TEST(Session, EveryKindOfTargetCanBeRefined) {
+TEST(Session, every_kind_of_target_can_be_refined) {
   for (const char* target : {"node 1", "edge 1", "face 1", "hex 1", "vertex 1", "curve 1", "surface 1", "volume 1"}) {
     Fixture f;
     f.session.run(std::string("create brick x 3 interval 3; refine ") + target);
@@ -73,14 +73,14 @@ TEST(Session, EveryKindOfTargetCanBeRefined) {
   }
 }
 
-TEST(Session, AllVolumesTogetherAreRefinedUniformly) {
+TEST(Session, all_volumes_together_are_refined_uniformly) {
   Fixture f;
   f.session.run("create brick x 1 interval 2; refine volume all numsplit 3");
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8 * 64);
   EXPECT_EQ(f.error("refine hex 9 numsplit 9"), "numsplit must be at most 8 unless all volumes are refined");
 }
 
-TEST(Session, ConcavePlacesAreFilledWhenAsked) {
+TEST(Session, concave_places_are_filled_when_asked) {
   // An L of three hexes in a plane: filling adds the fourth.
   const std::string start = "create brick x 6 interval 6; refine hex 87 88 93 concave ";
   Fixture fill, other;
@@ -92,7 +92,7 @@ TEST(Session, ConcavePlacesAreFilledWhenAsked) {
   EXPECT_TRUE(test::conformal(other.session.meshed().mesh));
 }
 
-TEST(Session, ADryRunSaysWhatWouldHappenAndDoesNothing) {
+TEST(Session, a_dry_run_says_what_would_happen_and_does_nothing) {
   Fixture f;
   f.session.run("create brick x 1 interval 4");
   const MeshedModel* before = &f.session.meshed();
@@ -103,7 +103,7 @@ TEST(Session, ADryRunSaysWhatWouldHappenAndDoesNothing) {
   EXPECT_NE(f.output.back().find("64 -> 138 hexes"), std::string::npos) << f.output.back();
 }
 
-TEST(Session, AFailedCommandLeavesEverythingAsItWas) {
+TEST(Session, a_failed_command_leaves_everything_as_it_was) {
   Fixture f;
   f.session.run("create brick x 1 interval 2");
   const MeshedModel* before = &f.session.meshed();
@@ -126,7 +126,7 @@ TEST(Session, AFailedCommandLeavesEverythingAsItWas) {
   f.session.run("check");
 }
 
-TEST(Session, ACancelledCommandLeavesEverythingAsItWas) {
+TEST(Session, a_cancelled_command_leaves_everything_as_it_was) {
   Fixture f;
   f.session.run("create brick x 1 interval 2");
   const MeshedModel* before = &f.session.meshed();
@@ -140,7 +140,7 @@ TEST(Session, ACancelledCommandLeavesEverythingAsItWas) {
   EXPECT_GT(f.session.meshed().mesh.n_hexes(), 8);
 }
 
-TEST(Session, WithoutAMeshCommandsSaySo) {
+TEST(Session, without_a_mesh_commands_say_so) {
   Fixture f;
   EXPECT_EQ(f.error("refine hex 1"), "there is no mesh to refine");
   EXPECT_EQ(f.error("quality hex all"), "there is no mesh");
@@ -151,7 +151,7 @@ TEST(Session, WithoutAMeshCommandsSaySo) {
   EXPECT_EQ(f.output.back(), "nothing: neither CAD nor mesh was read");
 }
 
-TEST(Session, StopsAtTheFirstErrorUnlessToldToKeepGoing) {
+TEST(Session, stops_at_the_first_error_unless_told_to_keep_going) {
   Fixture f;
   EXPECT_NE(f.error("create brick x 1 interval 2; bogus; refine hex 1").find("found 'bogus'"), std::string::npos);
   EXPECT_EQ(f.session.records().size(), 2u);
@@ -164,14 +164,14 @@ TEST(Session, StopsAtTheFirstErrorUnlessToldToKeepGoing) {
   EXPECT_NE(g.errors[1].find("hex 99 does not exist"), std::string::npos);
 }
 
-TEST(Session, QuitEndsIt) {
+TEST(Session, quit_ends_it) {
   Fixture f;
   f.session.run("create brick x 1 interval 2; quit; refine hex 1");
   EXPECT_TRUE(f.session.finished());
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
 }
 
-TEST(Session, JournalsArePlayedBackAndErrorsNameTheirLine) {
+TEST(Session, journals_are_played_back_and_errors_name_their_line) {
   Fixture f;
   const auto inner = written("inner.jou", "# comment\nrefine hex 1\n");
   const auto outer =
@@ -189,7 +189,7 @@ TEST(Session, JournalsArePlayedBackAndErrorsNameTheirLine) {
   EXPECT_EQ(f.error("playback \"" + endless.string() + "\""), "journals play each other back without end");
 }
 
-TEST(Session, ListsWhatThereIs) {
+TEST(Session, lists_what_there_is) {
   Fixture f;
   f.session.run("create brick x 3 interval 3");
   for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
@@ -211,7 +211,7 @@ TEST(Session, ListsWhatThereIs) {
   }
 }
 
-TEST(Session, QualityIsATable) {
+TEST(Session, quality_is_a_table) {
   Fixture f;
   f.session.run("create brick x 1 interval 4; refine hex 1");
   f.output.clear();
@@ -238,7 +238,7 @@ TEST(Session, QualityIsATable) {
   EXPECT_NE(f.output[1].find(" 8 "), std::string::npos) << f.output[1];
 }
 
-TEST(Session, QualityKnowsEveryMetricByName) {
+TEST(Session, quality_knows_every_metric_by_name) {
   Fixture f;
   f.session.run("create brick x 4 y 2 z 1 interval 4 2 1");
   for (const Metric metric : metrics()) {
@@ -254,7 +254,7 @@ TEST(Session, QualityKnowsEveryMetricByName) {
   }
 }
 
-TEST(Session, QualityCanBeLimitedAndShownAsAHistogram) {
+TEST(Session, quality_can_be_limited_and_shown_as_a_histogram) {
   Fixture f;
   f.session.run("create brick x 1 interval 4; refine hex 1");
   const auto shapes = quality(Metric::shape, f.session.meshed().mesh);
@@ -280,7 +280,7 @@ TEST(Session, QualityCanBeLimitedAndShownAsAHistogram) {
   EXPECT_TRUE(f.output[1].ends_with(" 0")) << f.output[1];
 }
 
-TEST(Session, QualityKeepsTheEndsAndListsThem) {
+TEST(Session, quality_keeps_the_ends_and_lists_them) {
   Fixture f;
   f.session.run("create brick x 1 interval 4; refine hex 1");
   const Mesh& mesh = f.session.meshed().mesh;
@@ -307,7 +307,7 @@ TEST(Session, QualityKeepsTheEndsAndListsThem) {
   EXPECT_NE(f.error("quality volume 1 shape top 0").find("top must be a whole number"), std::string::npos);
 }
 
-TEST(Session, QualityUnderstandsTheWordsOfJournals) {
+TEST(Session, quality_understands_the_words_of_journals) {
   Fixture f;
   f.session.run("create brick x 1 interval 2");
   const auto table = [&](const std::string& text) {
@@ -328,7 +328,7 @@ TEST(Session, QualityUnderstandsTheWordsOfJournals) {
   EXPECT_NE(f.error("quality volume 1 timestep").find("found 'timestep'"), std::string::npos);
 }
 
-TEST(Session, FilesComeBackAsTheyWentOut) {
+TEST(Session, files_come_back_as_they_went_out) {
   const auto file = folder() / "brick.msh";
   Fixture f;
   f.session.run("create brick x 3 interval 3; refine curve 1; export mesh '" + file.string() + "' overwrite");
@@ -343,7 +343,7 @@ TEST(Session, FilesComeBackAsTheyWentOut) {
   EXPECT_EQ(g.session.meshed().mesh.n_hexes(), 0);
 }
 
-TEST(Session, AnUpsideDownMeshIsTurnedWithANotice) {
+TEST(Session, an_upside_down_mesh_is_turned_with_a_notice) {
   Mesh mesh = test::grid(2, 2, 2);
   for (Hex& hex : mesh.hexes)
     for (int c = 0; c < 4; ++c) std::swap(hex[c], hex[c + 4]);
@@ -353,7 +353,7 @@ TEST(Session, AnUpsideDownMeshIsTurnedWithANotice) {
   ASSERT_EQ(f.notices.size(), 1u);
 }
 
-TEST(Session, ABrokenMeshIsRefusedWithItsViolations) {
+TEST(Session, a_broken_mesh_is_refused_with_its_violations) {
   Mesh mesh = test::grid(2, 2, 2);
   mesh.points[13] += Vec3(1.5, 1.5, 1.5);  // the middle node goes through the corner
   const auto file = folder() / "broken.msh";
@@ -372,7 +372,7 @@ TEST(Session, ABrokenMeshIsRefusedWithItsViolations) {
   EXPECT_EQ(&f.session.meshed(), before);
 }
 
-TEST(Session, SettingsTakeEffectAndAreKept) {
+TEST(Session, settings_take_effect_and_are_kept) {
   // A roof of two quads that meet at 30 degrees: a ridge below that angle (which also cuts
   // the two curves that it ends on), none above.
   Mesh mesh = test::grid(2, 1, 1);
@@ -387,7 +387,7 @@ TEST(Session, SettingsTakeEffectAndAreKept) {
   EXPECT_EQ(f.session.meshed().model->count(1), blunt + 3);
 }
 
-TEST(Session, RealPartsAreReadRefinedAndWritten) {
+TEST(Session, real_parts_are_read_refined_and_written) {
   if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
   const auto cad = test::data_folder() / "cad";
   for (const char* part : {"plate_hole", "two_material"})
@@ -402,7 +402,7 @@ TEST(Session, RealPartsAreReadRefinedAndWritten) {
     }
 }
 
-TEST(Session, SolidsThatTheMeshJoinsAreGlued) {
+TEST(Session, solids_that_the_mesh_joins_are_glued) {
   if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
   const auto cad = test::data_folder() / "cad";
   Fixture f;
@@ -423,7 +423,7 @@ TEST(Session, SolidsThatTheMeshJoinsAreGlued) {
   EXPECT_EQ(on.session.meshed().model->count(2), f.session.meshed().model->count(2));
 }
 
-TEST(Session, AMeshOfAnotherPartIsRefused) {
+TEST(Session, a_mesh_of_another_part_is_refused) {
   if (test::data_folder().empty()) GTEST_SKIP() << "no real CAD here";
   const auto cad = test::data_folder() / "cad";
   Fixture f;
@@ -436,7 +436,7 @@ TEST(Session, AMeshOfAnotherPartIsRefused) {
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 1404);
 }
 
-TEST(Session, CompletionKnowsNamesAndCommands) {
+TEST(Session, completion_knows_names_and_commands) {
   using List = std::vector<std::string>;
   Fixture f;
   f.session.run(
@@ -452,7 +452,7 @@ TEST(Session, CompletionKnowsNamesAndCommands) {
   EXPECT_EQ(f.session.completions("list block \"s"), List{}) << "quotes are the caller's";
 }
 
-TEST(Session, WordsOfOtherProgramsAreUnderstood) {
+TEST(Session, words_of_other_programs_are_understood) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; nodeset 1 curve 1; sideset 1 surface 1");
   const std::string mesh = (folder() / "part.g").string();
@@ -482,7 +482,7 @@ TEST(Session, WordsOfOtherProgramsAreUnderstood) {
   EXPECT_EQ(f.error("export genesis 'x.g' block 1 overwrite"), "all blocks are read and written together: say 'all'");
 }
 
-TEST(Session, TheFeatureAngleOfAnImportIsThatBetweenFaces) {
+TEST(Session, the_feature_angle_of_an_import_is_that_between_faces) {
   // A roof whose two slopes turn by 30 degrees: a ridge for 160 (20), none for 135 (45).
   Mesh mesh = test::grid(2, 1, 1);
   for (const Index i : {7, 10}) mesh.points[i].z() += 0.27;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "session/session_fixture.h"
-#include "hextwist/mesh/corners.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
+#include "session/session_fixture.h"
 #include "support/checkers.h"
 
 namespace hextwist {
@@ -31,7 +31,7 @@ std::vector<Index> nodes_of(const Mesh& mesh, const SideSet& set) {
   return result;
 }
 
-TEST(Sets, ANodesetOfASurfaceHasItsRimAndASidesetItsFaces) {
+TEST(Sets, a_nodeset_of_a_surface_has_its_rim_and_a_sideset_its_faces) {
   Fixture f;
   f.session.run("create brick x 4 interval 4");
   for (int surface = 1; surface <= 6; ++surface) {
@@ -51,7 +51,7 @@ TEST(Sets, ANodesetOfASurfaceHasItsRimAndASidesetItsFaces) {
   EXPECT_EQ(found, expected);
 }
 
-TEST(Sets, EveryKindOfEntityGivesItsNodes) {
+TEST(Sets, every_kind_of_entity_gives_its_nodes) {
   Fixture f;
   f.session.run(
       "create brick x 2 interval 2; nodeset 1 vertex 1; nodeset 2 curve 1; nodeset 3 volume 1; nodeset 4 hex 1;"
@@ -73,7 +73,7 @@ TEST(Sets, EveryKindOfEntityGivesItsNodes) {
   EXPECT_TRUE(test::sets_valid(f.session.meshed().mesh));
 }
 
-TEST(Sets, GrowShrinkGetNamesAndGo) {
+TEST(Sets, grow_shrink_get_names_and_go) {
   Fixture f;
   f.session.run(
       "create brick x 2 interval 2; reset block; block 4 hex 1 2; block 4 hex 2 3 name 'a b'; block 9 volume 1");
@@ -95,7 +95,7 @@ TEST(Sets, GrowShrinkGetNamesAndGo) {
   EXPECT_TRUE(f.session.meshed().mesh.node_sets.empty());
 }
 
-TEST(Sets, SeveralKindsInOneCommandAreOne) {
+TEST(Sets, several_kinds_in_one_command_are_one) {
   Fixture f;
   f.session.run(
       "create brick x 3 interval 3; reset block; group few add hex 2 curve 1 hex 4;"
@@ -114,7 +114,7 @@ TEST(Sets, SeveralKindsInOneCommandAreOne) {
   EXPECT_TRUE(test::sets_valid(mesh));
 }
 
-TEST(Sets, SeveralKindsAreUndoneTogetherAndAllOrNothing) {
+TEST(Sets, several_kinds_are_undone_together_and_all_or_nothing) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 volume 1; undo");
   EXPECT_TRUE(f.session.meshed().mesh.blocks.empty());
@@ -123,12 +123,13 @@ TEST(Sets, SeveralKindsAreUndoneTogetherAndAllOrNothing) {
   EXPECT_EQ(f.error("nodeset 1 curve 1 node 99"), "node 99 does not exist; nodes are 1 to 27");
   EXPECT_EQ(f.error("sideset 1 surface 1 face 5 reverse"), "there is nothing for a sideset there");
   EXPECT_EQ(f.last().column, 19);
-  EXPECT_EQ(f.error("sideset 1 surface 1 both surface 2"), "expected wrt, name or the end of the command, found 'surface'");
+  EXPECT_EQ(f.error("sideset 1 surface 1 both surface 2"),
+            "expected wrt, name or the end of the command, found 'surface'");
   EXPECT_TRUE(f.session.meshed().mesh.blocks.empty());
   EXPECT_TRUE(f.session.meshed().mesh.side_sets.empty());
 }
 
-TEST(Sets, MistakesArePointedAt) {
+TEST(Sets, mistakes_are_pointed_at) {
   Fixture f;
   EXPECT_EQ(f.error("block 1 volume 1"), "there is no mesh");
   f.session.run("create brick x 2 interval 2");
@@ -142,7 +143,7 @@ TEST(Sets, MistakesArePointedAt) {
   EXPECT_TRUE(f.session.meshed().mesh.node_sets.empty());
 }
 
-TEST(Sets, AFaceBetweenVolumesHasTwoSides) {
+TEST(Sets, a_face_between_volumes_has_two_sides) {
   // Two volumes: a box of two blocks without CAD.
   Mesh mesh = test::grid(4, 2, 2);
   for (int i = 0; i < 2; ++i) {
@@ -178,7 +179,7 @@ TEST(Sets, AFaceBetweenVolumesHasTwoSides) {
   EXPECT_EQ(sets.size(), 4u);
 }
 
-TEST(Sets, AreRefinedWithTheMeshAndWrittenInEveryFormat) {
+TEST(Sets, are_refined_with_the_mesh_and_written_in_every_format) {
   Fixture f;
   f.session.run(
       "create brick x 4 interval 4; block 1 hex 1 to 32 name 'lower'; block 2 hex 33 to 64; block 1 remove hex 33 to "
@@ -210,7 +211,7 @@ TEST(Sets, AreRefinedWithTheMeshAndWrittenInEveryFormat) {
   }
 }
 
-TEST(Sets, AllBlocksAtOnceHaveAnElementTypeOnly) {
+TEST(Sets, all_blocks_at_once_have_an_element_type_only) {
   Fixture f;
   f.session.run("create brick x 1 interval 2");
   EXPECT_EQ(f.error("block all add hex 1"), "one block at a time; 'all' goes with 'element type' only");

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/session/session.h"
 #include "hextwist/io/io.h"
 #include "hextwist/patch/adapt.h"
+#include "hextwist/session/session.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 
@@ -44,7 +44,7 @@ void take_fields(Session& session) {
   session.take(std::move(mesh), nullptr);
 }
 
-TEST(Sizing, SizeWithBiasReportsHowWellItWasMet) {
+TEST(Sizing, size_with_bias_reports_how_well_it_was_met) {
   Fixture f;
   f.session.run("create brick x 10 interval 10; refine curve 1 size 0.2 bias 1.5");
   EXPECT_TRUE(test::conformal(f.mesh()));
@@ -62,14 +62,14 @@ TEST(Sizing, SizeWithBiasReportsHowWellItWasMet) {
   EXPECT_NE(f.output.back().find(" .. "), std::string::npos) << "a histogram";
 }
 
-TEST(Sizing, NumsplitWithABiasOfOneIsAccepted) {
+TEST(Sizing, numsplit_with_a_bias_of_one_is_accepted) {
   Fixture f;
   f.session.run("create brick x 4 interval 4; refine hex 1 numsplit 2 bias 1.0");
   EXPECT_EQ(f.last().sizes.hexes, 0);
   EXPECT_GT(f.mesh().n_hexes(), 64);
 }
 
-TEST(Sizing, WhatMakesNoSenseTogetherIsRefused) {
+TEST(Sizing, what_makes_no_sense_together_is_refused) {
   Fixture f;
   f.session.run("create brick x 4 interval 4");
   EXPECT_EQ(f.error("refine curve 1 numsplit 2 size 0.5"), "give numsplit or a size, not both");
@@ -86,7 +86,7 @@ TEST(Sizing, WhatMakesNoSenseTogetherIsRefused) {
   EXPECT_EQ(f.mesh().n_hexes(), 64);
 }
 
-TEST(Sizing, FunctionsByExpressionNameAndTheLastOne) {
+TEST(Sizing, functions_by_expression_name_and_the_last_one) {
   Fixture f;
   f.session.run("create brick x 8 interval 8");
   f.session.run("sizing function f \"0.4 + 0*x\"; refine volume 1 sizing_function f");
@@ -105,7 +105,7 @@ TEST(Sizing, FunctionsByExpressionNameAndTheLastOne) {
   EXPECT_EQ(h.output.back(), "no sizing functions");
 }
 
-TEST(Sizing, ErrorsInExpressionsPointIntoThem) {
+TEST(Sizing, errors_in_expressions_point_into_them) {
   Fixture f;
   f.session.run("create brick x 1 interval 2");
   try {
@@ -117,7 +117,7 @@ TEST(Sizing, ErrorsInExpressionsPointIntoThem) {
   EXPECT_NE(f.error("refine volume 1 sizing_function \"x - 5\"").find("sizes must be positive"), std::string::npos);
 }
 
-TEST(Sizing, EveryKindOfFunctionCanBeDefinedAndListed) {
+TEST(Sizing, every_kind_of_function_can_be_defined_and_listed) {
   Fixture f;
   f.session.run("create cylinder radius 2 height 10");
   f.session.run(
@@ -138,7 +138,7 @@ TEST(Sizing, EveryKindOfFunctionCanBeDefinedAndListed) {
   EXPECT_EQ(f.error("sizing field \"h\""), "there is no mesh to take a field from");
 }
 
-TEST(Sizing, FieldsOfThisMeshAndOfAnotherFile) {
+TEST(Sizing, fields_of_this_mesh_and_of_another_file) {
   Fixture f;
   take_fields(f.session);
   const auto file = test::output_folder() / "sizes.vtu";
@@ -153,7 +153,7 @@ TEST(Sizing, FieldsOfThisMeshAndOfAnotherFile) {
   EXPECT_EQ(f.error("sizing field \"nope\""), "the mesh has no field \"nope\"; it has h, error");
 }
 
-TEST(Sizing, HexesInAFieldAboveBelowAndTop) {
+TEST(Sizing, hexes_in_a_field_above_below_and_top) {
   Fixture f;
   take_fields(f.session);
   const auto count = [&](const std::string& range) {
@@ -174,7 +174,7 @@ TEST(Sizing, HexesInAFieldAboveBelowAndTop) {
   EXPECT_EQ(f.error("refine hex in field \"error\" above 100"), "this names no hex");
 }
 
-TEST(Sizing, GradedRefinementKeepsLevelsWithinOne) {
+TEST(Sizing, graded_refinement_keeps_levels_within_one) {
   Fixture f;
   take_fields(f.session);
   f.session.run("refine hex in field \"error\" top 2 % graded");
@@ -191,7 +191,7 @@ TEST(Sizing, GradedRefinementKeepsLevelsWithinOne) {
   for (std::size_t n = 0; n < low.size(); ++n) EXPECT_LE(high[n] - low[n], 1);
 }
 
-TEST(Sizing, SheetsLayersAndThicknessAsCommands) {
+TEST(Sizing, sheets_layers_and_thickness_as_commands) {
   Fixture f;
   f.session.run("create brick x 4 interval 4; refine sheet node 1 2");
   EXPECT_EQ(f.mesh().n_hexes(), 64 + 2 * 16);

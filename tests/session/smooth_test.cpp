@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <random>
 
-#include "session/session_fixture.h"
 #include "hextwist/io/io.h"
+#include "session/session_fixture.h"
 #include "support/checkers.h"
 
 namespace hextwist {
@@ -26,7 +26,7 @@ Mesh shaken_grid(int n, double amount, unsigned seed) {
   return mesh;
 }
 
-TEST(SmoothCommand, ImprovesShapesAndStaysOnTheModel) {
+TEST(SmoothCommand, improves_shapes_and_stays_on_the_model) {
   for (const char* scheme :
        {"", " scheme mean ratio", " scheme condition number", " scheme laplacian", " scheme mean_ratio"}) {
     Fixture f;
@@ -40,7 +40,7 @@ TEST(SmoothCommand, ImprovesShapesAndStaysOnTheModel) {
   }
 }
 
-TEST(SmoothCommand, MovesTheNodesOfTheEntitiesOnly) {
+TEST(SmoothCommand, moves_the_nodes_of_the_entities_only) {
   for (const char* target : {"hex 1 to 20", "surface 1", "curve 1", "node 40 to 60", "block 1", "nodeset 2",
                              "sideset 3", "volume 1", "edge 1 to 30", "face 1 to 30", "sheet 1", "vertex 1"}) {
     Mesh mesh = shaken_grid(4, 0.3, 2);
@@ -59,7 +59,7 @@ TEST(SmoothCommand, MovesTheNodesOfTheEntitiesOnly) {
   }
 }
 
-TEST(SmoothCommand, FixedNodesStayInSmoothingAndRefining) {
+TEST(SmoothCommand, fixed_nodes_stay_in_smoothing_and_refining) {
   Fixture f;
   f.session.take(shaken_grid(5, 0.35, 3), nullptr);
   f.session.run("node 80 to 120 position fixed; node 90 position free; list node 80; list node 90");
@@ -87,7 +87,7 @@ TEST(SmoothCommand, FixedNodesStayInSmoothingAndRefining) {
   EXPECT_EQ(f.notices.back(), "no node can move there: all are fixed or on vertices");
 }
 
-TEST(SmoothCommand, BoundaryFixedMovesNodesInsideOnly) {
+TEST(SmoothCommand, boundary_fixed_moves_nodes_inside_only) {
   Mesh mesh = shaken_grid(4, 0.3, 4);
   for (Vec3& p : mesh.points)
     if (p.z() == 0 && p.x() > 0 && p.x() < 4 && p.y() > 0 && p.y() < 4) p.x() += 0.4;
@@ -102,7 +102,7 @@ TEST(SmoothCommand, BoundaryFixedMovesNodesInsideOnly) {
   EXPECT_LT(f.last().off_cad.max_relative, 1e-9);
 }
 
-TEST(SmoothCommand, EntitiesRememberTheirSchemes) {
+TEST(SmoothCommand, entities_remember_their_schemes) {
   Fixture f, g;
   for (Fixture* each : {&f, &g}) each->session.take(shaken_grid(4, 0.3, 5), nullptr);
   f.session.run("volume 1 smooth scheme laplacian; smooth volume 1");
@@ -116,7 +116,7 @@ TEST(SmoothCommand, EntitiesRememberTheirSchemes) {
   EXPECT_NE(f.notices.at(0).find("there is no scheme 'equipotential' here"), std::string::npos);
 }
 
-TEST(SmoothCommand, IterationsEndItEarlyAndItSaysSo) {
+TEST(SmoothCommand, iterations_end_it_early_and_it_says_so) {
   Fixture f;
   f.session.run("create brick x 2 interval 6; refine hex 5 40");
   f.session.run("smooth volume all iterations 2");
@@ -126,7 +126,7 @@ TEST(SmoothCommand, IterationsEndItEarlyAndItSaysSo) {
   EXPECT_EQ(f.notices.back(), "no hex is inverted: there is nothing to untangle");
 }
 
-TEST(SmoothCommand, CanBeCancelledAtAnySweep) {
+TEST(SmoothCommand, can_be_cancelled_at_any_sweep) {
   for (int calls = 1;; ++calls) {
     Session session;
     session.take(shaken_grid(5, 0.35, 7), nullptr);
@@ -153,13 +153,13 @@ TEST(SmoothCommand, CanBeCancelledAtAnySweep) {
   }
 }
 
-TEST(SmoothCommand, NeedsAMesh) {
+TEST(SmoothCommand, needs_a_mesh) {
   Fixture f;
   EXPECT_EQ(f.error("smooth volume all"), "there is no mesh to smooth");
   EXPECT_NE(f.error("node 1 position fixed"), "no error");
 }
 
-TEST(Tangled, AMeshWithInvertedHexesIsUntangledWithANotice) {
+TEST(Tangled, a_mesh_with_inverted_hexes_is_untangled_with_a_notice) {
   Fixture f;
   f.session.take(shaken_grid(6, 1.2, 8), nullptr);
   EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
@@ -176,7 +176,7 @@ TEST(Tangled, AMeshWithInvertedHexesIsUntangledWithANotice) {
   EXPECT_GT(f.last().n_violations, 1);
 }
 
-TEST(Tangled, NodesOnSurfacesSlideWhereNodesInsideAreNotEnough) {
+TEST(Tangled, nodes_on_surfaces_slide_where_nodes_inside_are_not_enough) {
   // A node of the skin goes over its neighbour.
   Mesh mesh = test::grid(4, 4, 4);
   const auto node = std::ranges::find_if(mesh.points, [](const Vec3& p) { return p == Vec3(2, 2, 0); });
@@ -190,7 +190,7 @@ TEST(Tangled, NodesOnSurfacesSlideWhereNodesInsideAreNotEnough) {
   f.session.run("check");
 }
 
-TEST(Tangled, WhatCannotBeRepairedIsRefusedWithIds) {
+TEST(Tangled, what_cannot_be_repaired_is_refused_with_ids) {
   // The boundary itself is turned: a corner of the box goes through it.
   Mesh mesh = test::grid(2, 2, 2);
   mesh.points[0] = Vec3(5, 5, 5);

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "session/session_fixture.h"
 #include "hextwist/session/history_internal.h"
+#include "session/session_fixture.h"
 #include "support/checkers.h"
 
 namespace hextwist {
@@ -41,7 +41,7 @@ std::size_t last_step_bytes(Fixture& f) {
   return static_cast<std::size_t>(value);
 }
 
-TEST(Undo, TakesBackEveryKindOfCommandInAnyNumberOfSteps) {
+TEST(Undo, takes_back_every_kind_of_command_in_any_number_of_steps) {
   const std::vector<std::string> commands = {"create brick x 4 interval 4",
                                              "nodeset 3 curve 4",
                                              "refine curve 4",
@@ -85,7 +85,7 @@ TEST(Undo, TakesBackEveryKindOfCommandInAnyNumberOfSteps) {
   }
 }
 
-TEST(Undo, ALaterCommandEndsRedoAndAFailedOneDoesNot) {
+TEST(Undo, a_later_command_ends_redo_and_a_failed_one_does_not) {
   Fixture f;
   f.session.run("create brick x 1 interval 2; refine hex 1; undo");
   EXPECT_NE(f.error("refine hex 99"), "no error");
@@ -98,7 +98,7 @@ TEST(Undo, ALaterCommandEndsRedoAndAFailedOneDoesNot) {
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 0);
 }
 
-TEST(Undo, AFailedCommandLeavesNothingToUndo) {
+TEST(Undo, a_failed_command_leaves_nothing_to_undo) {
   Fixture f;
   f.session.run("create brick x 1 interval 2; nodeset 1 node 1");
   EXPECT_NE(f.error("nodeset 2 remove node 3"), "no error");
@@ -108,7 +108,7 @@ TEST(Undo, AFailedCommandLeavesNothingToUndo) {
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
 }
 
-TEST(Undo, AStepCostsWhatChangedAndNotTheMesh) {
+TEST(Undo, a_step_costs_what_changed_and_not_the_mesh) {
   Fixture f;
   f.session.run("create brick x 1 interval 40");
   const std::size_t mesh_bytes = bytes_of(f.session.meshed());
@@ -130,7 +130,7 @@ TEST(Undo, AStepCostsWhatChangedAndNotTheMesh) {
   EXPECT_EQ(f.output.back().rfind("together ", 0), 0u);
 }
 
-TEST(Undo, MemoryIsLimitedAndUndoCanBeSwitchedOff) {
+TEST(Undo, memory_is_limited_and_undo_can_be_switched_off) {
   Fixture f;
   f.session.run("create brick x 1 interval 20; refine hex 1; refine hex 400; refine hex 4000; set undo limit 0.01");
   f.output.clear();
@@ -150,14 +150,14 @@ TEST(Undo, MemoryIsLimitedAndUndoCanBeSwitchedOff) {
   EXPECT_EQ(f.error("undo"), "there is nothing to undo");
 }
 
-TEST(Undo, CommandsOfAJournalAreUndoneOneByOne) {
+TEST(Undo, commands_of_a_journal_are_undone_one_by_one) {
   const auto journal = test::written("a.jou", "create brick x 1 interval 2\nrefine hex 1\n");
   Fixture f;
   f.session.run("playback '" + journal.string() + "'; undo");
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
 }
 
-TEST(ArrayDelta, MakesOneArrayFromAnother) {
+TEST(ArrayDelta, makes_one_array_from_another) {
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   for (int run = 0; run < 3000; ++run) {
@@ -174,7 +174,7 @@ TEST(ArrayDelta, MakesOneArrayFromAnother) {
   }
 }
 
-TEST(ArrayDelta, IsSmallForWhatRefinementAndSmoothingDo) {
+TEST(ArrayDelta, is_small_for_what_refinement_and_smoothing_do) {
   std::vector<Index> from(10000);
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<Index>(i);
   const auto bytes = [&](const std::vector<Index>& to) {

@@ -6,8 +6,8 @@
 
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
-#include "hextwist/refine/plans/eight.h"
 #include "hextwist/patch/refine.h"
+#include "hextwist/refine/plans/eight.h"
 #include "hextwist/sizing/targets.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"

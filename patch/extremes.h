@@ -13,17 +13,17 @@ namespace hextwist {
 
 /// Hexes with the least (or largest) values of a metric: (value, or -value among the largest; id), ascending. Every hex
 /// that is not on the list would come after its last. Empty: nothing is known.
-using OutlierList = std::vector<std::pair<double, std::int64_t>>;
+using ExtremeList = std::vector<std::pair<double, std::int64_t>>;
 
-struct Outliers {
-  std::array<OutlierList, 2> shape, scaled_jacobian;  ///< least, largest
+struct Extremes {
+  std::array<ExtremeList, 2> shape, scaled_jacobian;  ///< least, largest
 };
 
 /// Of all hexes but those `without` (ascending); values: one per hex of the mesh.
-OutlierList outliers(const Mesh& mesh, std::span<const double> values, bool largest,
+ExtremeList extremes(const Mesh& mesh, std::span<const double> values, bool largest,
                      std::span<const Index> without = {});
 
 /// The list after hexes with these ids (ascending) are gone and others have come; may become empty.
-OutlierList changed(const OutlierList& list, std::span<const std::int64_t> gone, const OutlierList& come);
+ExtremeList changed(const ExtremeList& list, std::span<const std::int64_t> gone, const ExtremeList& come);
 
 }  // namespace hextwist

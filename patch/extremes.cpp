@@ -1,4 +1,4 @@
-#include "hextwist/patch/outliers.h"
+#include "hextwist/patch/extremes.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,8 +10,8 @@ constexpr std::size_t max_outliers = 2000;
 
 }  // namespace
 
-OutlierList outliers(const Mesh& mesh, std::span<const double> values, bool largest, std::span<const Index> without) {
-  OutlierList heap;  // the last of the list on top
+ExtremeList extremes(const Mesh& mesh, std::span<const double> values, bool largest, std::span<const Index> without) {
+  ExtremeList heap;  // the last of the list on top
   auto next = without.begin();
   for (Index h = 0; h < mesh.n_hexes(); ++h) {
     if (next != without.end() && *next == h) {
@@ -31,12 +31,12 @@ OutlierList outliers(const Mesh& mesh, std::span<const double> values, bool larg
   return heap;
 }
 
-OutlierList changed(const OutlierList& list, std::span<const std::int64_t> gone, const OutlierList& come) {
-  OutlierList kept, result;
+ExtremeList changed(const ExtremeList& list, std::span<const std::int64_t> gone, const ExtremeList& come) {
+  ExtremeList kept, result;
   for (const auto& item : list)
     if (!std::ranges::binary_search(gone, item.second)) kept.push_back(item);
   if (kept.empty()) return kept;
-  OutlierList fresh;
+  ExtremeList fresh;
   for (const auto& item : come)
     if (item < kept.back()) fresh.push_back(item);
   std::ranges::sort(fresh);
