@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hextwist/mesh/corners.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist::gmsh_detail {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/mesh/meshed_model.h"
 
 namespace hextwist {
 

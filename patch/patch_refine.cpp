@@ -7,8 +7,7 @@
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/gaps.h"
 #include "hextwist/patch/verify_internal.h"
-#include "hextwist/sizing/pipeline.h"
-#include "hextwist/sizing/stages.h"
+#include "hextwist/sizing/loop.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -19,11 +18,6 @@ namespace {
 /// are looked at. Smoothing and filling reach less far; how far filling grows shows in the hexes that are cut.
 constexpr int enough_rings = 4;
 
-/// Hexes that the passes cut lie in this ring around the target at most, but for those that filling or enclosing adds.
-int last_ring_cut(const Request& request, Method method) {
-  return method == Method::single ? request.depth.value_or(is_solid(request.kind) ? 0 : 1) + 1 : 2;
-}
-
 /// The target in the whole mesh: what the patch grows around.
 struct Around {
   std::vector<Index> nodes;  ///< ascending
@@ -31,17 +25,17 @@ struct Around {
   CombinationTarget target;  ///< of any other
 };
 
-Around around_target(const MeshedModel& input, const Request& request) {
+Around around_target(const MeshedModel& input, const Target& target) {
   Around around;
-  if (is_solid(request.kind)) {
-    around.hexes = solid_target(input, request);
+  if (is_solid(target.kind)) {
+    around.hexes = solid_target(input, target);
     for (const Index h : around.hexes)
       around.nodes.insert(around.nodes.end(), input.mesh.hexes[h].begin(), input.mesh.hexes[h].end());
     std::ranges::sort(around.nodes);
     around.nodes.erase(std::ranges::unique(around.nodes).begin(), around.nodes.end());
   } else {
     std::vector<std::string> told_again;  // by the passes in the patch
-    around.target = sub_element_target(input, request, told_again);
+    around.target = sub_element_target(input, target, told_again);
     around.nodes = around.target.nodes;
   }
   return around;
@@ -51,24 +45,24 @@ Around around_target(const MeshedModel& input, const Request& request) {
 Request request_in(const Patch& patch, const Request& request, const Around& around) {
   Request local = request;
   const auto node = [&](Index n) { return patch.local_node(n); };
-  local.fixed.clear();
-  for (const Index n : request.fixed)
-    if (const Index there = node(n); there >= 0) local.fixed.push_back(there);
+  local.finish.fixed.clear();
+  for (const Index n : request.finish.fixed)
+    if (const Index there = node(n); there >= 0) local.finish.fixed.push_back(there);
   const auto renumber = [&](const auto& items, const auto& number) {
-    local.targets.clear();
-    for (const auto& item : items) local.targets.push_back(number(item));
-    std::ranges::sort(local.targets);
+    local.target.ids.clear();
+    for (const auto& item : items) local.target.ids.push_back(number(item));
+    std::ranges::sort(local.target.ids);
   };
-  if (request.kind == TargetKind::node) renumber(request.targets, node);
-  if (request.kind == TargetKind::hex)
-    renumber(request.targets, [&](Index h) {
+  if (request.target.kind == EntityKind::node) renumber(request.target.ids, node);
+  if (request.target.kind == EntityKind::hex)
+    renumber(request.target.ids, [&](Index h) {
       return static_cast<Index>(std::ranges::lower_bound(patch.hexes, h) - patch.hexes.begin());
     });
-  if (request.kind == TargetKind::edge) {
+  if (request.target.kind == EntityKind::edge) {
     const Edges all = edges(patch.meshed.mesh);
     renumber(around.target.edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });
   }
-  if (request.kind == TargetKind::face) {
+  if (request.target.kind == EntityKind::face) {
     const Faces all = faces(patch.meshed.mesh);
     renumber(around.target.faces, [&](const Quad& q) {
       return find_face(all, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
@@ -98,36 +92,26 @@ bool is_complete(const MeshedModel& input, const Request& request) {
   return (association.empty() || (association.node_owner.size() == mesh.points.size() &&
                                   association.node_parameters.size() == mesh.points.size() &&
                                   association.hex_volume.size() == mesh.hexes.size())) &&
-         std::ranges::all_of(request.fixed, [&](Index n) { return n >= 0 && n < mesh.n_nodes(); });
+         std::ranges::all_of(request.finish.fixed, [&](Index n) { return n >= 0 && n < mesh.n_nodes(); });
 }
 
 }  // namespace
 
-bool is_local(const MeshedModel& input, const Request& request) {
-  if (request.sheets || request.through_thickness || request.layers || request.size || request.size_field) return false;
-  if (request.levels == Levels::graded) return false;  // takes coarser neighbours along, however far that goes
-  const Method method = technique(request);
-  if (method == Method::parallel) return !is_solid(request.kind) && request.depth.value_or(0) == 0 && !request.radius;
-  return method == Method::combination || request.radius || !is_whole_model(input, request);
-}
-
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
                                         const Progress& progress, const RingsOf& rings_of) {
   const Mesh& mesh = input.mesh;
-  if (mesh.n_hexes() < patch_rule.least_mesh || !is_local(input, request) || !is_complete(input, request))
-    return std::nullopt;
+  const Plan plan = hextwist::plan(input, request);
+  if (mesh.n_hexes() < patch_rule.least_mesh || !plan.reach || !is_complete(input, request)) return std::nullopt;
   const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
   Request asked = request;
   Report before;
-  if (request.radius) {  // chooses hexes by where they are, so it must see all of them
-    asked.targets = region_target(input, request, before.notices);
-    asked.kind = TargetKind::hex;
+  if (request.target.radius) {  // chooses hexes by where they are, so it must see all of them
+    asked.target = {EntityKind::hex, region_target(input, request.target, before.notices)};
     asked.method = Method::single;
-    asked.radius.reset();
   }
-  const Around around = around_target(input, asked);
+  const Around around = around_target(input, asked.target);
   if (around.hexes.size() > limit || around.nodes.size() > 8 * limit) return std::nullopt;
-  int n_rings = last_ring_cut(asked, technique(asked)) + enough_rings;
+  int n_rings = *plan.reach + enough_rings;
   constexpr int max_rings = 100;
   for (; n_rings <= max_rings; n_rings *= 2) {
     Report report = before;
@@ -140,8 +124,8 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
     const Request local = request_in(made.patch, asked, around);
     stages.close();
     {
-      Pipeline run(made.patch.meshed, local, report, progress);
-      made.result = run_passes(run);
+      State run(made.patch.meshed, local, report, progress);
+      made.result = run_passes(run, plan.approach);
       made.origin_before = run.origin_before();
       made.n_kept_before = run.n_kept_before();
       const PatchNumbers numbers(made.patch, input, made.result.refined.mesh);
@@ -150,7 +134,7 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
                              });
       if (!is_enough) continue;
       for (OffOwner& row : report.off_nodes) row.node = numbers.node(row.node);
-      if (!request.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
+      if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
     }
     report.hexes_before = mesh.n_hexes();
@@ -231,6 +215,24 @@ Lineage whole_lineage(const PatchResult& made, const MeshedModel& input) {
   keep_until(input.mesh.n_hexes());
   for (Index h = n_new - (n_final - next); h < n_new; ++h) lineage.parent[next++] = hex(local.parent[h]);
   return lineage;
+}
+
+RefineResult whole_result(PatchResult made, const MeshedModel& input, const Measured& known, const Request& request) {
+  Report report = std::move(made.result.report);
+  RefineResult result;
+  if (!request.finish.dry_run) {
+    const Progress none;
+    Stages stages(report, none);
+    stages.begin("splice", 0.9);
+    result.refined = spliced(input, *made.splice);
+    result.lineage = whole_lineage(made, input);
+    result.origin = whole_origin(made, input);
+    stages.begin("verify", 0.9);
+    if (!made.is_verified) verify_all(result.refined, known, report);
+  }
+  report.peak_memory_bytes = peak_memory();
+  result.report = std::move(report);
+  return result;
 }
 
 }  // namespace hextwist

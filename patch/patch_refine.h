@@ -6,6 +6,7 @@
 #include "hextwist/patch/patch.h"
 #include "hextwist/patch/splice.h"
 #include "hextwist/patch/verify.h"
+#include "hextwist/sizing/request.h"
 
 namespace hextwist {
 
@@ -17,26 +18,19 @@ using RingsOf = std::function<std::optional<Rings>(const Mesh& mesh, std::span<c
 struct PatchResult {
   Patch patch;
   RefineResult result;
-  std::vector<Index> origin_before;  ///< see Pipeline
+  std::vector<Index> origin_before;  ///< see State
   Index n_kept_before = 0;
   std::unique_ptr<const Splice> splice;
   bool is_verified = false;  ///< false (and not a dry run): only verifying everything will do
 };
 
-/// Nothing where the request is not local (is_local) or asks for too much: then the passes over the whole mesh are to
-/// be run. The request has been checked. Throws what they throw.
+/// Nothing where the request's plan has no reach or it asks for too much: then the passes over the whole mesh are to be
+/// run. Throws what they throw.
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
                                         const Progress& progress, const RingsOf& rings_of = rings_by_place);
 
-/// The same after checking the request; and what refine() does with it, or without.
-std::optional<PatchResult> try_patch(const MeshedModel& input, const Measured& known, const Request& request,
-                                     const Progress& progress, const RingsOf& rings_of = rings_by_place);
-RefineResult finish(std::optional<PatchResult> made, const MeshedModel& input, const Measured& known,
-                    const Request& request, const Progress& progress);
-
-/// Does the request cut only what lies around its targets? Not so: sheets, directions, sizes, graded levels, one into
-/// eight (planned by sheets), all volumes.
-bool is_local(const MeshedModel& input, const Request& request);
+/// The result of a patch put into a copy of the mesh.
+RefineResult whole_result(PatchResult made, const MeshedModel& input, const Measured& known, const Request& request);
 
 /// Lineage and origin in numbers of the whole.
 Lineage whole_lineage(const PatchResult& result, const MeshedModel& input);

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "hextwist/patch/extremes.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist {
 
@@ -18,11 +18,6 @@ struct Measured {
 Measured measured(const MeshedModel& meshed);
 /// Of the result of a refinement without violations.
 Measured measured_after(const Report& report);
-
-/// refine() for an input that is known: the result is verified where it differs from the input, in time proportional
-/// to the change and a few sweeps over the arrays. What is reported is the same, but for rounding in averages.
-RefineResult refine(const MeshedModel& input, const Measured& known, const Request& request,
-                    const Progress& progress = {});
 
 /// Fills in what the report says of quality, volume, distance from the CAD and violations. known: of the input; null:
 /// everything is measured and validated from scratch.

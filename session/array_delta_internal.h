@@ -73,7 +73,6 @@ struct MeshedDelta {
   ArrayDelta<int> face_surface, hex_volume;
   std::shared_ptr<const Model> model;
 
-
   static MeshedDelta between(const MeshedModel& from, const MeshedModel& to);
   /// Precondition: the `from` it was made with.
   MeshedModel apply(const MeshedModel& from) const;

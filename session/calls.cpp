@@ -1,7 +1,6 @@
 // What a session is asked by programs instead of by commands.
 
 #include <algorithm>
-#include <functional>
 #include <new>
 
 #include "hextwist/base/memory.h"
@@ -55,12 +54,15 @@ void run_step(Session::Core& core, const std::string& name, F f) {
   throw CommandError(problem, problem, 0, 0);
 }
 
-AdaptOutcome adapt_session(Session::Core& core, const char* by,
-                           const std::function<AdaptResult(const MeshedModel&, const Progress&)>& adapt) {
+template <class T>
+AdaptOutcome adapt_session(Session::Core& core, const char* by, std::span<const T> values, AdaptOptions options) {
   AdaptOutcome outcome;
   run_step(core, std::string("adapt by ") + by, [&](Execution& run) {
-    if (core.state.meshed->mesh.n_hexes() == 0) throw Error("there is no mesh to adapt");
-    AdaptResult result = adapt(*core.state.meshed, core.callbacks.progress);
+    const MeshedModel& meshed = *core.state.meshed;
+    if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to adapt");
+    if (core.state.fixed_nodes)
+      options.fixed.insert(options.fixed.end(), core.state.fixed_nodes->begin(), core.state.fixed_nodes->end());
+    AdaptResult result = hextwist::adapt(meshed, values, options, core.callbacks.progress);
     for (const std::string& line : result.report.notices) run.note(line);
     run.record.seconds = result.report.seconds;
     run.record.filled_hexes = result.report.filled_hexes;
@@ -127,14 +129,10 @@ void Session::take_mesh(Mesh mesh, const Association* tags) {
 }
 
 AdaptOutcome Session::adapt(std::span<const std::uint8_t> flags, const AdaptOptions& options) {
-  return adapt_session(*core_, "flags", [&](const MeshedModel& meshed, const Progress& progress) {
-    return hextwist::adapt(meshed, flags, options, progress);
-  });
+  return adapt_session(*core_, "flags", flags, options);
 }
 AdaptOutcome Session::adapt(std::span<const double> sizes, const AdaptOptions& options) {
-  return adapt_session(*core_, "sizes", [&](const MeshedModel& meshed, const Progress& progress) {
-    return hextwist::adapt(meshed, sizes, options, progress);
-  });
+  return adapt_session(*core_, "sizes", sizes, options);
 }
 
 std::vector<std::int64_t> Session::ids(std::string_view kind, std::string_view range) const {

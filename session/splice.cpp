@@ -52,7 +52,7 @@ class InPlace {
 }  // namespace
 
 std::optional<PatchResult> refine_in_patch(const Execution& run, const Measured& known, const Request& request) {
-  return try_patch(
+  return refine_patch(
       *run.state.meshed, known, request, run.core.callbacks.progress,
       [&](const Mesh& mesh, std::span<const Index> nodes, std::span<const Index>, int n_rings, std::size_t limit) {
         const Neighbours& known_neighbours = neighbours(run.core);

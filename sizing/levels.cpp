@@ -8,20 +8,23 @@
 
 namespace hextwist {
 
-Mesh with_levels(const Mesh& mesh, std::span<const int> level) {
-  Mesh result = mesh;
-  const auto found = std::ranges::find_if(
-      result.fields, [](const Field& field) { return field.name == level_field && field.on == Field::On::hex; });
-  if (found == result.fields.end())
-    result.fields.push_back({level_field, Field::On::hex, 1, {level.begin(), level.end()}});
-  return result;
+namespace {
+
+bool is_level_field(const Field& field) {
+  return field.name == level_field && field.on == Field::On::hex && field.components == 1;
+}
+
+}  // namespace
+
+Field& level_field_of(Mesh& mesh) {
+  const auto found = std::ranges::find_if(mesh.fields, is_level_field);
+  if (found != mesh.fields.end()) return *found;
+  return mesh.fields.emplace_back(Field{level_field, Field::On::hex, 1, std::vector<double>(mesh.hexes.size())});
 }
 
 std::vector<int> levels(const Mesh& mesh) {
   std::vector<int> result(mesh.hexes.size(), 0);
-  const auto found = std::ranges::find_if(mesh.fields, [](const Field& field) {
-    return field.name == level_field && field.on == Field::On::hex && field.components == 1;
-  });
+  const auto found = std::ranges::find_if(mesh.fields, is_level_field);
   if (found != mesh.fields.end())
     for (std::size_t h = 0; h < result.size(); ++h) result[h] = static_cast<int>(std::lround(found->values[h]));
   return result;

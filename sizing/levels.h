@@ -21,8 +21,8 @@ std::vector<int> levels(const Mesh& mesh);
 /// neighbour of a flagged hex that is of a lower level is flagged too, and so on. Returns how many were added.
 Index close_flags(const Mesh& mesh, std::span<const int> level, std::span<std::uint8_t> flags);
 
-/// The mesh with its field of levels.
-Mesh with_levels(const Mesh& mesh, std::span<const int> level);
+/// The field, made of zeros where the mesh has none.
+Field& level_field_of(Mesh& mesh);
 
 /// Marks more nodes (all of some hexes), so that trisecting keeps levels graded (Levels::graded) where they are; with
 /// Concave::fill what that fills as well. Returns how many hexes more are marked as a whole.

@@ -1,145 +1,139 @@
-// What a request means: its options checked, its technique chosen.
+#include "hextwist/sizing/plan.h"
+
 #include <cmath>
 
 #include "hextwist/refine/templates/uniform.h"
-#include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
 namespace {
 
-bool is_directional(const Request& request) {
-  return request.through_thickness || request.layers || request.sheets;
+bool has_depth(const Target& target) {
+  return target.radius || target.depth.value_or(0) > 0;
+}
+
+std::string the(EntityKind kind) {
+  return "a " + std::string(name(kind));
+}
+
+void check_target(const Target& target, Method method) {
+  if (target.depth && *target.depth < 0) throw Error("depth must not be negative");
+  if (target.radius && !(*target.radius >= 0 && std::isfinite(*target.radius)))
+    throw Error("radius must be a number of at least 0");
+  if (target.radius && target.depth) throw Error("give a depth or a radius, not both");
+  if (target.radius && method == Method::combination)
+    throw Error("a radius chooses whole hexes, the combination technique refines around nodes, edges and faces");
+}
+
+void check_numsplit(int numsplit, int limit) {
+  if (numsplit < 1) throw Error("numsplit must be at least 1");
+  if (numsplit > limit) throw Error("numsplit must be at most " + std::to_string(limit) + " here");
 }
 
 void check_direction(const Request& request) {
-  if (request.through_thickness + request.layers.has_value() + request.sheets.has_value() > 1)
-    throw Error("give one direction, not several");
-  if (request.size || request.size_field || request.depth || request.radius || request.method != Method::automatic)
+  if (request.target.depth || request.target.radius || request.method != Method::automatic)
     throw Error("a direction goes with numsplit, not with sizes, depth, radius or a method");
-  if (const auto& sheets = request.sheets) {
-    if (sheets->edges.empty()) throw Error("no edge to choose a sheet by");
-    if (sheets->greater_than && sheets->factor) throw Error("give greater_than or a factor, not both");
-    if (request.numsplit != 1) throw Error("sheets are cut once: repeat the command instead of numsplit");
-    return;
-  }
-  if (request.through_thickness && request.kind != TargetKind::surface && request.kind != TargetKind::face)
-    throw Error(std::string("through the thickness means away from surfaces or faces, not from a ") +
-                name(request.kind));
-  if (!request.layers) return;
-  if (is_solid(request.kind))
-    throw Error(std::string("layers lie along nodes, edges and faces, not a ") + name(request.kind));
-  if (request.layers->n_layers < 1 || request.layers->n_layers > 50)
-    throw Error("the number of layers must be from 1 to 50");
-  if (!(request.layers->growth >= 0.1 && request.layers->growth <= 10))
-    throw Error("the growth of layers must be from 0.1 to 10");
-  if (request.numsplit != 1) throw Error("give a number of layers or numsplit, not both");
+  if (request.levels == Levels::graded) throw Error("graded levels need whole hexes to be cut: not one direction");
 }
 
-bool is_size_driven(const Request& request) {
-  return request.size || request.size_field;
-}
-
-void check_options(const Request& request) {
-  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-  if (request.depth && *request.depth < 0) throw Error("depth must not be negative");
-  if (request.radius && !(*request.radius >= 0 && std::isfinite(*request.radius)))
-    throw Error("radius must be a number of at least 0");
-  if (request.radius && request.depth) throw Error("give a depth or a radius, not both");
-  if (request.radius && request.method == Method::combination)
-    throw Error("a radius chooses whole hexes, the combination technique refines around nodes, edges and faces");
-  if (!(request.bias >= 1 && std::isfinite(request.bias))) throw Error("bias must be a number of at least 1");
-  if (!is_size_driven(request)) {
-    if (request.bias != 1) throw Error("a bias other than 1 needs a size or a sizing function to grow from");
-    return;
-  }
-  if (request.size && !positive(*request.size)) throw Error("size must be a positive number");
-  if (request.numsplit != 1) throw Error("give numsplit or a size, not both");
-  if (request.max_passes < 1 || request.max_passes > 30) throw Error("max_passes must be from 1 to 30");
-  if (request.depth && *request.depth == 0 && !is_solid(request.kind) && request.method == Method::parallel)
-    throw Error("sizes by one into eight need whole hexes to be cut: depth 1 or more");
-  if (request.levels == Levels::graded && request.method == Method::combination)
-    throw Error("graded levels need whole hexes to be cut: not the combination");
-}
-
-}  // namespace
-
-void check(const MeshedModel& input, const Request& request) {
-  if (input.mesh.hexes.empty()) throw Error("there is no mesh to refine");
-  if (!request.sheets) check_targets(input, request);
-  check_options(request);
-  if (is_directional(request)) check_direction(request);
-  if (request.numsplit < 1) throw Error("numsplit must be at least 1");
-  const int limit = is_whole_model(input, request) && !is_directional(request) ? max_uniform_pieces - 1 : max_numsplit;
-  if (request.numsplit > limit) throw Error("numsplit must be at most " + std::to_string(limit) + " here");
-}
-
-Method technique(const Request& request) {
-  const bool solid = is_solid(request.kind);
-  const bool has_depth = request.radius || request.depth.value_or(0) > 0;
+/// The technique of the paper that the target and the method ask for.
+Method technique_of(const Request& request) {
+  const Target& target = request.target;
+  const bool solid = is_solid(target.kind), deep = has_depth(target), graded = request.levels == Levels::graded;
   switch (request.method) {
     case Method::single:
-      if (!solid && request.depth && !has_depth)
+      if (!solid && target.depth && !deep)
         throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
       return Method::single;
     case Method::combination:
+      if (graded) throw Error("graded levels need whole hexes to be cut: not the combination");
       if (solid)
-        throw Error(std::string("the combination technique refines around nodes, edges and faces, not a ") +
-                    name(request.kind));
-      if (request.depth && has_depth) throw Error("the combination technique has depth 0");
+        throw Error("the combination technique refines around nodes, edges and faces, not " + the(target.kind));
+      if (target.depth && deep) throw Error("the combination technique has depth 0");
       return Method::combination;
     case Method::parallel:
       return Method::parallel;
     case Method::automatic:
       break;
   }
-  return solid || has_depth ? Method::single : Method::combination;
+  return solid || deep || graded ? Method::single : Method::combination;
 }
 
-RefineResult run_passes(Pipeline& run) {
-  run.stages().begin("targets", 0);
-  const Request& request = run.request();
-  const Method method = technique(request);
-  if (request.sheets) {
-    sheet_passes(run);
-  } else if (request.through_thickness) {
-    thickness_passes(run);
-  } else if (request.layers) {
-    layer_passes(run);
-  } else if (is_size_driven(request)) {
-    const bool at_target = request.depth && *request.depth == 0 && !is_solid(request.kind);
-    if (method == Method::combination && (request.method == method || at_target))
-      size_passes(run, SizeTechnique::combination);
-    else if (request.method == Method::automatic)
-      nearest_sizes(run);
-    else
-      size_passes(run, request.method == Method::parallel ? SizeTechnique::halves : SizeTechnique::thirds);
-  } else if (is_whole_model(run.input(), request) && method == Method::single && !request.radius) {
-    const int pieces = request.numsplit + 1;
-    run.report().notices.push_back("all volumes: uniform, every edge in " + std::to_string(pieces) + " equal pieces");
-    run.pass(uniform_table(pieces), std::vector<std::uint16_t>(run.input().mesh.hexes.size(), 1));
-  } else if (method == Method::single) {
-    trisect_passes(run);
-  } else if (method == Method::parallel &&
-             (is_solid(request.kind) || request.depth.value_or(0) > 0 || request.radius)) {
-    eight_passes(run);
-  } else {
-    sub_element_passes(run, method);
-  }
-  if (&run.current() == &run.input()) run.keep();  // nothing was to be cut: one layer, say
-  if (request.smooth && !request.dry_run) run.smooth_band();
-  run.stages().begin("verify", 0.9);
-  return run.take_result();
+Plan plan_how(const MeshedModel& input, const Request& request, const Cuts& cuts) {
+  const Target& target = request.target;
+  const bool solid = is_solid(target.kind), deep = has_depth(target), graded = request.levels == Levels::graded;
+  const bool whole = is_whole_model(input, target);
+  const Method method = technique_of(request);
+  const bool uniform = whole && method == Method::single && !target.radius && !graded;
+  check_numsplit(cuts.numsplit, whole ? max_uniform_pieces - 1 : max_numsplit);
+  if (uniform) return {Approach::uniform};
+  if (method == Method::parallel && (solid || deep)) return {Approach::eight};  // planned by sheets
+  if (method == Method::parallel) return {Approach::parallel, 2};
+  if (method == Method::combination) return {Approach::combination, 2};
+  if (graded) return {Approach::trisect};  // takes coarser neighbours along, however far that goes
+  return {Approach::trisect, target.radius ? 1 : target.depth.value_or(solid ? 0 : 1) + 1};
 }
 
-const char* name(TargetKind kind) {
-  constexpr const char* names[] = {"node", "edge", "face", "hex", "vertex", "curve", "surface", "volume"};
-  return names[static_cast<int>(kind)];
+Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
+  const Target& target = request.target;
+  if (!(sizes.bias >= 1 && std::isfinite(sizes.bias))) throw Error("bias must be a number of at least 1");
+  if (!sizes.size && !sizes.field)
+    throw Error(sizes.bias != 1 ? "a bias other than 1 needs a size or a sizing function to grow from"
+                                : "give a size or a sizing function");
+  if (sizes.size && !(*sizes.size > 0 && std::isfinite(*sizes.size))) throw Error("size must be a positive number");
+  if (sizes.max_passes < 1 || sizes.max_passes > 30) throw Error("max_passes must be from 1 to 30");
+  const bool exactly = target.depth && *target.depth == 0 && !is_solid(target.kind);
+  if (exactly && request.method == Method::parallel)
+    throw Error("sizes by one into eight need whole hexes to be cut: depth 1 or more");
+  const Method method = technique_of(request);
+  if (method == Method::combination && (request.method == method || exactly)) return {Approach::size_by_combination};
+  if (request.method == Method::parallel) return {Approach::size_by_halves};
+  if (request.method == Method::single) return {Approach::size_by_threes};
+  // Where the wish changes from place to place, halved regions have steps for sides, which twos meet badly: nothing to
+  // choose from, but for a size that grows from the target, which the combination may meet better there.
+  const bool varies = sizes.bias > 1 || sizes.field;
+  const bool may_combine = sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius &&
+                           request.levels == Levels::ignored;
+  return {varies && !may_combine ? Approach::size_by_threes : Approach::nearest_size};
 }
+
+Plan plan_how(const MeshedModel&, const Request& request, const Thickness& thickness) {
+  check_direction(request);
+  const EntityKind kind = request.target.kind;
+  if (kind != EntityKind::surface && kind != EntityKind::face)
+    throw Error("through the thickness means away from surfaces or faces, not from " + the(kind));
+  check_numsplit(thickness.numsplit, max_numsplit);
+  return {Approach::thickness};
+}
+
+Plan plan_how(const MeshedModel&, const Request& request, const Layers& layers) {
+  check_direction(request);
+  if (is_solid(request.target.kind))
+    throw Error("layers lie along nodes, edges and faces, not " + the(request.target.kind));
+  if (layers.n_layers < 1 || layers.n_layers > 50) throw Error("the number of layers must be from 1 to 50");
+  if (!(layers.growth >= 0.1 && layers.growth <= 10)) throw Error("the growth of layers must be from 0.1 to 10");
+  return {Approach::layers};
+}
+
+Plan plan_how(const MeshedModel&, const Request& request, const AcrossSheets& sheets) {
+  check_direction(request);
+  if (sheets.edges.empty()) throw Error("no edge to choose a sheet by");
+  if (sheets.greater_than && sheets.factor) throw Error("give greater_than or a factor, not both");
+  return {Approach::sheets};
+}
+
+}  // namespace
 
 const char* name(Method method) {
   constexpr const char* names[] = {"auto", "single", "parallel", "combination"};
   return names[static_cast<int>(method)];
+}
+
+Plan plan(const MeshedModel& input, const Request& request) {
+  if (input.mesh.hexes.empty()) throw Error("there is no mesh to refine");
+  if (!std::holds_alternative<AcrossSheets>(request.how)) check_targets(input, request.target);
+  check_target(request.target, request.method);
+  return std::visit([&](const auto& how) { return plan_how(input, request, how); }, request.how);
 }
 
 }  // namespace hextwist

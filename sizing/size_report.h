@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hextwist/sizing/fields/size_field.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist {
 

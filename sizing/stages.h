@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist {
 

@@ -19,24 +19,24 @@ double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
-TargetDistance::TargetDistance(const MeshedModel& input, TargetKind kind, std::span<const Index> targets)
+TargetDistance::TargetDistance(const MeshedModel& input, EntityKind kind, std::span<const Index> targets)
     : model_(input.model) {
   const Mesh& mesh = input.mesh;
   const auto add = [&](std::span<const Index> nodes) {
     for (const Index n : nodes) corners_.push_back(mesh.points[n]);
   };
   switch (kind) {
-    case TargetKind::node:
+    case EntityKind::node:
       n_corners_ = 1;
       add(targets);
       break;
-    case TargetKind::edge: {
+    case EntityKind::edge: {
       n_corners_ = 2;
       const Edges all = edges(mesh);
       for (const Index e : targets) add(all.nodes[e]);
       break;
     }
-    case TargetKind::face: {
+    case EntityKind::face: {
       n_corners_ = 4;
       const Faces all = faces(mesh);
       for (const Index f : targets) {
@@ -45,13 +45,13 @@ TargetDistance::TargetDistance(const MeshedModel& input, TargetKind kind, std::s
       }
       break;
     }
-    case TargetKind::hex:
+    case EntityKind::hex:
       n_corners_ = 8;
       for (const Index h : targets) add(mesh.hexes[h]);
       break;
     default:
       for (const Index id : targets)
-        entities_.push_back({static_cast<int>(kind) - static_cast<int>(TargetKind::vertex), id});
+        entities_.push_back({static_cast<int>(kind) - static_cast<int>(EntityKind::vertex), id});
       return;
   }
   std::vector<Box> boxes(corners_.size() / static_cast<std::size_t>(n_corners_));

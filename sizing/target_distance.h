@@ -16,7 +16,7 @@ namespace hextwist {
 class TargetDistance {
  public:
   /// Keeps the model and copies of the mesh entities; the mesh may go.
-  TargetDistance(const MeshedModel& input, TargetKind kind, std::span<const Index> targets);
+  TargetDistance(const MeshedModel& input, EntityKind kind, std::span<const Index> targets);
 
   /// out: one per point. Runs on all threads; may be called from several.
   void evaluate(std::span<const Vec3> points, std::span<double> out) const;

@@ -12,15 +12,15 @@
 namespace hextwist {
 namespace {
 
-int cad_dimension(TargetKind kind) {
+int cad_dimension(EntityKind kind) {
   switch (kind) {
-    case TargetKind::vertex:
+    case EntityKind::vertex:
       return 0;
-    case TargetKind::curve:
+    case EntityKind::curve:
       return 1;
-    case TargetKind::surface:
+    case EntityKind::surface:
       return 2;
-    case TargetKind::volume:
+    case EntityKind::volume:
       return 3;
     default:
       return -1;
@@ -57,15 +57,15 @@ void finish(CombinationTarget& target) {
 }
 
 /// Hexes whose centroid lies within the request's radius of its targets.
-std::vector<Index> hexes_within(const MeshedModel& input, const Request& request) {
+std::vector<Index> hexes_within(const MeshedModel& input, const Target& target) {
   const std::vector<Vec3> centres = centroids(input.mesh);
   std::vector<double> distance(centres.size());
-  TargetDistance(input, request.kind, request.targets).evaluate(centres, distance);
+  TargetDistance(input, target.kind, target.ids).evaluate(centres, distance);
   std::vector<Index> found =
-      indices_where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *request.radius; });
+      indices_where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *target.radius; });
   if (found.empty())
-    throw Error("no hex has its centroid within " + std::to_string(*request.radius) +
-                " of the target: the nearest is " + std::to_string(*std::ranges::min_element(distance)) + " away");
+    throw Error("no hex has its centroid within " + std::to_string(*target.radius) + " of the target: the nearest is " +
+                std::to_string(*std::ranges::min_element(distance)) + " away");
   return found;
 }
 
@@ -87,90 +87,86 @@ std::vector<Vec3> centroids(const Mesh& mesh) {
   return centroids(mesh, all);
 }
 
-bool is_solid(TargetKind kind) {
-  return kind == TargetKind::hex || kind == TargetKind::volume;
+bool is_whole_model(const MeshedModel& input, const Target& target) {
+  return target.kind == EntityKind::volume && input.model &&
+         static_cast<int>(target.ids.size()) == input.model->count(3);
 }
 
-bool is_whole_model(const MeshedModel& input, const Request& request) {
-  return request.kind == TargetKind::volume && input.model &&
-         static_cast<int>(request.targets.size()) == input.model->count(3);
-}
-
-void check_targets(const MeshedModel& input, const Request& request) {
-  const std::string kind = name(request.kind);
-  if (request.targets.empty()) throw Error("no " + kind + " to refine");
+void check_targets(const MeshedModel& input, const Target& target) {
+  const std::string kind(name(target.kind));
+  if (target.ids.empty()) throw Error("no " + kind + " to refine");
   const auto check = [&](std::int64_t first, std::int64_t n) {
-    for (const Index id : request.targets)
+    for (const Index id : target.ids)
       if (id < first || id >= first + n)
         throw Error("there is no " + kind + " " + std::to_string(id - first + 1) + ": " +
                     (n == 0 ? "there are none" : kind + " ids go from 1 to " + std::to_string(n)));
   };
-  const int dim = cad_dimension(request.kind);
+  const int dim = cad_dimension(target.kind);
   if (dim >= 0 && !input.model) throw Error("there is no CAD and no facet model: refine by hex, face, edge or node");
   if (dim >= 0)
     check(1, input.model->count(dim));
-  else if (request.kind == TargetKind::node)
+  else if (target.kind == EntityKind::node)
     check(0, input.mesh.n_nodes());
-  else if (request.kind == TargetKind::hex)
+  else if (target.kind == EntityKind::hex)
     check(0, input.mesh.n_hexes());  // edges and faces are counted only when they are wanted: sub_element_target()
 }
 
-std::vector<Index> solid_target(const MeshedModel& input, const Request& request) {
-  if (request.kind == TargetKind::hex) return request.targets;
+std::vector<Index> solid_target(const MeshedModel& input, const Target& target) {
+  if (target.kind == EntityKind::hex) return target.ids;
   std::vector<Index> result;
   for (Index h = 0; h < input.mesh.n_hexes(); ++h)
-    if (std::ranges::binary_search(request.targets, input.association.hex_volume[h])) result.push_back(h);
-  if (result.empty()) throw Error("no hex of the mesh lies in volume " + std::to_string(request.targets.front()));
+    if (std::ranges::binary_search(target.ids, input.association.hex_volume[h])) result.push_back(h);
+  if (result.empty()) throw Error("no hex of the mesh lies in volume " + std::to_string(target.ids.front()));
   return result;
 }
 
-std::vector<Index> region_target(const MeshedModel& input, const Request& request, std::vector<std::string>& notices) {
-  if (request.radius) {
-    if (request.kind == TargetKind::edge || request.kind == TargetKind::face)
-      sub_element_target(input, request, notices);  // checks that they exist
-    return hexes_within(input, request);
+std::vector<Index> region_target(const MeshedModel& input, const Target& target, std::vector<std::string>& notices) {
+  if (target.radius) {
+    if (target.kind == EntityKind::edge || target.kind == EntityKind::face)
+      sub_element_target(input, target, notices);  // checks that they exist
+    return hexes_within(input, target);
   }
-  if (is_solid(request.kind)) return with_layers(input.mesh, solid_target(input, request), request.depth.value_or(0));
-  return layers_around(input.mesh, sub_element_target(input, request, notices).nodes, request.depth.value_or(1));
+  if (is_solid(target.kind)) return with_layers(input.mesh, solid_target(input, target), target.depth.value_or(0));
+  return layers_around(input.mesh, sub_element_target(input, target, notices).nodes, target.depth.value_or(1));
 }
 
-CombinationTarget sub_element_target(const MeshedModel& input, const Request& request,
+CombinationTarget sub_element_target(const MeshedModel& input, const Target& wanted,
                                      std::vector<std::string>& notices) {
   CombinationTarget target;
+  const std::string kind(name(wanted.kind));
   const auto check = [&](std::size_t n) {
-    for (const Index i : request.targets)
+    for (const Index i : wanted.ids)
       if (i < 0 || i >= static_cast<Index>(n))
-        throw Error(std::string("there is no ") + name(request.kind) + " " + std::to_string(i + 1) + ": " +
-                    name(request.kind) + " ids go from 1 to " + std::to_string(n));
+        throw Error("there is no " + kind + " " + std::to_string(i + 1) + ": " + kind + " ids go from 1 to " +
+                    std::to_string(n));
   };
-  switch (request.kind) {
-    case TargetKind::node:
-      target.nodes = request.targets;
+  switch (wanted.kind) {
+    case EntityKind::node:
+      target.nodes = wanted.ids;
       break;
-    case TargetKind::edge: {
+    case EntityKind::edge: {
       const Edges all = edges(input.mesh);
       check(all.nodes.size());
-      for (const Index e : request.targets) target.edges.push_back(all.nodes[e]);
+      for (const Index e : wanted.ids) target.edges.push_back(all.nodes[e]);
       break;
     }
-    case TargetKind::face: {
+    case EntityKind::face: {
       const Faces all = faces(input.mesh);
       check(all.nodes.size());
-      for (const Index f : request.targets) target.faces.push_back(all.nodes[f]);
+      for (const Index f : wanted.ids) target.faces.push_back(all.nodes[f]);
       break;
     }
     default: {
       std::string without;
-      for (const Index id : request.targets) {
+      for (const Index id : wanted.ids) {
         const std::size_t before = target.nodes.size();
-        add_cad_entity(input, {cad_dimension(request.kind), id}, target);
+        add_cad_entity(input, {cad_dimension(wanted.kind), id}, target);
         if (target.nodes.size() == before) without += " " + std::to_string(id);
       }
       if (target.nodes.empty())
-        throw Error(std::string("no node of the mesh lies on ") + name(request.kind) + without +
+        throw Error("no node of the mesh lies on " + kind + without +
                     ": the mesh does not resolve it, so there is nothing to refine");
-      if (!without.empty())
-        notices.push_back(std::string("no node of the mesh lies on ") + name(request.kind) + without);
+      if (!without.empty()) notices.push_back("no node of the mesh lies on " + kind + without);
     }
   }
   finish(target);

@@ -7,6 +7,7 @@
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/geom/facet/bilinear.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist {

@@ -8,9 +8,9 @@
 
 #include "hextwist/command/group.h"
 #include "hextwist/command/select/range.h"
+#include "hextwist/mesh/meshed_model.h"
 #include "hextwist/mesh/sheets.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/sizing/request.h"
 
 namespace hextwist {
 

@@ -20,9 +20,9 @@ int main(int argc, char** argv) try {
   const auto associated = hextwist::associate(file.mesh, *cad.model, &file.tags);
 
   hextwist::Request request;
-  request.kind = hextwist::TargetKind::curve;
-  for (int i = 4; i < argc; ++i) request.targets.push_back(std::stoi(argv[i]));
-  std::ranges::sort(request.targets);
+  request.target.kind = hextwist::EntityKind::curve;
+  for (int i = 4; i < argc; ++i) request.target.ids.push_back(std::stoi(argv[i]));
+  std::ranges::sort(request.target.ids);
 
   const auto result = hextwist::refine({file.mesh, cad.model, associated.association}, request);
   const auto& report = result.report;

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "hextwist/mesh/quality/histogram.h"
-#include "hextwist/patch/adapt.h"
+#include "hextwist/patch/refine.h"
 #include "hextwist/patch/verify.h"
 #include "hextwist/session/session_internal.h"
 #include "hextwist/sizing/targets.h"
@@ -11,30 +11,34 @@
 namespace hextwist {
 namespace {
 
-/// What is asked of sizes; the engine checks the rest, these have a place to point at.
-void read_sizes(const Execution& run, Request& request) {
+/// What is asked of sizes: nothing where no word is about them. The engine checks the rest, these have a place to point
+/// at.
+std::optional<Sizes> sizes_of(const Execution& run) {
   const Command& command = run.command;
-  if (const Item* radius = command.find("radius")) request.radius = radius->number;
+  const Item* splits = command.find("splits");
+  Sizes sizes;
   if (const Item* size = command.find("size")) {
-    request.size = size->number;
-    if (command.find("splits")) throw error_at(command.statement, size->token, "give numsplit or a size, not both");
+    sizes.size = size->number;
+    if (splits) throw error_at(command.statement, size->token, "give numsplit or a size, not both");
   }
   if (const Item* function = command.find("function")) {
-    request.size_field = named_size(run, *function);
+    sizes.field = named_size(run, *function);
   } else if (const Item* expression = command.find("expression")) {
-    request.size_field = typed_size(command, *expression);
+    sizes.field = typed_size(command, *expression);
   } else if (command.has("sizing_function")) {
     if (run.state.sizing.empty()) throw Error("there is no sizing function; define one with 'sizing function'");
-    request.size_field = run.state.sizing.at(run.state.last_sizing).field;
+    sizes.field = run.state.sizing.at(run.state.last_sizing).field;
   }
-  if (request.size_field && command.find("splits"))
-    throw error_at(command.statement, command.find("splits")->token, "give numsplit or a sizing function, not both");
+  if (sizes.field && splits)
+    throw error_at(command.statement, splits->token, "give numsplit or a sizing function, not both");
+  const bool is_asked = sizes.size || sizes.field;
   if (const Item* growth = command.find("growth")) {
-    request.bias = growth->number;
-    if (request.bias != 1 && !request.size && !request.size_field)
+    sizes.bias = growth->number;
+    if (sizes.bias != 1 && !is_asked)
       throw error_at(command.statement, growth->token,
                      "a bias other than 1 needs a size or a sizing function to grow from");
   }
+  return is_asked ? std::optional(sizes) : std::nullopt;
 }
 
 SizesRow sizes_row(const Mesh& mesh, const SizeReport& sizes) {
@@ -71,9 +75,9 @@ std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
 }
 
 /// `refine sheet ...`.
-SheetRequest sheets_of(const Execution& run) {
+AcrossSheets sheets_of(const Execution& run) {
   const Command& command = run.command;
-  SheetRequest request;
+  AcrossSheets request;
   if (const Item* range = command.find("range")) {
     request.edges = run.chosen(*range);
   } else {
@@ -94,67 +98,58 @@ SheetRequest sheets_of(const Execution& run) {
   return request;
 }
 
-void read_direction(const Command& command, Request& request) {
-  request.through_thickness = command.has("thickness");
-  if (const Item* n = command.find("n")) {
-    request.layers = LayerRequest{.n_layers = static_cast<int>(n->number)};
-    if (const Item* ratio = command.find("ratio")) request.layers->growth = ratio->number;
-  }
+How how_of(const Execution& run) {
+  const Command& command = run.command;
+  const Item* splits = command.find("splits");
+  const int numsplit = splits ? static_cast<int>(splits->number) : 1;
+  const std::optional<Sizes> sizes = sizes_of(run);
+  const Item* layers = command.find("n");
+  if ((command.has("thickness") || layers) && sizes)
+    throw Error("a direction goes with numsplit, not with sizes, depth, radius or a method");
+  if (command.has("graded") && (numsplit != 1 || sizes || command.has("thickness") || layers))
+    throw Error("graded cuts whole hexes once: it goes with depth, radius and concave only");
+  if (sizes) return *sizes;
+  if (command.has("thickness")) return Thickness{numsplit};
+  if (!layers) return Cuts{numsplit};
+  if (numsplit != 1) throw Error("give a number of layers or numsplit, not both");
+  Layers result{.n_layers = static_cast<int>(layers->number)};
+  if (const Item* ratio = command.find("ratio")) result.growth = ratio->number;
+  return result;
 }
 
-/// What every refinement can be told.
-void read_common(const Execution& run, Request& request) {
+Target target_of(const Execution& run) {
   const Command& command = run.command;
-  request.concave = command.has("fill") ? Concave::fill : Concave::templates;
-  request.smooth = command.has("smooth");
-  if (run.state.fixed_nodes) request.fixed = *run.state.fixed_nodes;
-  request.dry_run = command.has("dry_run");
+  const Item& range = *command.find("range");
+  Target target{.kind = range.kind, .ids = run.chosen(range)};
+  if (is_cad(range.kind))
+    for (Index& id : target.ids) ++id;
+  if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
+    if (!is_whole_model(*run.state.meshed, target))
+      throw error_at(command.statement, splits->token,
+                     "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
+  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
+  if (const Item* radius = command.find("radius")) target.radius = radius->number;
+  return target;
 }
 
 Request request_of(const Execution& run) {
   const Command& command = run.command;
+  Request request{.concave = command.has("fill") ? Concave::fill : Concave::templates,
+                  .finish = {.smooth = command.has("smooth"), .dry_run = command.has("dry_run")}};
+  if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
   if (command.has("sheet")) {
-    Request request{.sheets = sheets_of(run)};
-    read_common(run, request);
+    request.how = sheets_of(run);
     return request;
   }
-  const Item& range = *command.find("range");
-  Request request;
-  request.kind = static_cast<TargetKind>(range.kind);  // the same order, as far as that goes
-  static_assert(static_cast<int>(TargetKind::volume) == static_cast<int>(EntityKind::volume));
-  request.targets = run.chosen(range);
-  const bool whole =
-      range.kind == EntityKind::volume && static_cast<int>(request.targets.size()) == run.state.meshed->model->count(3);
-  if (is_cad(range.kind))
-    for (Index& target : request.targets) ++target;
-  if (const Item* splits = command.find("splits")) {
-    request.numsplit = static_cast<int>(splits->number);
-    if (request.numsplit > max_numsplit && !whole)
-      throw error_at(command.statement, splits->token,
-                     "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
-  }
-  if (const Item* layers = command.find("layers")) request.depth = static_cast<int>(layers->number);
-  read_sizes(run, request);
-  read_direction(command, request);
-  read_common(run, request);
+  request.target = target_of(run);
+  request.how = how_of(run);
   for (const Method method : {Method::automatic, Method::single, Method::parallel, Method::combination})
     if (command.has(name(method))) request.method = method;
-  return request;
-}
-
-/// `graded`: through the adaptive call, which keeps the levels.
-RefineResult refine_graded(const Execution& run, const Request& request) {
-  if (request.numsplit != 1 || request.size || request.size_field || request.method != Method::automatic ||
-      request.through_thickness || request.layers)
+  if (!command.has("graded")) return request;
+  if (request.method != Method::automatic)
     throw Error("graded cuts whole hexes once: it goes with depth, radius and concave only");
-  const MeshedModel& meshed = *run.state.meshed;
-  std::vector<std::string> notices;
-  std::vector<std::uint8_t> flags(meshed.mesh.hexes.size(), 0);
-  for (const Index h : region_target(meshed, request, notices)) flags[h] = 1;
-  AdaptResult result =
-      adapt(meshed, flags, {.concave = request.concave, .smooth = request.smooth}, run.core.callbacks.progress);
-  std::ranges::move(notices, std::back_inserter(result.report.notices));
-  return {std::move(result.refined), {}, std::move(result.origin), std::move(result.report)};
+  request.levels = Levels::graded;
+  return request;
 }
 
 /// What the session knows of its mesh, so that it need not be measured again.
@@ -255,18 +250,14 @@ void do_refine(Execution& run) {
   run.stage("select");
   const Request request = request_of(run);
   run.close_stage();
-  RefineResult result;
-  if (run.command.has("graded")) {
-    result = refine_graded(run, request);
-  } else {
-    const Measured known = known_of(state);
-    std::optional<PatchResult> patch = refine_in_patch(run, known, request);
-    if (patch && patch->is_verified) return splice_in(run, std::move(*patch));
-    result = finish(std::move(patch), *state.meshed, known, request, run.core.callbacks.progress);
-  }
+  const Measured known = known_of(state);
+  std::optional<PatchResult> patch = refine_in_patch(run, known, request);
+  if (patch && patch->is_verified) return splice_in(run, std::move(*patch));
+  RefineResult result = patch ? whole_result(std::move(*patch), *state.meshed, known, request)
+                              : refine_whole(*state.meshed, &known, request, run.core.callbacks.progress);
   const Report& report = result.report;
-  const std::string line = tell(run, report, request.dry_run);
-  if (request.dry_run) {
+  const std::string line = tell(run, report, request.finish.dry_run);
+  if (request.finish.dry_run) {
     run.record.dry_run = true;
     run.record.after.hexes = report.hexes_after;
     run.record.after.nodes = report.nodes_after;

@@ -51,7 +51,7 @@ SizeFieldPtr from_curvature(const Execution& run) {
 SizeFieldPtr from_sources(const Execution& run) {
   const Command& command = run.command;
   const Item& range = *command.find("range");
-  const auto kind = static_cast<TargetKind>(range.kind);
+  const EntityKind kind = range.kind;
   return growing_size(command.find("size")->number, growth_of(command),
                       std::make_shared<TargetDistance>(*run.state.meshed, kind, targets_of(run, range)));
 }

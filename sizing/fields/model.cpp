@@ -129,7 +129,7 @@ SizeFieldPtr interval_size(const MeshedModel& input, std::span<const Index> curv
     const double length = input.model->measure({1, curve});
     if (!(length > 0)) continue;  // a pole
     fields.push_back(growing_size(length / n_intervals, growth,
-                                  std::make_shared<TargetDistance>(input, TargetKind::curve, std::span(&curve, 1))));
+                                  std::make_shared<TargetDistance>(input, EntityKind::curve, std::span(&curve, 1))));
   }
   if (fields.empty()) throw Error("none of these curves has a length");
   return smallest_of(std::move(fields));

@@ -2,12 +2,10 @@
 #include <algorithm>
 
 #include "hextwist/refine/marks.h"
-#include "hextwist/refine/plans/eight.h"
-#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
-#include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
 namespace {
@@ -50,58 +48,72 @@ void tell(const EightPlan& plan, const Mesh& mesh, int round, std::vector<std::s
                       " one into eight, " + std::to_string(n_trisected) + " one into 27");
 }
 
-/// What is still to be done after a pass, in the numbers of the new mesh.
-struct Remaining {
-  EightPlan plan;
-  std::vector<Index> targets;  ///< ascending
-  std::size_t next_pass = 0;
-};
+class Eight : public Technique {
+ public:
+  explicit Eight(State& state)
+      : targets_(region_target(state.input, state.request.target, state.report.notices)),
+        n_rounds_(std::get<Cuts>(state.request.how).numsplit) {}
 
-void pass(Pipeline& run, Remaining& rest, std::shared_ptr<const SplitTable> table, std::span<const std::uint16_t> codes,
-          const std::function<void()>& after_pass) {
-  if (std::ranges::all_of(codes, [](std::uint16_t code) { return code == 0; })) return;
-  const std::vector<Hex> old_hexes = run.current().mesh.hexes;  // the pass replaces the mesh
-  run.pass(std::move(table), codes);
-  rest.targets = children_of(run.lineage(), rest.targets);
-  rest.plan.trisected = children_of(run.lineage(), rest.plan.trisected);
-  for (std::size_t p = rest.next_pass; p < rest.plan.passes.size(); ++p)
-    carry_marks(run.lineage(), old_hexes, run.current().mesh.n_nodes(), rest.plan.passes[p]);
-  if (after_pass) after_pass();
-}
+  std::optional<Cut> next(State& state) override {
+    for (;;) {
+      if (round_) {
+        if (auto cut = round_->next(state)) return cut;
+        targets_ = round_->take_targets();
+        round_.reset();
+      }
+      if (n_done_ == n_rounds_) return std::nullopt;
+      state.begin("close");
+      EightPlan plan = plan_eight(state.mesh(), targets_);
+      tell(plan, state.mesh(), n_done_++, state.report.notices);
+      round_.emplace(std::move(plan), std::move(targets_));
+    }
+  }
+  void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
+    round_->follow(lineage, before, after);
+  }
+
+ private:
+  std::vector<Index> targets_;
+  int n_rounds_, n_done_ = 0;
+  std::optional<EightRound> round_;
+};
 
 }  // namespace
 
-std::vector<Index> eight_round(Pipeline& run, EightPlan plan, std::vector<Index> targets,
-                               const std::function<void()>& after_pass) {
-  Remaining rest{std::move(plan), std::move(targets)};
-  if (!rest.plan.alone.empty()) {
-    std::vector<std::uint16_t> codes(run.current().mesh.hexes.size(), 0);
-    for (const Index h : rest.plan.alone) codes[h] = 1;
-    pass(run, rest, uniform_table(2), codes, after_pass);
+std::optional<Cut> EightRound::next(State& state) {
+  const Mesh& mesh = state.mesh();
+  const auto cuts = [](const Cut& cut) { return std::ranges::any_of(cut.codes, [](int code) { return code != 0; }); };
+  if (!plan_.alone.empty()) {
+    Cut cut{uniform_table(2), std::vector<std::uint16_t>(mesh.hexes.size(), 0)};
+    for (const Index h : plan_.alone) cut.codes[h] = 1;
+    plan_.alone.clear();
+    return cut;
   }
-  while (rest.next_pass < rest.plan.passes.size()) {
-    const std::vector<std::uint8_t> marked = std::move(rest.plan.passes[rest.next_pass++]);
-    pass(run, rest, enclose_table(EncloseAt::half), enclose_codes(run.current().mesh.hexes, marked), after_pass);
+  while (next_pass_ < plan_.passes.size()) {
+    const std::vector<std::uint8_t> marked = std::move(plan_.passes[next_pass_++]);
+    if (Cut cut{enclose_table(EncloseAt::half), enclose_codes(mesh.hexes, marked)}; cuts(cut)) return cut;
   }
-  if (rest.plan.trisected.empty() && rest.plan.thirds.empty()) return std::move(rest.targets);
-  const Mesh& mesh = run.current().mesh;
+  if (plan_.trisected.empty() && plan_.thirds.empty()) return std::nullopt;
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  mark_nodes(mesh.hexes, rest.plan.trisected, marked);
-  if (run.request().concave == Concave::fill) run.report().filled_hexes += fill_concave(mesh, marked);
+  mark_nodes(mesh.hexes, plan_.trisected, marked);
+  if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
   std::vector<Index> halved;
-  std::ranges::set_difference(rest.targets, rest.plan.trisected, std::back_inserter(halved));
-  pass(run, rest, trisect_table(), thirds_codes(mesh, halved, rest.plan.thirds, marked), after_pass);
-  return std::move(rest.targets);
+  std::ranges::set_difference(targets_, plan_.trisected, std::back_inserter(halved));
+  Cut cut{trisect_table(), thirds_codes(mesh, halved, plan_.thirds, marked)};
+  plan_.trisected.clear();
+  plan_.thirds.clear();
+  return cuts(cut) ? std::optional(std::move(cut)) : std::nullopt;
 }
 
-void eight_passes(Pipeline& run) {
-  std::vector<Index> targets = region_target(run.input(), run.request(), run.report().notices);
-  for (int round = 0; round < run.request().numsplit; ++round) {
-    run.stages().begin("close", run.fraction());
-    EightPlan plan = plan_eight(run.current().mesh, targets);
-    tell(plan, run.current().mesh, round, run.report().notices);
-    targets = eight_round(run, std::move(plan), std::move(targets), {});
-  }
+void EightRound::follow(const Lineage& lineage, const Mesh& before, const Mesh& after) {
+  targets_ = children_of(lineage, targets_);
+  plan_.trisected = children_of(lineage, plan_.trisected);
+  for (std::size_t p = next_pass_; p < plan_.passes.size(); ++p)
+    carry_marks(lineage, before.hexes, after.n_nodes(), plan_.passes[p]);
+}
+
+std::unique_ptr<Technique> eight_technique(State& state) {
+  return std::make_unique<Eight>(state);
 }
 
 }  // namespace hextwist

@@ -6,24 +6,23 @@
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/sheets.h"
-#include "hextwist/refine/templates/enclose.h"
 #include "hextwist/refine/templates/trisect.h"
-#include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
 namespace {
 
-/// Cuts marked edges in three. With Concave::fill a direction that is concave in a hex is cut whole, and so on.
-void cut_edges(Pipeline& run, const Edges& edges, std::vector<std::uint8_t>& cut) {
-  const Mesh& mesh = run.current().mesh;
+/// Marked edges in three. With Concave::fill a direction that is concave in a hex is cut whole, and so on.
+Cut cut_edges(State& state, const Edges& edges, std::vector<std::uint8_t>& cut) {
+  const Mesh& mesh = state.mesh();
   std::vector<std::uint16_t> codes(mesh.hexes.size(), 0);
   const auto code = [&](Index h) {
     int mask = 0;
     for (int e = 0; e < n_hex_edges; ++e) mask |= (cut[edges.of_hex[h][e]] != 0) << e;
     return mask;
   };
-  bool changed = run.request().concave == Concave::fill;
+  bool changed = state.request.concave == Concave::fill;
   while (changed) {
     changed = false;
     for (Index h = 0; h < mesh.n_hexes(); ++h) {
@@ -32,13 +31,13 @@ void cut_edges(Pipeline& run, const Edges& edges, std::vector<std::uint8_t>& cut
         const int four = mask >> 4 * axis & 15;
         if (!is_concave_in_a_direction(four << 4 * axis) || four == 15) continue;
         for (int k = 0; k < 4; ++k) cut[edges.of_hex[h][4 * axis + k]] = 1;
-        ++run.report().filled_hexes;
+        ++state.report.filled_hexes;
         changed = true;
       }
     }
   }
   for (Index h = 0; h < mesh.n_hexes(); ++h) codes[h] = static_cast<std::uint16_t>(code(h));
-  run.pass(trisect_table(), codes);
+  return {trisect_table(), std::move(codes)};
 }
 
 double length_of(const Mesh& mesh, const Edge& edge) {
@@ -67,78 +66,120 @@ std::vector<std::uint8_t> edges_behind(const Mesh& mesh, const Edges& edges, con
   return cut;
 }
 
+class AcrossTheSheets : public Technique {
+ public:
+  std::optional<Cut> next(State& state) override {
+    if (is_done_) return std::nullopt;
+    is_done_ = true;
+    const AcrossSheets& request = std::get<AcrossSheets>(state.request.how);
+    const Mesh& mesh = state.mesh();
+    state.begin("sheets");
+    const Edges all = edges(mesh);
+    for (const Index e : request.edges)
+      if (e < 0 || e >= static_cast<Index>(all.nodes.size()))
+        throw Error("there is no edge " + std::to_string(e + 1) + ": edge ids go from 1 to " +
+                    std::to_string(all.nodes.size()));
+    const Sheets of = sheets(mesh, all);
+    std::vector<std::uint8_t> chosen(of.size(), 0);
+    if (!request.crossing) {
+      for (const Index e : request.edges) chosen[of.of_edge[e]] = 1;
+    } else {
+      std::vector<std::uint8_t> wanted(all.nodes.size(), 0), along(of.size(), 0);
+      for (const Index e : request.edges) wanted[e] = along[of.of_edge[e]] = 1;
+      for (const auto& hex : all.of_hex)
+        if (std::ranges::any_of(hex, [&](Index e) { return wanted[e] != 0; }))
+          for (const Index e : hex)
+            if (!along[of.of_edge[e]]) chosen[of.of_edge[e]] = 1;
+    }
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < all.nodes.size(); ++e)
+      if (chosen[of.of_edge[e]]) shortest = std::min(shortest, length_of(mesh, all.nodes[e]));
+    const double above = std::max(request.greater_than.value_or(0), request.factor.value_or(0) * shortest);
+    std::vector<std::uint8_t> cut(all.nodes.size(), 0);
+    Index n_cut = 0, n_edges = 0;
+    for (std::size_t e = 0; e < cut.size(); ++e) {
+      if (!chosen[of.of_edge[e]]) continue;
+      ++n_edges;
+      cut[e] = length_of(mesh, all.nodes[e]) > above;
+      n_cut += cut[e];
+    }
+    state.note("cut " + std::to_string(n_cut) + " of the " + std::to_string(n_edges) + " edges of " +
+               std::to_string(std::ranges::count(chosen, 1)) + " sheets");
+    if (n_cut == 0) return std::nullopt;
+    return cut_edges(state, all, cut);
+  }
+  void follow(const Lineage&, const Mesh&, const Mesh&) override {}
+
+ private:
+  bool is_done_ = false;
+};
+
+class ThroughThickness : public Technique {
+ public:
+  explicit ThroughThickness(State& state)
+      : target_(sub_element_target(state.input, state.request.target, state.report.notices)),
+        n_left_(std::get<Thickness>(state.request.how).numsplit) {}
+
+  std::optional<Cut> next(State& state) override {
+    if (n_left_-- == 0) return std::nullopt;
+    state.begin("close");
+    const Edges all = edges(state.mesh());
+    std::vector<std::uint8_t> cut = edges_behind(state.mesh(), all, target_);
+    return cut_edges(state, all, cut);
+  }
+  void follow(const Lineage& lineage, const Mesh&, const Mesh& after) override {
+    target_ = carried_target(target_, lineage, after);
+  }
+
+ private:
+  CombinationTarget target_;
+  int n_left_;
+};
+
+class AlongTarget : public Technique {
+ public:
+  explicit AlongTarget(State& state)
+      : target_(sub_element_target(state.input, state.request.target, state.report.notices)),
+        growth_(std::get<Layers>(state.request.how).growth),
+        n_(std::get<Layers>(state.request.how).n_layers) {}
+
+  /// The outermost layer is cut off first; what remains of the first layer is then divided in the same way.
+  std::optional<Cut> next(State& state) override {
+    if (n_ <= 1) return std::nullopt;
+    state.begin("close");
+    double inner = 0, last = 1;
+    for (int i = 1; i < n_; ++i) {
+      inner += last;
+      last *= growth_;
+    }
+    --n_;
+    const Mesh& mesh = state.mesh();
+    std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+    for (const Index node : target_.nodes) marked[node] = 1;
+    if (const Index n_added = close_enclosure(mesh.hexes, marked); n_added > 0)
+      state.note("enclosed " + std::to_string(n_added) + " nodes more than the target has, for want of a template");
+    return Cut{enclose_table(inner / (inner + last)), enclose_codes(mesh.hexes, marked)};
+  }
+  void follow(const Lineage& lineage, const Mesh&, const Mesh& after) override {
+    target_ = carried_target(target_, lineage, after);
+  }
+
+ private:
+  CombinationTarget target_;
+  double growth_;
+  int n_;
+};
+
 }  // namespace
 
-void sheet_passes(Pipeline& run) {
-  const SheetRequest& request = *run.request().sheets;
-  const Mesh& mesh = run.current().mesh;
-  run.stages().begin("sheets", 0);
-  const Edges all = edges(mesh);
-  for (const Index e : request.edges)
-    if (e < 0 || e >= static_cast<Index>(all.nodes.size()))
-      throw Error("there is no edge " + std::to_string(e + 1) + ": edge ids go from 1 to " +
-                  std::to_string(all.nodes.size()));
-  const Sheets of = sheets(mesh, all);
-  std::vector<std::uint8_t> chosen(of.size(), 0);
-  if (!request.crossing) {
-    for (const Index e : request.edges) chosen[of.of_edge[e]] = 1;
-  } else {
-    std::vector<std::uint8_t> wanted(all.nodes.size(), 0), along(of.size(), 0);
-    for (const Index e : request.edges) wanted[e] = along[of.of_edge[e]] = 1;
-    for (const auto& hex : all.of_hex)
-      if (std::ranges::any_of(hex, [&](Index e) { return wanted[e] != 0; }))
-        for (const Index e : hex)
-          if (!along[of.of_edge[e]]) chosen[of.of_edge[e]] = 1;
-  }
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < all.nodes.size(); ++e)
-    if (chosen[of.of_edge[e]]) shortest = std::min(shortest, length_of(mesh, all.nodes[e]));
-  const double above = std::max(request.greater_than.value_or(0), request.factor.value_or(0) * shortest);
-  std::vector<std::uint8_t> cut(all.nodes.size(), 0);
-  Index n_cut = 0, n_edges = 0;
-  for (std::size_t e = 0; e < cut.size(); ++e) {
-    if (!chosen[of.of_edge[e]]) continue;
-    ++n_edges;
-    cut[e] = length_of(mesh, all.nodes[e]) > above;
-    n_cut += cut[e];
-  }
-  run.report().notices.push_back("cut " + std::to_string(n_cut) + " of the " + std::to_string(n_edges) + " edges of " +
-                                 std::to_string(std::ranges::count(chosen, 1)) + " sheets");
-  if (n_cut == 0) return run.keep();
-  cut_edges(run, all, cut);
+std::unique_ptr<Technique> sheets_technique(State&) {
+  return std::make_unique<AcrossTheSheets>();
 }
-
-void thickness_passes(Pipeline& run) {
-  CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
-  for (int i = 0; i < run.request().numsplit; ++i) {
-    run.stages().begin("close", run.fraction());
-    const Edges all = edges(run.current().mesh);
-    std::vector<std::uint8_t> cut = edges_behind(run.current().mesh, all, target);
-    cut_edges(run, all, cut);
-    target = carried_target(target, run.lineage(), run.current().mesh);
-  }
+std::unique_ptr<Technique> thickness_technique(State& state) {
+  return std::make_unique<ThroughThickness>(state);
 }
-
-void layer_passes(Pipeline& run) {
-  const LayerRequest& layers = *run.request().layers;
-  CombinationTarget target = sub_element_target(run.input(), run.request(), run.report().notices);
-  // The outermost layer is cut off first; what remains of the first layer is then divided in the same way.
-  for (int n = layers.n_layers; n > 1; --n) {
-    run.stages().begin("close", run.fraction());
-    double inner = 0, last = 1;
-    for (int i = 1; i < n; ++i) {
-      inner += last;
-      last *= layers.growth;
-    }
-    std::vector<std::uint8_t> marked(run.current().mesh.points.size(), 0);
-    for (const Index node : target.nodes) marked[node] = 1;
-    const Index n_added = close_enclosure(run.current().mesh.hexes, marked);
-    if (n_added > 0)
-      run.report().notices.push_back("enclosed " + std::to_string(n_added) +
-                                     " nodes more than the target has, for want of a template");
-    run.pass(enclose_table(inner / (inner + last)), enclose_codes(run.current().mesh.hexes, marked));
-    target = carried_target(target, run.lineage(), run.current().mesh);
-  }
+std::unique_ptr<Technique> layers_technique(State& state) {
+  return std::make_unique<AlongTarget>(state);
 }
 
 }  // namespace hextwist

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "hextwist/refine/place.h"
-#include "hextwist/sizing/pipeline.h"
-#include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
 namespace {
@@ -23,12 +22,14 @@ struct Candidate {
   bool has_done = false;  ///< more than threes alone would have
 };
 
-Candidate attempt(const Pipeline& from, const Report& start, SizeTechnique technique) {
+Candidate attempt(const State& from, const Report& start, Approach approach) {
   Candidate candidate;
   candidate.report = start;
-  Pipeline run(from.input(), from.request(), candidate.report, from.progress());
-  candidate.has_done = size_passes(run, technique);
-  candidate.result = run.take_result();
+  State state(from.input, from.request, candidate.report, from.progress);
+  const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
+  state.run(*technique);
+  candidate.has_done = technique->has_done();
+  candidate.result = state.take_result();
   return candidate;
 }
 
@@ -56,31 +57,23 @@ std::string rounded(double value) {
 
 }  // namespace
 
-void nearest_sizes(Pipeline& run) {
-  const Request& request = run.request();
-  // Where the wish changes from place to place, halved regions have steps for sides, which twos meet badly. What is
-  // refined towards the target alone then comes nearer; where the wish does not change, it is for whole hexes.
-  const bool varies = request.bias > 1 || request.size_field;
-  const bool may_combine = request.size && request.bias > 1 && !is_solid(request.kind) && !request.depth &&
-                           !request.radius && request.levels == Levels::ignored;
-  if (varies && !may_combine) {
-    size_passes(run, SizeTechnique::thirds);
-    return;
-  }
-  run.stages().close();  // those of the candidates count
-  const Report start = run.report();
-  Candidate mixed = attempt(run, start, varies ? SizeTechnique::combination : SizeTechnique::halves);
+void run_nearest_size(State& state) {
+  const Sizes& sizes = std::get<Sizes>(state.request.how);
+  const bool varies = sizes.bias > 1;
+  state.stages.close();  // those of the candidates count
+  const Report start = state.report;
+  Candidate mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
   if (!mixed.has_done) {
-    run.report() = std::move(mixed.report);
-    return run.adopt(std::move(mixed.result));
+    state.report = std::move(mixed.report);
+    return state.adopt(std::move(mixed.result));
   }
-  Candidate thirds = attempt(run, start, SizeTechnique::thirds);
+  Candidate thirds = attempt(state, start, Approach::size_by_threes);
   judge(mixed);
   judge(thirds);
   const bool takes_mixed = is_better(mixed, thirds);
   Candidate& better = takes_mixed ? mixed : thirds;
   const Candidate& other = takes_mixed ? thirds : mixed;
-  Report& report = run.report();
+  Report& report = state.report;
   report = std::move(better.report);
   const double wasted = other.report.total_seconds - start.total_seconds;
   report.seconds.push_back({"other technique", wasted});
@@ -92,7 +85,7 @@ void nearest_sizes(Pipeline& run) {
   report.notices.push_back(std::string(taken) + ": sizes are off by a factor of " + rounded(std::exp(better.distance)) +
                            " on average, not " + rounded(std::exp(other.distance)) + "; the worst shape is " +
                            rounded(better.worst_shape) + ", not " + rounded(other.worst_shape));
-  run.adopt(std::move(better.result));
+  state.adopt(std::move(better.result));
 }
 
 }  // namespace hextwist

@@ -12,10 +12,10 @@
 #include "hextwist/sizing/factors.h"
 #include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/levels.h"
-#include "hextwist/sizing/pipeline.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/target_distance.h"
 #include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
 namespace {
@@ -23,13 +23,22 @@ namespace {
 /// An edge is cut while it is longer than this times the wish, so that its pieces are no shorter than one over this.
 constexpr double most_too_long = std::numbers::sqrt3;
 
+const Sizes& sizes_of(const Request& request) {
+  return std::get<Sizes>(request.how);
+}
+bool has_size(const Request& request) {
+  return sizes_of(request).size.has_value();
+}
+
 /// Where a request's target is, as far as the sizes of its own edges and of the hexes at it are concerned.
 class AtTarget {
  public:
   AtTarget(const MeshedModel& input, const Request& request)
-      : is_point_(request.size && (request.kind == TargetKind::node || request.kind == TargetKind::vertex)),
+      : is_point_(has_size(request) &&
+                  (request.target.kind == EntityKind::node || request.target.kind == EntityKind::vertex)),
         close_(1e-6 * box(input.mesh).diagonal()) {
-    if (request.size && !is_solid(request.kind)) distance_.emplace(input, request.kind, request.targets);
+    if (has_size(request) && !is_solid(request.target.kind))
+      distance_.emplace(input, request.target.kind, request.target.ids);
   }
   /// The target is nodes or vertices, for which a size was named: no edges lie on it, so the hexes that touch it are
   /// what is to have that size.
@@ -134,12 +143,9 @@ std::vector<Index> at_points(const Mesh& mesh, std::span<const Index> hexes, con
 /// would find out. A hex becomes at least as many as stand along (a curve), on (a surface) or in the target.
 void check_wish_fits(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish,
                      const Request& request) {
-  const int dim = is_solid(request.kind)                                                    ? 3
-                  : request.kind == TargetKind::surface || request.kind == TargetKind::face ? 2
-                  : request.kind == TargetKind::curve || request.kind == TargetKind::edge   ? 1
-                                                                                            : 0;
+  const int dim = dimension(request.target.kind);
   const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, wish);
-  const double most = std::pow(3.0, request.max_passes);
+  const double most = std::pow(3.0, sizes_of(request).max_passes);
   double n = mesh.n_hexes();
   for (std::size_t i = 0; i < size.size(); ++i)
     n += std::pow(std::clamp(size[i] / (most_too_long * wished[i]), 1.0, most), dim) - 1;
@@ -184,7 +190,7 @@ Step choose_step(const Mesh& mesh, const Request& request, const SizeField& wish
     return hexes;
   };
   mark_nodes(mesh.hexes, at_points(mesh, step.too_large, target), marked);
-  const bool is_constant = request.bias == 1 && !request.size_field;
+  const bool is_constant = sizes_of(request).bias == 1 && !sizes_of(request).field;
   if (is_constant || wish.jumps()) mark_nodes(mesh.hexes, step.too_large, marked);
   mark_wishing_nodes(mesh, missed(), wish, most_too_long, marked);
   mark_nodes(mesh.hexes, missed(), marked);
@@ -244,101 +250,168 @@ std::vector<std::uint8_t> touching(const CombinationTarget& target, const Mesh& 
   return result;
 }
 
-}  // namespace
-
 SizeFieldPtr wish_of(const MeshedModel& input, const Request& request) {
+  const Sizes& sizes = sizes_of(request);
   std::vector<SizeFieldPtr> fields;
-  if (request.size)
+  if (sizes.size)
     fields.push_back(growing_size(
-        *request.size, request.bias,
-        request.bias == 1 ? nullptr : std::make_shared<TargetDistance>(input, request.kind, request.targets)));
-  if (request.size_field) {
-    fields.push_back(request.size_field);
-    if (request.bias > 1) fields.push_back(limited_growth(input.mesh, request.size_field, request.bias));
+        *sizes.size, sizes.bias,
+        sizes.bias == 1 ? nullptr : std::make_shared<TargetDistance>(input, request.target.kind, request.target.ids)));
+  if (sizes.field) {
+    fields.push_back(sizes.field);
+    if (sizes.bias > 1) fields.push_back(limited_growth(input.mesh, sizes.field, sizes.bias));
   }
   return smallest_of(std::move(fields));
 }
 
-bool size_passes(Pipeline& run, SizeTechnique technique) {
-  const Request& request = run.request();
-  const bool halves = technique == SizeTechnique::halves, combines = technique == SizeTechnique::combination;
-  const SizeFieldPtr wish = wish_of(run.input(), request);
-  const bool everywhere = request.bias > 1 && !request.depth && !request.radius;
-  const AtTarget target(run.input(), request);
-  std::vector<Index> targets = region_target(run.input(), request, run.report().notices);
-  std::vector<std::uint8_t> in_zone(run.input().mesh.hexes.size(), everywhere);
-  for (const Index h : targets) in_zone[h] = 1;
-  std::vector<std::uint8_t> in_report = in_zone;
-  if (everywhere) {
-    std::ranges::fill(in_report, 0);
-    for (const Index h : targets) in_report[h] = 1;
+/// Trisects what is too large; the other two do something else first.
+class ByThrees : public SizeTechnique {
+ public:
+  explicit ByThrees(State& state)
+      : wish_(wish_of(state.input, state.request)),
+        everywhere_(sizes_of(state.request).bias > 1 && !state.request.target.depth && !state.request.target.radius),
+        target_(state.input, state.request) {
+    const std::vector<Index> targets = region_target(state.input, state.request.target, state.report.notices);
+    in_zone_.assign(state.input.mesh.hexes.size(), everywhere_);
+    in_report_.assign(state.input.mesh.hexes.size(), 0);
+    for (const Index h : targets) in_zone_[h] = in_report_[h] = 1;
   }
-  const auto carry_zones = [&] {
-    const Lineage& lineage = run.lineage();
+
+  bool has_done() const override { return has_done_; }
+
+  std::optional<Cut> next(State& state) override {
+    const int max_passes = sizes_of(state.request).max_passes;
+    for (;;) {
+      if (auto cut = go_on(state)) return cut;
+      state.begin("sizes");
+      const Mesh& mesh = state.mesh();
+      std::vector<Index> too_large = too_large_hexes(mesh, *wish_, in_zone_, target_);
+      if (n_passes_ == 0) check_wish_fits(mesh, too_large, *wish_, state.request);
+      if (n_passes_ < max_passes && begin_round(mesh, too_large)) {
+        ++n_passes_;
+        has_done_ = true;
+        continue;
+      }
+      Step step = choose_step(mesh, state.request, *wish_, target_, in_zone_, std::move(too_large), state.report);
+      if (step.codes.empty()) return std::nullopt;
+      if (n_passes_ == max_passes) {
+        unmet_ = std::move(step.too_large);
+        return std::nullopt;
+      }
+      return Cut{step.table, std::move(step.codes), n_passes_++ > 0};
+    }
+  }
+
+  void follow(const Lineage& lineage, const Mesh&, const Mesh&) override {
     const std::size_t n_kept = lineage.n_old_hexes - lineage.hexes.size();
     std::vector<std::uint8_t> zone(lineage.parent.size()), reported(lineage.parent.size());
     for (std::size_t h = 0; h < lineage.parent.size(); ++h) {
-      zone[h] = in_zone[lineage.parent[h]];
-      reported[h] = in_report[lineage.parent[h]] || (everywhere && h >= n_kept);
+      zone[h] = in_zone_[lineage.parent[h]];
+      reported[h] = in_report_[lineage.parent[h]] || (everywhere_ && h >= n_kept);
     }
-    in_zone = std::move(zone);
-    in_report = std::move(reported);
-  };
-  CombinationTarget at;
-  if (combines) at = sub_element_target(run.input(), request, run.report().notices);
-  const auto carry_all = [&] {
-    carry_zones();
-    if (!combines) return;
-    at = carried_target(at, run.lineage(), run.current().mesh);
-    // Depth 0: what touches the target now is all that is wished for.
-    if (!everywhere) in_zone = in_report = touching(at, run.current().mesh);
-  };
-  int n_passes = 0;
-  bool has_done = false;
-  std::vector<Index> unmet;
-  while (true) {
-    run.stages().begin("sizes", run.fraction());
-    const Mesh& mesh = run.current().mesh;
-    std::vector<Index> too_large = too_large_hexes(mesh, *wish, in_zone, target);
-    if (n_passes == 0) check_wish_fits(mesh, too_large, *wish, request);
-    if (halves && n_passes < request.max_passes) {
-      EightPlan plan;
-      if (std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish, plan); !halved.empty()) {
-        eight_round(run, std::move(plan), std::move(halved), carry_zones);
-        ++n_passes;
-        has_done = true;
-        continue;
-      }
-    }
-    if (combines && !too_large.empty() && n_passes < request.max_passes) {
-      const std::vector<std::uint8_t> touches = touching(at, mesh);
-      if (std::ranges::all_of(too_large, [&](Index h) { return touches[h] != 0; })) {
-        if (n_passes > 0) run.smooth_between_passes();
-        combination_round(run, part_at(at, run.current().mesh, too_large), carry_all);
-        ++n_passes;
-        has_done = true;
-        continue;
-      }
-    }
-    Step step = choose_step(mesh, request, *wish, target, in_zone, std::move(too_large), run.report());
-    if (step.codes.empty()) break;
-    if (n_passes == request.max_passes) {
-      unmet = std::move(step.too_large);
-      break;
-    }
-    if (n_passes > 0) run.smooth_between_passes();
-    run.pass(step.table, step.codes);
-    ++n_passes;
-    carry_all();
+    in_zone_ = std::move(zone);
+    in_report_ = std::move(reported);
   }
-  if (n_passes == 0) run.keep();
-  SizeReport report =
-      size_report(run.current().mesh,
-                  indices_where(run.current().mesh.n_hexes(), [&](Index h) { return in_report[h] != 0; }), *wish);
-  report.n_passes = n_passes;
-  report.unmet = std::move(unmet);
-  run.report().sizes = std::move(report);
-  return has_done;
+
+  void finish(State& state) override {
+    SizeReport report = size_report(
+        state.mesh(), indices_where(state.mesh().n_hexes(), [&](Index h) { return in_report_[h] != 0; }), *wish_);
+    report.n_passes = n_passes_;
+    report.unmet = std::move(unmet_);
+    state.report.sizes = std::move(report);
+  }
+
+ protected:
+  /// The next cut of a round of something else that has begun.
+  virtual std::optional<Cut> go_on(State&) { return std::nullopt; }
+  /// Begins such a round for what is too large, where that comes nearer to the wish.
+  virtual bool begin_round(const Mesh&, const std::vector<Index>&) { return false; }
+
+  const SizeFieldPtr wish_;
+  const bool everywhere_;
+  std::vector<std::uint8_t> in_zone_, in_report_;
+  int n_passes_ = 0;
+
+ private:
+  const AtTarget target_;
+  bool has_done_ = false;
+  std::vector<Index> unmet_;
+};
+
+/// One into eight in regions that come nearer to the wish by factors of two, where that can be.
+class ByHalves : public ByThrees {
+ public:
+  using ByThrees::ByThrees;
+
+  void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
+    ByThrees::follow(lineage, before, after);
+    if (round_) round_->follow(lineage, before, after);
+  }
+
+ protected:
+  std::optional<Cut> go_on(State& state) override {
+    if (!round_) return std::nullopt;
+    auto cut = round_->next(state);
+    if (!cut) round_.reset();
+    return cut;
+  }
+  bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
+    EightPlan plan;
+    std::vector<Index> halved = hexes_to_halve(mesh, too_large, *wish_, plan);
+    if (halved.empty()) return false;
+    round_.emplace(std::move(plan), std::move(halved));
+    return true;
+  }
+
+ private:
+  std::optional<EightRound> round_;
+};
+
+/// At the target, once all that are too large touch it: they are refined towards it only.
+class ByCombination : public ByThrees {
+ public:
+  explicit ByCombination(State& state)
+      : ByThrees(state), at_(sub_element_target(state.input, state.request.target, state.report.notices)) {}
+
+  void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
+    ByThrees::follow(lineage, before, after);
+    at_ = carried_target(at_, lineage, after);
+    // Depth 0: what touches the target now is all that is wished for.
+    if (!everywhere_) in_zone_ = in_report_ = touching(at_, after);
+    if (round_) round_->follow(lineage, after);
+  }
+
+ protected:
+  std::optional<Cut> go_on(State& state) override {
+    if (!round_) return std::nullopt;
+    auto cut = round_->next(state, done_, n_passes_ > 1);
+    if (!cut) {
+      tell(done_, state);
+      round_.reset();
+    }
+    return cut;
+  }
+  bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
+    if (too_large.empty()) return false;
+    const std::vector<std::uint8_t> touches = touching(at_, mesh);
+    if (!std::ranges::all_of(too_large, [&](Index h) { return touches[h] != 0; })) return false;
+    round_.emplace(part_at(at_, mesh, too_large), EncloseAt::third);
+    done_ = {};
+    return true;
+  }
+
+ private:
+  CombinationTarget at_;
+  std::optional<EncloseRound> round_;
+  Enclosed done_;
+};
+
+}  // namespace
+
+std::unique_ptr<SizeTechnique> size_technique(State& state, Approach approach) {
+  if (approach == Approach::size_by_halves) return std::make_unique<ByHalves>(state);
+  if (approach == Approach::size_by_combination) return std::make_unique<ByCombination>(state);
+  return std::make_unique<ByThrees>(state);
 }
 
 }  // namespace hextwist

@@ -33,8 +33,8 @@ double run_task(const std::string& task, int n) {
   if (task == "refine_uniform") {  // all that the program does: place, verify
     MeshedModel input = cube_on_brick(n);
     Request request;
-    request.kind = TargetKind::volume;
-    request.targets = {1};
+    request.target.kind = EntityKind::volume;
+    request.target.ids = {1};
     const RefineResult result = refine(input, request);
     return ratio(before, input.mesh, result.refined.mesh, bytes(input.association) + bytes(result.refined.association),
                  task.c_str());
@@ -42,7 +42,7 @@ double run_task(const std::string& task, int n) {
   if (task == "refine_hex") {
     MeshedModel input = cube_on_brick(n);
     Request request;
-    request.targets = {middle_hex(n)};
+    request.target.ids = {middle_hex(n)};
     const RefineResult result = refine(input, request);
     return ratio(before, input.mesh, result.refined.mesh, bytes(input.association) + bytes(result.refined.association),
                  task.c_str());

@@ -54,9 +54,9 @@ MeshedModel shipped(const char* name, int pieces) {
   coarse.mesh = std::move(file.mesh);
   coarse.association = associate(coarse.mesh, *coarse.model, &file.tags).association;
   Request request;
-  request.kind = TargetKind::volume;
-  for (int id = 1; id <= coarse.model->count(3); ++id) request.targets.push_back(id);
-  request.numsplit = pieces - 1;
+  request.target.kind = EntityKind::volume;
+  for (int id = 1; id <= coarse.model->count(3); ++id) request.target.ids.push_back(id);
+  request.how = Cuts{pieces - 1};
   return refine(coarse, request).refined;
 }
 

@@ -42,18 +42,18 @@ std::vector<int> short_curves() {
 }
 RefineResult refined_short_curve(int depth) {
   Request request;
-  request.kind = TargetKind::curve;
-  request.depth = depth;
-  request.targets = {short_curves().front()};
+  request.target.kind = EntityKind::curve;
+  request.target.depth = depth;
+  request.target.ids = {short_curves().front()};
   static const Measured known = measured(layered());
   return refine(layered(), known, request);
 }
 
-RefineResult refined(TargetKind kind, Index target, int depth) {
+RefineResult refined(EntityKind kind, Index target, int depth) {
   Request request;
-  request.kind = kind;
-  request.depth = depth;
-  request.targets = {target};
+  request.target.kind = kind;
+  request.target.depth = depth;
+  request.target.ids = {target};
   static const Measured known = measured(input());  // as in a session, which has measured what it holds
   return refine(input(), known, request);
 }
@@ -119,11 +119,11 @@ void add_small_change() {
     Split parts = split_one();
     return carry(input().mesh, input().association, parts);
   });
-  add_time("small/hex", [] { return refined(TargetKind::hex, middle_hex(side), 0); });
+  add_time("small/hex", [] { return refined(EntityKind::hex, middle_hex(side), 0); });
   add_time("small/short_curve", [] { return refined_short_curve(1); });
   add_time("small/short_curve_combination", [] { return refined_short_curve(0); });
-  add_time("small/curve", [] { return refined(TargetKind::curve, 1, 1); });
-  add_time("small/curve_combination", [] { return refined(TargetKind::curve, 1, 0); });
+  add_time("small/curve", [] { return refined(EntityKind::curve, 1, 1); });
+  add_time("small/curve_combination", [] { return refined(EntityKind::curve, 1, 0); });
   add_value("small/later_hex", [] { return later_hexes().median; });
   add_value("small/later_hex_worst", [] { return later_hexes().worst; });
   add_value("small/later_short_curve", [] { return later_short_curves(1).median; });

@@ -99,34 +99,34 @@ class cad_pair : public testing::TestWithParam<Pair> {
 };
 
 TEST_P(cad_pair, all_curves) {
-  run(input_, {.kind = TargetKind::curve, .targets = all(1)});
+  run(input_, {.target = {.kind = EntityKind::curve, .ids = all(1)}});
 }
 
 TEST_P(cad_pair, all_vertices) {
-  run(input_, {.kind = TargetKind::vertex, .targets = all(0)});
+  run(input_, {.target = {.kind = EntityKind::vertex, .ids = all(0)}});
 }
 
 TEST_P(cad_pair, all_vertices_two_layers_deep) {
-  run(input_, {.kind = TargetKind::vertex, .targets = all(0), .depth = 2});
+  run(input_, {.target = {.kind = EntityKind::vertex, .ids = all(0), .depth = 2}});
 }
 
 TEST_P(cad_pair, two_surfaces_twice) {
   std::vector<Index> surfaces = {1};
   if (input_.model->count(2) >= 3) surfaces.push_back(3);
-  run(input_, {.kind = TargetKind::surface, .targets = surfaces, .numsplit = 2});
+  run(input_, {.target = {.kind = EntityKind::surface, .ids = surfaces}, .how = Cuts{2}});
 }
 
 TEST_P(cad_pair, two_refinements_in_a_row) {
-  const MeshedModel once = run(input_, {.kind = TargetKind::curve, .targets = {all(1).front()}});
-  run(once, {.kind = TargetKind::curve, .targets = {all(1).back()}});
+  const MeshedModel once = run(input_, {.target = {.kind = EntityKind::curve, .ids = {all(1).front()}}});
+  run(once, {.target = {.kind = EntityKind::curve, .ids = {all(1).back()}}});
 }
 
 TEST_P(cad_pair, filled_instead_of_templates) {
-  run(input_, {.kind = TargetKind::curve, .targets = {all(1).front()}, .concave = Concave::fill});
+  run(input_, {.target = {.kind = EntityKind::curve, .ids = {all(1).front()}}, .concave = Concave::fill});
 }
 
 TEST_P(cad_pair, all_volumes_uniformly) {
-  const MeshedModel fine = run(input_, {.kind = TargetKind::volume, .targets = all(3)});
+  const MeshedModel fine = run(input_, {.target = {.kind = EntityKind::volume, .ids = all(3)}});
   EXPECT_EQ(fine.mesh.n_hexes(), 8 * input_.mesh.n_hexes());
 }
 
@@ -136,12 +136,12 @@ TEST_P(cad_pair, all_volumes_uniformly) {
 class coarse_holes : public cad_pair {};
 
 TEST_P(coarse_holes, all_surfaces_twice) {
-  run(input_, {.kind = TargetKind::surface, .targets = all(2), .numsplit = 2});
+  run(input_, {.target = {.kind = EntityKind::surface, .ids = all(2)}, .how = Cuts{2}});
 }
 
 TEST_P(coarse_holes, one_hole_twice_and_smooth) {
   ASSERT_EQ(input_.model->type({2, 9}), "cylinder");
-  run(input_, {.kind = TargetKind::surface, .targets = {9}, .numsplit = 2, .smooth = true});
+  run(input_, {.target = {.kind = EntityKind::surface, .ids = {9}}, .how = Cuts{2}, .finish = {.smooth = true}});
 }
 
 std::vector<Pair> pairs() {

@@ -52,8 +52,8 @@ class foreign_mesh : public testing::TestWithParam<Foreign> {
 };
 
 TEST_P(foreign_mesh, some_hexes_are_refined_and_written_back_in_every_format) {
-  Request request{.kind = TargetKind::hex};
-  for (Index h = 0; h < input_.mesh.n_hexes(); h += 1 + input_.mesh.n_hexes() / 20) request.targets.push_back(h);
+  Request request{.target = {.kind = EntityKind::hex}};
+  for (Index h = 0; h < input_.mesh.n_hexes(); h += 1 + input_.mesh.n_hexes() / 20) request.target.ids.push_back(h);
   const MeshedModel fine = run(request);
   EXPECT_GE(fine.mesh.n_hexes(), input_.mesh.n_hexes() + 26);
   const auto folder = test::output_folder();
@@ -78,8 +78,8 @@ TEST_P(foreign_mesh, sheets_that_cross_themselves_are_ordinary) {
   EXPECT_EQ(crossing >= 0, GetParam().crosses_itself);
   if (crossing < 0) return;
   // Every fourth hex of the sheet.
-  Request request{.kind = TargetKind::hex};
-  for (std::size_t i = 0; i < of.hexes[crossing].size(); i += 4) request.targets.push_back(of.hexes[crossing][i]);
+  Request request{.target = {.kind = EntityKind::hex}};
+  for (std::size_t i = 0; i < of.hexes[crossing].size(); i += 4) request.target.ids.push_back(of.hexes[crossing][i]);
   for (const Concave concave : {Concave::templates, Concave::fill}) {
     request.concave = concave;
     run(request);

@@ -50,7 +50,7 @@ std::vector<int> edges_per_curve(const MeshedModel& meshed) {
 
 TEST(junctions, all_curves_of_a_brick_are_cut_in_three_and_nothing_beside_them) {
   const MeshedModel input = brick(6, 5, 7);
-  const RefineResult result = checked(input, {.kind = TargetKind::curve, .targets = all(input, 1)});
+  const RefineResult result = checked(input, {.target = {.kind = EntityKind::curve, .ids = all(input, 1)}});
   EXPECT_TRUE(says(result.report, "8 nodes where targets meet enclosed before the others"));
   const auto before = edges_per_curve(input), after = edges_per_curve(result.refined);
   for (std::size_t curve = 1; curve < before.size(); ++curve) EXPECT_EQ(after[curve], 3 * before[curve]) << curve;
@@ -67,10 +67,10 @@ TEST(junctions, three_edges_at_a_node_inside_are_cut_in_three) {
   const MeshedModel input = brick(5, 5, 5);
   const Edges all_edges = edges(input.mesh);
   const auto node = [](int i, int j, int k) { return i + 6 * (j + 6 * k); };
-  Request request{.kind = TargetKind::edge};
+  Request request{.target = {.kind = EntityKind::edge}};
   for (const Index end : {node(3, 2, 2), node(2, 3, 2), node(2, 2, 3)})
-    request.targets.push_back(find_edge(all_edges, node(2, 2, 2), end));
-  std::ranges::sort(request.targets);
+    request.target.ids.push_back(find_edge(all_edges, node(2, 2, 2), end));
+  std::ranges::sort(request.target.ids);
   const RefineResult result = checked(input, request);
   EXPECT_TRUE(says(result.report, "1 node where targets meet enclosed before the others"));
   // Cut at a third from the node in the middle, then what is left of the edge at a third from its other end.
@@ -94,9 +94,9 @@ TEST(junctions, a_turn_in_a_flat_side_takes_one_node_along) {
   const Edges all_edges = edges(input.mesh);
   const auto node = [](int i, int j) { return i + 7 * j; };
   Request request{
-      .kind = TargetKind::edge,
-      .targets = {find_edge(all_edges, node(2, 2), node(3, 2)), find_edge(all_edges, node(3, 2), node(3, 3))}};
-  std::ranges::sort(request.targets);
+      .target = {.kind = EntityKind::edge,
+                 .ids = {find_edge(all_edges, node(2, 2), node(3, 2)), find_edge(all_edges, node(3, 2), node(3, 3))}}};
+  std::ranges::sort(request.target.ids);
   const RefineResult result = checked(input, request);
   EXPECT_TRUE(says(result.report, "1 node beside the target enclosed with it"));
 }
@@ -104,34 +104,35 @@ TEST(junctions, a_turn_in_a_flat_side_takes_one_node_along) {
 TEST(junctions, two_curves_in_one_hex_that_do_not_meet_are_enclosed_one_after_the_other) {
   const MeshedModel input = brick(4, 1, 1);
   // Diagonally opposite edges along x.
-  Request request{.kind = TargetKind::curve};
+  Request request{.target = {.kind = EntityKind::curve}};
   for (int id = 1; id <= 12; ++id) {
     const Box box = input.model->box(Owner{1, id});
     if (box.max.x() - box.min.x() < 1) continue;
-    if (box.min.y() == box.min.z()) request.targets.push_back(id);
+    if (box.min.y() == box.min.z()) request.target.ids.push_back(id);
   }
-  ASSERT_EQ(request.targets.size(), 2u);
+  ASSERT_EQ(request.target.ids.size(), 2u);
   const RefineResult result = checked(input, request);
-  for (const Index curve : request.targets) EXPECT_EQ(edges_per_curve(result.refined)[curve], 12);
+  for (const Index curve : request.target.ids) EXPECT_EQ(edges_per_curve(result.refined)[curve], 12);
 }
 
 TEST(junctions, targets_that_meet_can_be_refined_twice_and_in_parallel) {
   const MeshedModel input = brick(3, 4, 3);
-  const RefineResult twice = checked(input, {.kind = TargetKind::curve, .targets = all(input, 1), .numsplit = 2});
+  const RefineResult twice =
+      checked(input, {.target = {.kind = EntityKind::curve, .ids = all(input, 1)}, .how = Cuts{2}});
   for (std::size_t curve = 1; curve <= 12; ++curve)
     EXPECT_EQ(edges_per_curve(twice.refined)[curve], 9 * edges_per_curve(input)[curve]);
-  checked(input, {.kind = TargetKind::curve, .targets = all(input, 1), .method = Method::parallel});
+  checked(input, {.target = {.kind = EntityKind::curve, .ids = all(input, 1)}, .method = Method::parallel});
 }
 
 class shipped_model : public testing::TestWithParam<const char*> {};
 
 TEST_P(shipped_model, all_curves_all_vertices_and_all_surfaces) {
   const MeshedModel input = shipped(GetParam());
-  for (const TargetKind kind : {TargetKind::vertex, TargetKind::curve, TargetKind::surface}) {
-    const int dim = static_cast<int>(kind) - static_cast<int>(TargetKind::vertex);
-    const RefineResult result = checked(input, {.kind = kind, .targets = all(input, dim)});
+  for (const EntityKind kind : {EntityKind::vertex, EntityKind::curve, EntityKind::surface}) {
+    const int dim = static_cast<int>(kind) - static_cast<int>(EntityKind::vertex);
+    const RefineResult result = checked(input, {.target = {.kind = kind, .ids = all(input, dim)}});
     EXPECT_LE(result.report.off_cad.max_relative, 1e-9);
-    if (kind != TargetKind::vertex) {
+    if (kind != EntityKind::vertex) {
       const auto before = edges_per_curve(input), after = edges_per_curve(result.refined);
       for (std::size_t curve = 1; curve < before.size(); ++curve) EXPECT_EQ(after[curve], 3 * before[curve]) << curve;
     }
@@ -151,7 +152,7 @@ TEST(junctions, thin_hexes_at_a_curved_surface_are_smoothed_between_two_rounds) 
   input.model = read_cad(folder / "cad/bracket_fillet.brep", {}).model;
   input.association = associate(file.mesh, *input.model, &file.tags).association;
   input.mesh = std::move(file.mesh);
-  const RefineResult result = checked(input, {.kind = TargetKind::surface, .targets = {10}, .numsplit = 2});
+  const RefineResult result = checked(input, {.target = {.kind = EntityKind::surface, .ids = {10}}, .how = Cuts{2}});
   EXPECT_TRUE(std::ranges::any_of(
       result.report.notices, [](const std::string& notice) { return notice.starts_with("smoothed between passes"); }));
 }
@@ -159,13 +160,13 @@ TEST(junctions, thin_hexes_at_a_curved_surface_are_smoothed_between_two_rounds) 
 // On refined models of our own both the smallest shape and the average rise, and the smallest never falls.
 TEST(junctions, smoothing_a_refined_model_raises_the_smallest_shape_and_the_average) {
   for (const auto& [name, kind, dim] :
-       {std::tuple{"bracket", TargetKind::curve, 1}, std::tuple{"cam", TargetKind::curve, 1},
-        std::tuple{"plate_quarter", TargetKind::curve, 1}, std::tuple{"notched_cube", TargetKind::surface, 2}}) {
+       {std::tuple{"bracket", EntityKind::curve, 1}, std::tuple{"cam", EntityKind::curve, 1},
+        std::tuple{"plate_quarter", EntityKind::curve, 1}, std::tuple{"notched_cube", EntityKind::surface, 2}}) {
     SCOPED_TRACE(name);
     const MeshedModel input = shipped(name);
-    Request request{.kind = kind, .targets = all(input, dim)};
+    Request request{.target = {.kind = kind, .ids = all(input, dim)}};
     const RefineResult plain = refine(input, request);
-    request.smooth = true;
+    request.finish.smooth = true;
     const RefineResult smoothed = checked(input, request);
     EXPECT_EQ(smoothed.report.hexes_after, plain.report.hexes_after);
     EXPECT_GT(smoothed.report.shape_after.min, plain.report.shape_after.min);

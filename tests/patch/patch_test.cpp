@@ -10,6 +10,7 @@
 #include "hextwist/patch/neighbours.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/patch/verify.h"
+#include "hextwist/sizing/plan.h"
 #include "support/grids.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
@@ -108,53 +109,54 @@ void decorate(MeshedModel& meshed, std::mt19937& random) {
 Request random_request(const MeshedModel& meshed, std::mt19937& random) {
   const auto one_of = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
   Request request;
-  request.kind = static_cast<TargetKind>(one_of(one_of(3) ? 6 : 8));  // few large ones
+  request.target.kind = static_cast<EntityKind>(one_of(one_of(3) ? 6 : 8));  // few large ones
   const Mesh& mesh = meshed.mesh;
   Index n = 0;
-  switch (request.kind) {
-    case TargetKind::node:
+  switch (request.target.kind) {
+    case EntityKind::node:
       n = mesh.n_nodes();
       break;
-    case TargetKind::edge:
+    case EntityKind::edge:
       n = static_cast<Index>(edges(mesh).nodes.size());
       break;
-    case TargetKind::face:
+    case EntityKind::face:
       n = static_cast<Index>(faces(mesh).nodes.size());
       break;
-    case TargetKind::hex:
+    case EntityKind::hex:
       n = mesh.n_hexes();
       break;
     default:
-      n = meshed.model->count(static_cast<int>(request.kind) - static_cast<int>(TargetKind::vertex));
+      n = meshed.model->count(static_cast<int>(request.target.kind) - static_cast<int>(EntityKind::vertex));
   }
-  const bool is_cad = request.kind >= TargetKind::vertex;
-  for (Index i = one_of(3); i >= 0 && n > 0; --i) request.targets.push_back(one_of(n) + is_cad);
-  std::ranges::sort(request.targets);
-  request.targets.erase(std::ranges::unique(request.targets).begin(), request.targets.end());
-  const bool is_large = request.kind == TargetKind::surface || request.kind == TargetKind::volume;  // it takes long
-  request.numsplit = 1 + (!is_large && one_of(3) == 0);
-  if (const Index depth = one_of(5); depth < 3) request.depth = depth;
+  const bool is_cad = request.target.kind >= EntityKind::vertex;
+  for (Index i = one_of(3); i >= 0 && n > 0; --i) request.target.ids.push_back(one_of(n) + is_cad);
+  std::ranges::sort(request.target.ids);
+  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
+  const bool is_large =
+      request.target.kind == EntityKind::surface || request.target.kind == EntityKind::volume;  // it takes long
+  request.how = Cuts{1 + (!is_large && one_of(3) == 0)};
+  if (const Index depth = one_of(5); depth < 3) request.target.depth = depth;
   if (one_of(6) == 0) {
-    request.depth.reset();
-    request.radius = 0.05 * box(mesh).diagonal() * (1 + one_of(3));
+    request.target.depth.reset();
+    request.target.radius = 0.05 * box(mesh).diagonal() * (1 + one_of(3));
   }
   if (one_of(4) == 0) request.method = static_cast<Method>(one_of(4));
   if (one_of(2) == 0) request.concave = Concave::fill;
-  request.smooth = !is_large && one_of(3) == 0;
-  request.dry_run = one_of(8) == 0;
+  request.finish.smooth = !is_large && one_of(3) == 0;
+  request.finish.dry_run = one_of(8) == 0;
   if (one_of(4) == 0)
-    for (int i = 0; i < 20; ++i) request.fixed.push_back(one_of(mesh.n_nodes()));
+    for (int i = 0; i < 20; ++i) request.finish.fixed.push_back(one_of(mesh.n_nodes()));
   return request;
 }
 
 std::string text_of(const Request& r) {
-  std::string text = name(r.kind);
-  for (const Index t : r.targets) text += " " + std::to_string(t);
-  text += " numsplit " + std::to_string(r.numsplit);
-  if (r.depth) text += " depth " + std::to_string(*r.depth);
-  if (r.radius) text += " radius " + std::to_string(*r.radius);
-  return text + " " + name(r.method) + (r.concave == Concave::fill ? " fill" : "") + (r.smooth ? " smooth" : "") +
-         (r.dry_run ? " dry_run" : "");
+  std::string text(name(r.target.kind));
+  for (const Index t : r.target.ids) text += " " + std::to_string(t);
+  text += " numsplit " + std::to_string(std::get<Cuts>(r.how).numsplit);
+  if (r.target.depth) text += " depth " + std::to_string(*r.target.depth);
+  if (r.target.radius) text += " radius " + std::to_string(*r.target.radius);
+  return text + " " + name(r.method) + (r.concave == Concave::fill ? " fill" : "") +
+         (r.finish.smooth ? " smooth" : "") + (r.finish.dry_run ? " dry_run" : "");
 }
 
 /// Whether a patch was used, after checking that it makes no difference.
@@ -242,28 +244,29 @@ TEST(patch, without_a_model_it_is_used_too_and_then_verified_from_scratch) {
   std::mt19937 random(1);
   MeshedModel meshed{grid(20, 20, 20), nullptr, {}};
   decorate(meshed, random);
-  Request request{.kind = TargetKind::hex, .targets = {4210}};
-  request.smooth = true;
+  Request request{.target = {.kind = EntityKind::hex, .ids = {4210}}};
+  request.finish.smooth = true;
   EXPECT_TRUE(expect_same_both_ways(meshed, measured(meshed), request));
 }
 
 TEST(patch, it_grows_where_filling_goes_on_beyond_its_rings) {
   // Two rows of hexes that meet in an L, on a plate: filling makes a square of them.
   MeshedModel meshed = brick(60, 60, 2);
-  Request request{.kind = TargetKind::hex, .concave = Concave::fill};
+  Request request{.target = {.kind = EntityKind::hex}, .concave = Concave::fill};
   for (Index i = 20; i < 40; ++i) {
-    request.targets.push_back(i + 60 * 20);
-    request.targets.push_back(20 + 60 * i);
+    request.target.ids.push_back(i + 60 * 20);
+    request.target.ids.push_back(20 + 60 * i);
   }
-  std::ranges::sort(request.targets);
-  request.targets.erase(std::ranges::unique(request.targets).begin(), request.targets.end());
+  std::ranges::sort(request.target.ids);
+  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
   EXPECT_TRUE(expect_same_both_ways(meshed, measured(meshed), request));
 }
 
 TEST(patch, requests_that_look_farther_than_their_target_do_not_use_one) {
   const MeshedModel meshed = brick(12, 12, 12);
-  const auto local = [&](Request request) { return is_local(meshed, request); };
-  const Request hex{.kind = TargetKind::hex, .targets = {0}}, curve{.kind = TargetKind::curve, .targets = {1}};
+  const auto local = [&](Request request) { return plan(meshed, request).reach.has_value(); };
+  const Request hex{.target = {.kind = EntityKind::hex, .ids = {0}}},
+      curve{.target = {.kind = EntityKind::curve, .ids = {1}}};
   EXPECT_TRUE(local(hex));
   EXPECT_TRUE(local(curve));
   const auto with = [&](Request request, auto change) {
@@ -272,19 +275,19 @@ TEST(patch, requests_that_look_farther_than_their_target_do_not_use_one) {
   };
   EXPECT_FALSE(local(with(hex, [](Request& r) { r.method = Method::parallel; })));
   EXPECT_TRUE(local(with(curve, [](Request& r) { r.method = Method::parallel; })));
-  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.depth = 1; })));
-  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.radius = 1; })));
-  EXPECT_FALSE(local(with(curve, [](Request& r) { r.size = 0.1; })));
-  EXPECT_FALSE(local(with(curve, [](Request& r) { r.layers = LayerRequest{}; })));
-  EXPECT_FALSE(local(with(hex, [](Request& r) { r.sheets = SheetRequest{}; })));
-  EXPECT_FALSE(local({.kind = TargetKind::volume, .targets = {1}}));
-  EXPECT_FALSE(local({.kind = TargetKind::surface, .targets = {1}, .through_thickness = true}));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.target.depth = 1; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.method = Method::parallel, r.target.radius = 1; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.how = Sizes{.size = 0.1}; })));
+  EXPECT_FALSE(local(with(curve, [](Request& r) { r.how = Layers{}; })));
+  EXPECT_FALSE(local(with(hex, [](Request& r) { r.how = AcrossSheets{.edges = {0}}; })));
+  EXPECT_FALSE(local({.target = {.kind = EntityKind::volume, .ids = {1}}}));
+  EXPECT_FALSE(local({.target = {.kind = EntityKind::surface, .ids = {1}}, .how = Thickness{}}));
   // Nor large changes and small meshes, and nor is anything done before errors are found.
   const Measured known = measured(meshed);
   const Rule rule(0, 8);
   EXPECT_FALSE(refine_patch(meshed, known, curve, {}).has_value());
   EXPECT_FALSE(refine_patch(brick(3, 3, 3), known, hex, {}).has_value());
-  EXPECT_THROW(refine(meshed, known, with(hex, [](Request& r) { r.targets = {100000}; })), Error);
+  EXPECT_THROW(refine(meshed, known, with(hex, [](Request& r) { r.target.ids = {100000}; })), Error);
 }
 
 /// Per node its hexes, as asked for and as they are.
@@ -317,9 +320,9 @@ TEST(splice, neighbours_follow_the_mesh_there_and_back) {
       states.pop_back();
       ASSERT_TRUE(same_bits(meshed, states.back()));
     } else {
-      Request request{.kind = TargetKind::hex};
-      request.targets = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
-      request.smooth = random() % 4 == 0;
+      Request request{.target = {.kind = EntityKind::hex}};
+      request.target.ids = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
+      request.finish.smooth = random() % 4 == 0;
       auto made = refine_patch(meshed, measured(meshed), request, {});
       ASSERT_TRUE(made.has_value());
       EXPECT_GT(made->splice->bytes(), 1000u);
@@ -369,7 +372,7 @@ TEST(patch, a_cancelled_one_is_cancelled) {
   const MeshedModel meshed = brick(12, 12, 12);
   const Rule rule(0, 1);
   int n_calls = 0;
-  EXPECT_THROW(refine(meshed, measured(meshed), {.kind = TargetKind::hex, .targets = {800}},
+  EXPECT_THROW(refine(meshed, measured(meshed), {.target = {.kind = EntityKind::hex, .ids = {800}}},
                       [&](const char*, double) { return ++n_calls < 3; }),
                Cancelled);
 }

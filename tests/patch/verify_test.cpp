@@ -1,5 +1,5 @@
 // Verifying a small change where it is, against verifying everything.
-#include "hextwist/patch/verify.h"
+#include "hextwist/patch/refine.h"
 
 #include <gtest/gtest.h>
 
@@ -56,10 +56,10 @@ TEST(verify, a_series_of_small_changes_is_reported_as_if_everything_had_been_mea
     Measured known = measured(meshed);
     for (int step = 0; step < 6; ++step) {
       Request request;
-      request.kind = step == 5 ? TargetKind::node : TargetKind::hex;
-      request.targets = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
-      request.method = step % 2 && request.kind == TargetKind::hex ? Method::parallel : Method::automatic;
-      request.smooth = step == 3;
+      request.target.kind = step == 5 ? EntityKind::node : EntityKind::hex;
+      request.target.ids = {static_cast<Index>(random() % meshed.mesh.hexes.size())};
+      request.method = step % 2 && request.target.kind == EntityKind::hex ? Method::parallel : Method::automatic;
+      request.finish.smooth = step == 3;
       RefineResult result = refined_both_ways(meshed, known, request);
       ASSERT_TRUE(result.report.violations.empty());
       known = measured_after(result.report);
@@ -77,8 +77,8 @@ TEST(verify, curves_and_surfaces_of_a_shipped_model_are_reported_alike) {
   const Measured known = measured(bracket);
   for (Index id = 1; id <= bracket.model->count(0); id += 5) {
     Request request;
-    request.kind = TargetKind::vertex;
-    request.targets = {id};
+    request.target.kind = EntityKind::vertex;
+    request.target.ids = {id};
     refined_both_ways(bracket, known, request);
   }
 }
@@ -109,7 +109,7 @@ TEST(verify, a_new_node_in_a_face_across_a_crack_is_found) {
   const FacetResult skin = associate_with_own_skin(mesh);
   const MeshedModel input{mesh, skin.model, skin.association};
   Request request;
-  request.targets = {at_crack};
+  request.target.ids = {at_crack};
   const RefineResult result = refined_both_ways(input, measured(input), request);
   ASSERT_FALSE(result.report.violations.empty());
   EXPECT_EQ(result.report.violations[0].kind, ViolationKind::hanging_node);
@@ -123,7 +123,7 @@ TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
   const Measured known = measured(input);
   for (const Index target : {0, 5, 6 + 12 * (6 + 12 * 6)}) {  // at a corner, at an edge, inside
     Request request;
-    request.targets = {target};
+    request.target.ids = {target};
     const MeshedModel sound = refine(input, known, request).refined;
     // New hexes have the ids that follow the old ones.
     Index first_new = sound.mesh.n_hexes();

@@ -50,7 +50,7 @@ Index count_boxes(const Mesh& mesh, const Vec3& size) {
 TEST(sheet, is_cut_in_three_across_its_own_direction_only) {
   const MeshedModel input = brick(4, 3, 2);
   const Index along_x = edge_between(input.mesh, {1, 0, 0}, {2, 0, 0});
-  const Mesh mesh = checked(input, {.sheets = SheetRequest{.edges = {along_x}}});
+  const Mesh mesh = checked(input, {.how = AcrossSheets{.edges = {along_x}}});
   EXPECT_EQ(mesh.n_hexes(), 24 + 2 * 6);
   EXPECT_EQ(count_boxes(mesh, {1.0 / 3, 1, 1}), 18);
   EXPECT_EQ(count_boxes(mesh, {1, 1, 1}), 18);
@@ -59,7 +59,7 @@ TEST(sheet, is_cut_in_three_across_its_own_direction_only) {
 TEST(sheet, several_edges_choose_several_sheets) {
   const MeshedModel input = brick(4, 3, 2);
   const Index x = edge_between(input.mesh, {1, 0, 0}, {2, 0, 0}), z = edge_between(input.mesh, {0, 0, 1}, {0, 0, 2});
-  const Mesh mesh = checked(input, {.sheets = SheetRequest{.edges = {std::min(x, z), std::max(x, z)}}});
+  const Mesh mesh = checked(input, {.how = AcrossSheets{.edges = {std::min(x, z), std::max(x, z)}}});
   EXPECT_EQ(count_boxes(mesh, {1.0 / 3, 1, 1.0 / 3}), 3 * 9);
   EXPECT_EQ(mesh.n_hexes(), 3 * 9 + 3 * 3 + 9 * 3 + 9);
 }
@@ -67,7 +67,7 @@ TEST(sheet, several_edges_choose_several_sheets) {
 TEST(sheet, crossing_ones_are_those_across_the_other_directions_around_the_edge) {
   const MeshedModel input = brick(4, 3, 2);
   const Index x = edge_between(input.mesh, {1, 0, 0}, {2, 0, 0});  // one hex around it
-  const Mesh mesh = checked(input, {.sheets = SheetRequest{.edges = {x}, .crossing = true}});
+  const Mesh mesh = checked(input, {.how = AcrossSheets{.edges = {x}, .crossing = true}});
   EXPECT_EQ(mesh.n_hexes(), 4 * (9 + 3 + 3 * 2 + 2));
   EXPECT_EQ(count_boxes(mesh, {1, 1.0 / 3, 1.0 / 3}), 4 * 9);
 }
@@ -81,8 +81,8 @@ TEST(sheet, greater_than_and_factor_leave_short_edges_alone) {
   const Edges all = edges(input.mesh);
   const Index chosen = find_edge(all, 0, 1);
   const Sheets of = sheets(input.mesh, all);
-  const auto pieces = [&](const SheetRequest& request, double above) {
-    const RefineResult result = refine(input, {.sheets = request});
+  const auto pieces = [&](const AcrossSheets& request, double above) {
+    const RefineResult result = refine(input, {.how = request});
     EXPECT_TRUE(test::conformal(result.refined.mesh));
     EXPECT_TRUE(test::uninverted(result.refined.mesh));
     const Edges after = edges(result.refined.mesh);
@@ -108,7 +108,7 @@ TEST(sheet, of_shipped_models_can_each_be_cut_alone) {
     const Edges all = edges(input.mesh);
     const Sheets of = sheets(input.mesh, all);
     for (Index s = 0; s < of.size(); s += std::max(1, of.size() / 4)) {
-      const Mesh mesh = checked(input, {.sheets = SheetRequest{.edges = {of.edges[s][0]}}});
+      const Mesh mesh = checked(input, {.how = AcrossSheets{.edges = {of.edges[s][0]}}});
       if (of.n_self_crossings[s] == 0) {
         EXPECT_EQ(mesh.n_hexes(), input.mesh.n_hexes() + 2 * static_cast<Index>(of.hexes[s].size())) << s;
       } else {
@@ -120,11 +120,10 @@ TEST(sheet, of_shipped_models_can_each_be_cut_alone) {
 
 TEST(thickness, cuts_the_columns_behind_a_surface_to_the_other_side) {
   const MeshedModel input = brick(3, 3, 2);
-  const Mesh mesh = checked(input, {.kind = TargetKind::surface, .targets = {5}, .through_thickness = true});
+  const Mesh mesh = checked(input, {.target = {.kind = EntityKind::surface, .ids = {5}}, .how = Thickness{}});
   EXPECT_EQ(mesh.n_hexes(), 54);
   EXPECT_EQ(count_boxes(mesh, {1, 1, 1.0 / 3}), 54);
-  const Mesh twice =
-      checked(input, {.kind = TargetKind::surface, .targets = {5}, .numsplit = 2, .through_thickness = true});
+  const Mesh twice = checked(input, {.target = {.kind = EntityKind::surface, .ids = {5}}, .how = Thickness{2}});
   EXPECT_EQ(count_boxes(twice, {1, 1, 1.0 / 9}), 162);
 }
 
@@ -132,15 +131,16 @@ TEST(thickness, of_one_face_is_its_column_with_a_transition_around) {
   const MeshedModel input = brick(3, 3, 2);
   const Faces all = faces(input.mesh);
   const Index face = find_face(all, {1 + 4, 2 + 4, 1 + 8, 2 + 8});
-  const Mesh mesh = checked(input, {.kind = TargetKind::face, .targets = {face}, .through_thickness = true});
+  const Mesh mesh = checked(input, {.target = {.kind = EntityKind::face, .ids = {face}}, .how = Thickness{}});
   EXPECT_EQ(count_boxes(mesh, {1, 1, 1.0 / 3}), 6);
 }
 
 TEST(layers, one_layer_is_what_there_is) {
   const MeshedModel input = brick(3, 3, 3);
   for (const bool smooth : {false, true}) {
-    const Request request{
-        .kind = TargetKind::surface, .targets = {5}, .layers = LayerRequest{.n_layers = 1}, .smooth = smooth};
+    const Request request{.target = {.kind = EntityKind::surface, .ids = {5}},
+                          .how = Layers{.n_layers = 1},
+                          .finish = {.smooth = smooth}};
     EXPECT_EQ(refine(input, request).refined.mesh, input.mesh);
     EXPECT_EQ(refine(input, measured(input), request).refined.mesh, input.mesh);
   }
@@ -151,7 +151,7 @@ TEST(layers, grow_from_the_surface_by_the_ratio_within_the_first_element) {
   for (const double growth : {1.0, 1.5, 3.0}) {
     SCOPED_TRACE(growth);
     const int n = 4;
-    const Mesh mesh = checked(input, {.kind = TargetKind::surface, .targets = {5}, .layers = LayerRequest{n, growth}});
+    const Mesh mesh = checked(input, {.target = {.kind = EntityKind::surface, .ids = {5}}, .how = Layers{n, growth}});
     EXPECT_EQ(mesh.n_hexes(), 27 + 9 * (n - 1));
     double total = 0;
     for (int i = 0; i < n; ++i) total += std::pow(growth, i);
@@ -162,27 +162,27 @@ TEST(layers, grow_from_the_surface_by_the_ratio_within_the_first_element) {
 
 TEST(layers, along_curved_and_adjacent_surfaces_of_shipped_models) {
   const MeshedModel plate = shipped("plate_hole");
-  const Mesh mesh = checked(plate, {.kind = TargetKind::surface, .targets = {7}, .layers = LayerRequest{3, 1.4}});
+  const Mesh mesh = checked(plate, {.target = {.kind = EntityKind::surface, .ids = {7}}, .how = Layers{3, 1.4}});
   EXPECT_EQ(mesh.n_hexes(), 672 + 2 * 32 * 3);
   const MeshedModel cylinder = shipped("cylinder");
-  checked(cylinder, {.kind = TargetKind::surface, .targets = {1, 2}, .layers = LayerRequest{3, 1.4}});
+  checked(cylinder, {.target = {.kind = EntityKind::surface, .ids = {1, 2}}, .how = Layers{3, 1.4}});
 }
 
 TEST(direction, options_that_make_no_sense_are_refused) {
   const MeshedModel input = brick(2, 2, 2);
-  EXPECT_EQ(refusal(input, {.sheets = SheetRequest{}}), "no edge to choose a sheet by");
-  EXPECT_EQ(refusal(input, {.sheets = SheetRequest{.edges = {54}}}), "there is no edge 55: edge ids go from 1 to 54");
-  EXPECT_EQ(refusal(input, {.sheets = SheetRequest{.edges = {0}, .greater_than = 1, .factor = 2}}),
+  EXPECT_EQ(refusal(input, {.how = AcrossSheets{}}), "no edge to choose a sheet by");
+  EXPECT_EQ(refusal(input, {.how = AcrossSheets{.edges = {54}}}), "there is no edge 55: edge ids go from 1 to 54");
+  EXPECT_EQ(refusal(input, {.how = AcrossSheets{.edges = {0}, .greater_than = 1, .factor = 2}}),
             "give greater_than or a factor, not both");
-  EXPECT_EQ(refusal(input, {.kind = TargetKind::curve, .targets = {1}, .through_thickness = true}),
+  EXPECT_EQ(refusal(input, {.target = {.kind = EntityKind::curve, .ids = {1}}, .how = Thickness{}}),
             "through the thickness means away from surfaces or faces, not from a curve");
-  EXPECT_EQ(refusal(input, {.kind = TargetKind::hex, .targets = {1}, .layers = LayerRequest{3, 1.5}}),
+  EXPECT_EQ(refusal(input, {.target = {.kind = EntityKind::hex, .ids = {1}}, .how = Layers{3, 1.5}}),
             "layers lie along nodes, edges and faces, not a hex");
-  EXPECT_EQ(refusal(input, {.kind = TargetKind::surface, .targets = {1}, .layers = LayerRequest{0, 1.5}}),
+  EXPECT_EQ(refusal(input, {.target = {.kind = EntityKind::surface, .ids = {1}}, .how = Layers{0, 1.5}}),
             "the number of layers must be from 1 to 50");
-  EXPECT_EQ(refusal(input, {.kind = TargetKind::surface, .targets = {1}, .layers = LayerRequest{3, 0}}),
+  EXPECT_EQ(refusal(input, {.target = {.kind = EntityKind::surface, .ids = {1}}, .how = Layers{3, 0}}),
             "the growth of layers must be from 0.1 to 10");
-  EXPECT_EQ(refusal(input, {.kind = TargetKind::surface, .targets = {1}, .size = 1, .layers = LayerRequest{3, 1.5}}),
+  EXPECT_EQ(refusal(input, {.target = {.kind = EntityKind::surface, .ids = {1}, .depth = 1}, .how = Layers{3, 1.5}}),
             "a direction goes with numsplit, not with sizes, depth, radius or a method");
 }
 

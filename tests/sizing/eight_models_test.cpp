@@ -42,7 +42,7 @@ void check(const MeshedModel& given, Request request, Decided& decided, double t
   std::vector<int> n_children(input.mesh.hexes.size(), 0);
   for (const double parent : fine.mesh.fields.front().values) ++n_children[static_cast<std::size_t>(parent)];
   std::vector<std::string> notices;
-  const std::vector<Index> targets = region_target(input, request, notices);
+  const std::vector<Index> targets = region_target(input, request.target, notices);
   const EightPlan plan = plan_eight(input.mesh, targets);
   Index n_exact = 0, n_eight = 0;
   for (const EightRegion& region : plan.regions) {
@@ -83,15 +83,15 @@ std::vector<Index> some_hexes(const Mesh& mesh, std::mt19937& random) {
 void check_everywhere(const MeshedModel& input, Decided& decided, double tolerance = 1e-9) {
   std::mt19937 random(7);
   for (int i = 0; i < 2; ++i)
-    check(input, {.kind = TargetKind::hex, .targets = some_hexes(input.mesh, random)}, decided);
+    check(input, {.target = {.kind = EntityKind::hex, .ids = some_hexes(input.mesh, random)}}, decided);
   const int n_dims =
       input.mesh.n_hexes() > 5000 ? 2 : 3;  // layers along whole surfaces of a large mesh take long to check
   for (int dim = 0; dim < n_dims; ++dim)
     for (int id = 1; id <= std::min(input.model->count(dim), 3); ++id) {
       if (nodes_on(input.association, *input.model, {dim, id}).empty()) continue;
       SCOPED_TRACE(testing::Message() << "dimension " << dim << ", id " << id);
-      const auto kind = static_cast<TargetKind>(static_cast<int>(TargetKind::vertex) + dim);
-      check(input, {.kind = kind, .targets = {id}, .depth = 1 + (id + dim) % 2}, decided, tolerance);
+      const auto kind = static_cast<EntityKind>(static_cast<int>(EntityKind::vertex) + dim);
+      check(input, {.target = {.kind = kind, .ids = {id}, .depth = 1 + (id + dim) % 2}}, decided, tolerance);
     }
 }
 
@@ -108,7 +108,7 @@ TEST_P(model_in_eight, every_hex_gets_the_children_that_were_decided_upon) {
   check_everywhere(input, decided);
   EXPECT_GT(decided.eight, 0);
   // One of the volumes of an assembly, or the whole.
-  check(input, {.kind = TargetKind::volume, .targets = {1}}, decided);
+  check(input, {.target = {.kind = EntityKind::volume, .ids = {1}}}, decided);
 }
 
 std::string file_stem(const testing::TestParamInfo<const char*>& param) {

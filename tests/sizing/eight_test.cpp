@@ -81,7 +81,7 @@ TEST(one_into_eight, every_hex_of_a_block_in_a_grid_gets_eight_cubes) {
         for (const Box low : {Box{2, 1, 2}, Box{0, 0, 0}, Box{0, 2, 3}}) {
           SCOPED_TRACE(testing::Message() << p << " " << q << " " << r << " at " << low[0] << low[1] << low[2]);
           const auto targets = block(size, low, {low[0] + p, low[1] + q, low[2] + r});
-          const RefineResult result = checked(owned, {.kind = TargetKind::hex, .targets = targets});
+          const RefineResult result = checked(owned, {.target = {.kind = EntityKind::hex, .ids = targets}});
           EXPECT_NEAR(volume(result.refined.mesh), 343, 1e-9);
           expect_exact(result.refined.mesh, size, targets, 2);
         }
@@ -104,7 +104,7 @@ TEST(one_into_eight, counts_follow_from_the_size_of_a_block_of_even_numbers) {
   const MeshedModel input = on_own_skin(test::grid(8, 8, 8));
   const auto growth = [&](std::array<int, 3> n) {
     const auto targets = block({8, 8, 8}, {2, 2, 2}, {2 + n[0], 2 + n[1], 2 + n[2]});
-    return checked(input, {.kind = TargetKind::hex, .targets = targets}).refined.mesh.n_hexes() - 512;
+    return checked(input, {.target = {.kind = EntityKind::hex, .ids = targets}}).refined.mesh.n_hexes() - 512;
   };
   for (const std::array<int, 3> n : {std::array{2, 2, 2}, std::array{2, 4, 2}, std::array{4, 2, 4}})
     EXPECT_EQ(growth(n), transition(n)) << n[0] << n[1] << n[2];
@@ -113,12 +113,12 @@ TEST(one_into_eight, counts_follow_from_the_size_of_a_block_of_even_numbers) {
 TEST(one_into_eight, a_whole_mesh_gets_eight_times_as_many_hexes_structured_or_not) {
   for (const Mesh& mesh : {test::grid(3, 2, 4), test::pinwheel(5, 2, 3), test::ring(2, 5, 1), test::grid(1, 1, 1)}) {
     const MeshedModel input = on_own_skin(mesh);
-    Request request{.kind = TargetKind::hex};
-    request.targets.resize(mesh.hexes.size());
-    std::iota(request.targets.begin(), request.targets.end(), 0);
+    Request request{.target = {.kind = EntityKind::hex}};
+    request.target.ids.resize(mesh.hexes.size());
+    std::iota(request.target.ids.begin(), request.target.ids.end(), 0);
     const RefineResult result = checked(input, request);
     EXPECT_EQ(result.refined.mesh.n_hexes(), 8 * mesh.n_hexes());
-    const RefineResult all = checked(input, {.kind = TargetKind::volume, .targets = {1}, .numsplit = 2});
+    const RefineResult all = checked(input, {.target = {.kind = EntityKind::volume, .ids = {1}}, .how = Cuts{2}});
     EXPECT_EQ(all.refined.mesh.n_hexes(), 64 * mesh.n_hexes());
   }
 }
@@ -126,7 +126,7 @@ TEST(one_into_eight, a_whole_mesh_gets_eight_times_as_many_hexes_structured_or_n
 TEST(one_into_eight, a_layer_along_a_side_of_the_mesh_is_halved_without_touching_hexes_beyond_its_neighbours) {
   const MeshedModel input = on_own_skin(test::grid(5, 4, 6));
   const auto layer = block({5, 4, 6}, {0, 0, 0}, {5, 4, 1});
-  const RefineResult result = checked(input, {.kind = TargetKind::hex, .targets = layer});
+  const RefineResult result = checked(input, {.target = {.kind = EntityKind::hex, .ids = layer}});
   expect_exact(result.refined.mesh, {5, 4, 6}, layer, 2);
   // The plane across the layer lies on the boundary: the hexes above are only those that end the other two.
   EXPECT_EQ(result.refined.mesh.n_hexes(), 120 + 7 * 20 + 20 * (7 - 1));
@@ -138,7 +138,7 @@ TEST(one_into_eight, numsplit_halves_again) {
   const MeshedModel input = on_own_skin(test::grid(6, 6, 5));
   const auto targets = block(size, {2, 2, 1}, {5, 4, 3});
   for (const int n : {2, 3}) {
-    const RefineResult result = checked(input, {.kind = TargetKind::hex, .targets = targets, .numsplit = n});
+    const RefineResult result = checked(input, {.target = {.kind = EntityKind::hex, .ids = targets}, .how = Cuts{n}});
     expect_exact(result.refined.mesh, size, targets, 1 << n);
     EXPECT_NEAR(volume(result.refined.mesh), 180, 1e-9);
   }
@@ -148,19 +148,19 @@ TEST(one_into_eight, the_order_of_nodes_and_hexes_does_not_matter_for_the_counts
   std::mt19937 random(20);
   const Mesh mesh = test::grid(6, 5, 5);
   const MeshedModel plain = on_own_skin(mesh);
-  Request request{.kind = TargetKind::hex, .targets = block({6, 5, 5}, {1, 1, 1}, {4, 3, 4})};
+  Request request{.target = {.kind = EntityKind::hex, .ids = block({6, 5, 5}, {1, 1, 1}, {4, 3, 4})}};
   const Index expected = checked(plain, request).refined.mesh.n_hexes();
   std::vector<Vec3> centre;
-  for (const Index h : request.targets) centre.push_back(mesh.points[mesh.hexes[h][0]] + Vec3::Constant(0.5));
+  for (const Index h : request.target.ids) centre.push_back(mesh.points[mesh.hexes[h][0]] + Vec3::Constant(0.5));
   const MeshedModel mixed = on_own_skin(test::shuffled(mesh, random));
-  Request same{.kind = TargetKind::hex};
+  Request same{.target = {.kind = EntityKind::hex}};
   for (Index h = 0; h < mesh.n_hexes(); ++h) {
     Vec3 middle = Vec3::Zero();
     for (const Index n : mixed.mesh.hexes[h]) middle += mixed.mesh.points[n] / 8;
     if (std::ranges::any_of(centre, [&](const Vec3& c) { return (c - middle).norm() < 0.1; }))
-      same.targets.push_back(h);
+      same.target.ids.push_back(h);
   }
-  ASSERT_EQ(same.targets.size(), request.targets.size());
+  ASSERT_EQ(same.target.ids.size(), request.target.ids.size());
   std::vector<Mesh> fine;
   for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -179,17 +179,17 @@ TEST(one_into_eight, any_hexes_of_any_grid_give_a_good_mesh) {
                                                      : test::ring(3, 6, seed % 4),
                                      random);
     const MeshedModel input = on_own_skin(mesh);
-    Request request{.kind = TargetKind::hex};
+    Request request{.target = {.kind = EntityKind::hex}};
     const auto share = 1 + random() % 15;
     for (Index h = 0; h < mesh.n_hexes(); ++h)
-      if (random() % 16 < share) request.targets.push_back(h);
-    if (request.targets.empty()) continue;
+      if (random() % 16 < share) request.target.ids.push_back(h);
+    if (request.target.ids.empty()) continue;
     request.concave = seed % 2 ? Concave::fill : Concave::templates;
     const RefineResult result = checked(input, request);
     // Faces of a twisted ring are not flat: templates round them off.
     EXPECT_NEAR(volume(result.refined.mesh), volume(mesh), (seed % 3 == 2 ? 1e-3 : 1e-9) * volume(mesh));
     // Nothing of a target is left as it was.
-    for (const Index h : request.targets) EXPECT_LT(find_hex(result.refined.mesh, hex_id(mesh, h)), 0);
+    for (const Index h : request.target.ids) EXPECT_LT(find_hex(result.refined.mesh, hex_id(mesh, h)), 0);
     EXPECT_FALSE(result.report.notices.empty());
   }
 }
@@ -197,10 +197,10 @@ TEST(one_into_eight, any_hexes_of_any_grid_give_a_good_mesh) {
 TEST(one_into_eight, a_structured_and_an_unstructured_region_in_one_request) {
   const Mesh mesh = test::ring(9, 8, 1);
   const MeshedModel input = on_own_skin(mesh);
-  Request request{.kind = TargetKind::hex, .targets = {0, 1}};
-  for (int k = 0; k < 8; ++k) request.targets.push_back(4 + 9 * (4 + 9 * k));
-  std::ranges::sort(request.targets);
-  request.targets.erase(std::ranges::unique(request.targets).begin(), request.targets.end());
+  Request request{.target = {.kind = EntityKind::hex, .ids = {0, 1}}};
+  for (int k = 0; k < 8; ++k) request.target.ids.push_back(4 + 9 * (4 + 9 * k));
+  std::ranges::sort(request.target.ids);
+  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
   const RefineResult result = checked(input, request);
   std::string notices;
   for (const std::string& line : result.report.notices) notices += line + "\n";

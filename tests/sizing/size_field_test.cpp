@@ -93,7 +93,7 @@ TEST(size_field, an_expression_that_is_not_positive_names_the_place) {
 TEST(size_field, grows_with_the_distance_from_the_cad_entity) {
   MeshedModel cylinder{{}, analytic_cylinder(2, 5), {}};
   const auto field =
-      growing_size(0.1, 1.5, std::make_shared<TargetDistance>(cylinder, TargetKind::curve, std::array{1}));
+      growing_size(0.1, 1.5, std::make_shared<TargetDistance>(cylinder, EntityKind::curve, std::array{1}));
   std::mt19937 random(8);
   for (const Vec3& p : random_points(500, random, -4, 4))
     EXPECT_NEAR(field->at(p), 0.1 + 0.5 * std::hypot(std::hypot(p.x(), p.y()) - 2, p.z()), 1e-12);
@@ -104,7 +104,7 @@ TEST(size_field, distance_from_several_entities_is_that_of_the_nearest) {
   MeshedModel brick{test::grid(3, 3, 3), analytic_brick(3, 3, 3), {}};
   std::mt19937 random(9);
   const auto points = random_points(400, random, -2, 5);
-  const auto brute = [&](TargetKind kind, const std::vector<Index>& targets) {
+  const auto brute = [&](EntityKind kind, const std::vector<Index>& targets) {
     std::vector<double> all(points.size()), best(points.size(), 1e300);
     TargetDistance(brick, kind, targets).evaluate(points, all);
     for (const Index t : targets) {
@@ -114,18 +114,18 @@ TEST(size_field, distance_from_several_entities_is_that_of_the_nearest) {
     }
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(all[i], best[i], 1e-9) << name(kind);
   };
-  brute(TargetKind::node, {0, 5, 33, 63});
-  brute(TargetKind::edge, {0, 11, 70, 100});
-  brute(TargetKind::face, {0, 17, 40, 90});
-  brute(TargetKind::hex, {0, 13, 26});
-  brute(TargetKind::vertex, {1, 4, 8});
-  brute(TargetKind::curve, {1, 2, 12});
-  brute(TargetKind::surface, {1, 4, 6});
+  brute(EntityKind::node, {0, 5, 33, 63});
+  brute(EntityKind::edge, {0, 11, 70, 100});
+  brute(EntityKind::face, {0, 17, 40, 90});
+  brute(EntityKind::hex, {0, 13, 26});
+  brute(EntityKind::vertex, {1, 4, 8});
+  brute(EntityKind::curve, {1, 2, 12});
+  brute(EntityKind::surface, {1, 4, 6});
   // Inside of a hex and of a volume it is zero, outside that of the box.
-  for (const auto kind : {TargetKind::hex, TargetKind::volume}) {
+  for (const auto kind : {EntityKind::hex, EntityKind::volume}) {
     std::vector<double> distance(points.size());
-    TargetDistance(brick, kind, std::array{kind == TargetKind::hex ? 13 : 1}).evaluate(points, distance);
-    const double low = kind == TargetKind::hex ? 1 : 0, high = kind == TargetKind::hex ? 2 : 3;
+    TargetDistance(brick, kind, std::array{kind == EntityKind::hex ? 13 : 1}).evaluate(points, distance);
+    const double low = kind == EntityKind::hex ? 1 : 0, high = kind == EntityKind::hex ? 2 : 3;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 near = points[i].cwiseMax(low).cwiseMin(high);
       EXPECT_NEAR(distance[i], (points[i] - near).norm(), 1e-9);
@@ -250,9 +250,9 @@ TEST(size_field, curvature_without_cad_refines_as_the_cad_does) {
     for (int i = 0; i < 2; ++i) {
       const MeshedModel& on = i == 0 ? both.cad : both.skin;
       Request request;
-      request.kind = TargetKind::volume;
-      request.targets = {1};
-      request.size_field = both.bend(on, per_radian, 1.5);
+      request.target.kind = EntityKind::volume;
+      request.target.ids = {1};
+      request.how = Sizes{.field = both.bend(on, per_radian, 1.5)};
       results[i] = refine(on, request);
       test::expect_sound(results[i]);
     }

@@ -39,8 +39,8 @@ TEST(size_mix, a_layer_of_unit_cubes_meets_wishes_of_products_of_twos_and_threes
   const MeshedModel input = brick(4, 4, 4);
   for (const int pieces : {2, 3, 4, 6}) {
     SCOPED_TRACE(pieces);
-    const RefineResult result =
-        checked(input, {.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = 1.0 / pieces});
+    const RefineResult result = checked(
+        input, {.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 1.0 / pieces}});
     EXPECT_EQ(result.report.sizes->hexes.size(), 16U * pieces * pieces * pieces);
     EXPECT_NEAR(distance(result), 0, 1e-9);
     EXPECT_EQ(result.report.sizes->met(), 1);
@@ -51,7 +51,7 @@ TEST(size_mix, auto_comes_no_farther_from_the_wish_than_threes_alone) {
   const MeshedModel input = brick(5, 4, 3);
   for (const double size : {0.55, 0.5, 0.45, 0.36, 0.28, 0.22, 0.17}) {
     SCOPED_TRACE(size);
-    Request request{.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = size};
+    Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = size}};
     const RefineResult by_auto = checked(input, request);
     request.method = Method::single;
     const RefineResult by_threes = checked(input, request);
@@ -63,7 +63,7 @@ TEST(size_mix, auto_comes_no_farther_from_the_wish_than_threes_alone) {
 
 TEST(size_mix, both_are_told_when_both_were_tried) {
   const MeshedModel input = brick(4, 4, 4);
-  Request request{.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = 0.5};
+  Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 0.5}};
   const RefineResult halved = checked(input, request);
   EXPECT_NE(
       notices(halved).find("one into eight where that comes nearer, else one into 27: sizes are off by a factor of "
@@ -74,20 +74,20 @@ TEST(size_mix, both_are_told_when_both_were_tried) {
   const RefineResult parallel = checked(input, request);
   EXPECT_TRUE(parallel.refined.mesh == halved.refined.mesh);
   request.method = Method::automatic;
-  request.size = 1.0 / 3;  // a factor of three: nothing to choose
+  request.how = Sizes{.size = 1.0 / 3};  // a factor of three: nothing to choose
   EXPECT_EQ(notices(checked(input, request)), "");
 }
 
 /// Node, edge and face in the middle of a grid of 5 x 5 x 5 unit cubes; vertex, curve and surface of the brick.
-std::vector<std::pair<TargetKind, Index>> targets_of(const MeshedModel& input) {
+std::vector<std::pair<EntityKind, Index>> targets_of(const MeshedModel& input) {
   const auto node = [](int i, int j, int k) { return i + 6 * (j + 6 * k); };
   return {
-      {TargetKind::node, node(2, 2, 2)},
-      {TargetKind::edge, find_edge(edges(input.mesh), node(2, 2, 2), node(3, 2, 2))},
-      {TargetKind::face, find_face(faces(input.mesh), {node(2, 2, 2), node(3, 2, 2), node(2, 3, 2), node(3, 3, 2)})},
-      {TargetKind::vertex, 1},
-      {TargetKind::curve, 1},
-      {TargetKind::surface, 5}};
+      {EntityKind::node, node(2, 2, 2)},
+      {EntityKind::edge, find_edge(edges(input.mesh), node(2, 2, 2), node(3, 2, 2))},
+      {EntityKind::face, find_face(faces(input.mesh), {node(2, 2, 2), node(3, 2, 2), node(2, 3, 2), node(3, 3, 2)})},
+      {EntityKind::vertex, 1},
+      {EntityKind::curve, 1},
+      {EntityKind::surface, 5}};
 }
 
 TEST(size_mix, at_depth_0_only_what_touches_the_target_gets_the_size_within_the_first_layer) {
@@ -95,18 +95,20 @@ TEST(size_mix, at_depth_0_only_what_touches_the_target_gets_the_size_within_the_
   for (const auto& [kind, target] : targets_of(input))
     for (const double size : {0.4, 0.12}) {
       SCOPED_TRACE(std::string(name(kind)) + " " + std::to_string(size));
-      const RefineResult result = checked(input, {.kind = kind, .targets = {target}, .depth = 0, .size = size});
+      const RefineResult result =
+          checked(input, {.target = {.kind = kind, .ids = {target}, .depth = 0}, .how = Sizes{.size = size}});
       const SizeReport& sizes = *result.report.sizes;
       EXPECT_EQ(sizes.n_coarser, 0);
       EXPECT_TRUE(sizes.unmet.empty());
       EXPECT_EQ(sizes.n_passes, size > 0.2 ? 1 : 2);
       // Hexes that did not touch the target are there as they were.
-      const RefineResult by_count = checked(input, {.kind = kind, .targets = {target}});
+      const RefineResult by_count = checked(input, {.target = {.kind = kind, .ids = {target}}});
       for (Index h = 0; h < input.mesh.n_hexes(); ++h)
         EXPECT_EQ(find_hex(result.refined.mesh, h + 1) >= 0, find_hex(by_count.refined.mesh, h + 1) >= 0);
       EXPECT_EQ(sizes.n_passes == 1, result.refined.mesh == by_count.refined.mesh);
-      const RefineResult said =
-          checked(input, {.kind = kind, .targets = {target}, .size = size, .method = Method::combination});
+      const RefineResult said = checked(
+          input,
+          {.target = {.kind = kind, .ids = {target}}, .how = Sizes{.size = size}, .method = Method::combination});
       EXPECT_TRUE(said.refined.mesh == result.refined.mesh) << "the same request";
     }
 }
@@ -115,7 +117,9 @@ TEST(size_mix, the_combination_with_a_bias_leaves_nothing_too_large_anywhere) {
   const MeshedModel input = brick(5, 5, 5);
   for (const auto& [kind, target] : targets_of(input)) {
     SCOPED_TRACE(name(kind));
-    const Request request{.kind = kind, .targets = {target}, .size = 0.12, .bias = 1.4, .method = Method::combination};
+    const Request request{.target = {.kind = kind, .ids = {target}},
+                          .how = Sizes{.size = 0.12, .bias = 1.4},
+                          .method = Method::combination};
     const RefineResult result = checked(input, request);
     const SizeFieldPtr wish =
         growing_size(0.12, 1.4, std::make_shared<TargetDistance>(input, kind, std::span(&target, 1)));
@@ -133,7 +137,7 @@ TEST(size_mix, auto_takes_the_combination_at_a_curve_where_it_comes_nearer) {
   for (const Index curve : {2, 5, 9, 10})
     for (const double size : {1.0, 0.5}) {
       SCOPED_TRACE(std::to_string(curve) + " " + std::to_string(size));
-      Request request{.kind = TargetKind::curve, .targets = {curve}, .size = size, .bias = 1.5};
+      Request request{.target = {.kind = EntityKind::curve, .ids = {curve}}, .how = Sizes{.size = size, .bias = 1.5}};
       const RefineResult by_auto = checked(input, request);
       request.method = Method::single;
       const RefineResult by_threes = checked(input, request);
@@ -155,15 +159,16 @@ TEST(size_mix, auto_takes_the_combination_at_a_curve_where_it_comes_nearer) {
 
 TEST(size_mix, an_edge_is_left_alone_until_it_is_longer_than_the_wish_by_sqrt_3) {
   const MeshedModel input = brick(3, 3, 3);
-  const RefineResult result = checked(input, {.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = 0.58});
+  const RefineResult result =
+      checked(input, {.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 0.58}});
   EXPECT_TRUE(result.refined.mesh == input.mesh);
 }
 
 TEST(size_mix, a_dry_run_counts_what_would_come_out) {
   const MeshedModel input = brick(4, 4, 4);
-  Request request{.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = 0.5};
+  Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 0.5}};
   const RefineResult real = checked(input, request);
-  request.dry_run = true;
+  request.finish.dry_run = true;
   const RefineResult dry = refine(input, request);
   EXPECT_EQ(dry.report.hexes_after, real.report.hexes_after);
   EXPECT_FALSE(dry.report.sizes);
@@ -172,9 +177,9 @@ TEST(size_mix, a_dry_run_counts_what_would_come_out) {
 
 TEST(size_mix, smoothing_comes_after_the_choice) {
   const MeshedModel input = brick(4, 4, 4);
-  Request request{.kind = TargetKind::surface, .targets = {5}, .depth = 1, .size = 0.5};
+  Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 0.5}};
   const RefineResult rough = checked(input, request);
-  request.smooth = true;
+  request.finish.smooth = true;
   const RefineResult smooth = checked(input, request);
   EXPECT_EQ(smooth.refined.mesh.n_hexes(), rough.refined.mesh.n_hexes());
   EXPECT_GT(smooth.report.shape_after.min, rough.report.shape_after.min);

@@ -35,7 +35,7 @@ double size_of(const Mesh& mesh, Index hex) {
 }
 
 struct KindCase {
-  TargetKind kind;
+  EntityKind kind;
   Index target;
 };
 
@@ -44,28 +44,28 @@ std::vector<KindCase> every_kind(const MeshedModel& input) {
   const auto node = [](int i, int j, int k) { return i + 6 * (j + 6 * k); };
   const Edges all = edges(input.mesh);
   const Faces quads = faces(input.mesh);
-  return {{TargetKind::node, node(2, 2, 2)},
-          {TargetKind::edge, find_edge(all, node(2, 2, 2), node(3, 2, 2))},
-          {TargetKind::face, find_face(quads, {node(2, 2, 2), node(3, 2, 2), node(2, 3, 2), node(3, 3, 2)})},
-          {TargetKind::hex, 2 + 5 * (2 + 5 * 2)},
-          {TargetKind::vertex, 1},
-          {TargetKind::curve, 1},
-          {TargetKind::surface, 5},
-          {TargetKind::volume, 1}};
+  return {{EntityKind::node, node(2, 2, 2)},
+          {EntityKind::edge, find_edge(all, node(2, 2, 2), node(3, 2, 2))},
+          {EntityKind::face, find_face(quads, {node(2, 2, 2), node(3, 2, 2), node(2, 3, 2), node(3, 3, 2)})},
+          {EntityKind::hex, 2 + 5 * (2 + 5 * 2)},
+          {EntityKind::vertex, 1},
+          {EntityKind::curve, 1},
+          {EntityKind::surface, 5},
+          {EntityKind::volume, 1}};
 }
 
 TEST(size, without_bias_is_met_in_the_hexes_that_the_same_request_by_numsplit_would_cut) {
   const MeshedModel input = brick(5, 5, 5);
   for (const auto& [kind, target] : every_kind(input)) {
     SCOPED_TRACE(name(kind));
-    const RefineResult by_size = checked(input, {.kind = kind, .targets = {target}, .size = 0.4});
+    const RefineResult by_size = checked(input, {.target = {.kind = kind, .ids = {target}}, .how = Sizes{.size = 0.4}});
     EXPECT_EQ(by_size.report.sizes->n_passes, 1);
     EXPECT_TRUE(by_size.report.sizes->unmet.empty());
     EXPECT_EQ(by_size.report.sizes->met(), 1);
     for (const double ratio : by_size.report.sizes->ratio) EXPECT_NEAR(ratio, 1 / 3.0 / 0.4, 1e-9);
-    if (kind == TargetKind::volume) continue;  // numsplit would be uniform: halves
-    const int depth = kind == TargetKind::hex ? 0 : 1;
-    const RefineResult by_count = refine(input, {.kind = kind, .targets = {target}, .depth = depth});
+    if (kind == EntityKind::volume) continue;  // numsplit would be uniform: halves
+    const int depth = kind == EntityKind::hex ? 0 : 1;
+    const RefineResult by_count = refine(input, {.target = {.kind = kind, .ids = {target}, .depth = depth}});
     EXPECT_TRUE(by_size.refined.mesh == by_count.refined.mesh);
   }
 }
@@ -74,8 +74,9 @@ TEST(size, with_a_bias_grows_with_the_distance_from_every_kind_of_target) {
   const MeshedModel input = brick(5, 5, 5);
   for (const auto& [kind, target] : every_kind(input)) {
     SCOPED_TRACE(name(kind));
-    const double size = kind == TargetKind::volume ? 0.4 : 0.1;  // the whole mesh at 0.1 is no test of bias
-    const RefineResult result = checked(input, {.kind = kind, .targets = {target}, .size = size, .bias = 1.5});
+    const double size = kind == EntityKind::volume ? 0.4 : 0.1;  // the whole mesh at 0.1 is no test of bias
+    const RefineResult result =
+        checked(input, {.target = {.kind = kind, .ids = {target}}, .how = Sizes{.size = size, .bias = 1.5}});
     const TargetDistance distance(input, kind, std::array{target});
     const Mesh& mesh = result.refined.mesh;
     // No hex anywhere is larger than it should be.
@@ -93,7 +94,8 @@ TEST(size, with_a_bias_grows_with_the_distance_from_every_kind_of_target) {
 TEST(size, that_is_met_already_changes_nothing) {
   const MeshedModel input = brick(3, 3, 3);
   for (const double size : {1.0, 0.6, 5.0}) {
-    const RefineResult result = checked(input, {.kind = TargetKind::curve, .targets = {1}, .size = size});
+    const RefineResult result =
+        checked(input, {.target = {.kind = EntityKind::curve, .ids = {1}}, .how = Sizes{.size = size}});
     EXPECT_TRUE(result.refined.mesh == input.mesh);
     EXPECT_EQ(result.report.sizes->n_passes, 0);
   }
@@ -101,8 +103,8 @@ TEST(size, that_is_met_already_changes_nothing) {
 
 TEST(size, that_no_memory_could_hold_is_refused_before_anything_is_cut) {
   const MeshedModel input = brick(3, 3, 3);
-  for (const auto& [kind, size] : {std::pair(TargetKind::hex, 1e-4), std::pair(TargetKind::surface, 1e-6)}) {
-    Request request{.kind = kind, .targets = {1}, .size = size};
+  for (const auto& [kind, size] : {std::pair(EntityKind::hex, 1e-4), std::pair(EntityKind::surface, 1e-6)}) {
+    Request request{.target = {.kind = kind, .ids = {1}}, .how = Sizes{.size = size}};
     int n_passes = 0;
     const auto count = [&](std::string_view stage, double) {
       n_passes += stage == "split";
@@ -120,7 +122,8 @@ TEST(size, that_no_memory_could_hold_is_refused_before_anything_is_cut) {
 
 TEST(size, stops_at_the_limit_of_passes_and_names_what_is_too_large) {
   const MeshedModel input = brick(3, 3, 3);
-  const RefineResult result = checked(input, {.kind = TargetKind::hex, .targets = {13}, .size = 0.01, .max_passes = 1});
+  const RefineResult result =
+      checked(input, {.target = {.kind = EntityKind::hex, .ids = {13}}, .how = Sizes{.size = 0.01, .max_passes = 1}});
   EXPECT_EQ(result.report.sizes->n_passes, 1);
   EXPECT_EQ(result.report.sizes->unmet.size(), 27u);
   for (const Index h : result.report.sizes->unmet) EXPECT_GT(size_of(result.refined.mesh, h), root3 * 0.01);
@@ -138,11 +141,13 @@ TEST(size, reaches_no_further_than_the_depth) {
     return n;
   };
   for (const int depth : {0, 1, 2}) {
-    const Request request{.kind = TargetKind::hex, .targets = {centre}, .depth = depth, .size = 0.4};
+    const Request request{.target = {.kind = EntityKind::hex, .ids = {centre}, .depth = depth},
+                          .how = Sizes{.size = 0.4}};
     const Vec3 low = Vec3::Constant(3 - depth), high = Vec3::Constant(4 + depth);
     EXPECT_EQ(finest_at(checked(input, request).refined.mesh, low, high), 27 * std::pow(1 + 2 * depth, 3));
   }
-  const Request biased{.kind = TargetKind::hex, .targets = {centre}, .depth = 1, .size = 0.1, .bias = 1.2};
+  const Request biased{.target = {.kind = EntityKind::hex, .ids = {centre}, .depth = 1},
+                       .how = Sizes{.size = 0.1, .bias = 1.2}};
   const Mesh mesh = checked(input, biased).refined.mesh;
   for (Index h = 0; h < input.mesh.n_hexes(); ++h) {
     const Vec3 away = (centroid(input.mesh, h) - Vec3::Constant(3.5)).cwiseAbs();
@@ -163,8 +168,9 @@ TEST(radius, takes_the_hexes_whose_centroids_are_that_near_to_the_entity_itself)
       if (std::hypot(at.y(), at.z()) <= radius) expected.push_back(h);
     }
     ASSERT_FALSE(expected.empty()) << n;
-    const Mesh by_radius = refine(input, {.kind = TargetKind::curve, .targets = {1}, .radius = radius}).refined.mesh;
-    const Mesh by_hex = refine(input, {.kind = TargetKind::hex, .targets = expected}).refined.mesh;
+    const Mesh by_radius =
+        refine(input, {.target = {.kind = EntityKind::curve, .ids = {1}, .radius = radius}}).refined.mesh;
+    const Mesh by_hex = refine(input, {.target = {.kind = EntityKind::hex, .ids = expected}}).refined.mesh;
     EXPECT_TRUE(by_radius == by_hex);
   }
 }
@@ -181,9 +187,10 @@ TEST(radius, works_for_every_kind_of_target) {
       distance.evaluate({&at, 1}, {&d, 1});
       if (d <= 1.2) expected.push_back(h);
     }
-    const RefineResult by_radius = checked(input, {.kind = kind, .targets = {target}, .radius = 1.2, .size = 0.4});
+    const RefineResult by_radius =
+        checked(input, {.target = {.kind = kind, .ids = {target}, .radius = 1.2}, .how = Sizes{.size = 0.4}});
     EXPECT_EQ(by_radius.report.sizes->met(), 1);
-    const Mesh by_hex = refine(input, {.kind = TargetKind::hex, .targets = expected}).refined.mesh;
+    const Mesh by_hex = refine(input, {.target = {.kind = EntityKind::hex, .ids = expected}}).refined.mesh;
     EXPECT_TRUE(by_radius.refined.mesh == by_hex);
   }
 }
@@ -191,32 +198,34 @@ TEST(radius, works_for_every_kind_of_target) {
 TEST(size, options_that_make_no_sense_together_are_refused) {
   const MeshedModel input = brick(2, 2, 2);
   const auto with = [&](auto change) {
-    Request request{.kind = TargetKind::curve, .targets = {1}};
+    Request request{.target = {.kind = EntityKind::curve, .ids = {1}}};
     change(request);
     return refusal(input, request);
   };
-  EXPECT_EQ(with([](Request& r) { r.size = 0.0; }), "size must be a positive number");
-  EXPECT_EQ(with([](Request& r) { r.size = std::nan(""); }), "size must be a positive number");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.numsplit = 2; }), "give numsplit or a size, not both");
-  EXPECT_EQ(with([](Request& r) { r.bias = 1.5; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 0.0}; }), "size must be a positive number");
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = std::nan("")}; }), "size must be a positive number");
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.bias = 1.5}; }),
             "a bias other than 1 needs a size or a sizing function to grow from");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.bias = 0.5; }), "bias must be a number of at least 1");
-  EXPECT_EQ(with([](Request& r) { r.radius = -1; }), "radius must be a number of at least 0");
-  EXPECT_EQ(with([](Request& r) { r.radius = 1, r.depth = 1; }), "give a depth or a radius, not both");
-  EXPECT_EQ(with([](Request& r) { r.radius = 1, r.method = Method::combination; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1, .bias = 0.5}; }), "bias must be a number of at least 1");
+  EXPECT_EQ(with([](Request& r) { r.target.radius = -1; }), "radius must be a number of at least 0");
+  EXPECT_EQ(with([](Request& r) { r.target.radius = 1, r.target.depth = 1; }), "give a depth or a radius, not both");
+  EXPECT_EQ(with([](Request& r) { r.target.radius = 1, r.method = Method::combination; }),
             "a radius chooses whole hexes, the combination technique refines around nodes, edges and faces");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0, r.method = Method::parallel; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1}, r.target.depth = 0, r.method = Method::parallel; }),
             "sizes by one into eight need whole hexes to be cut: depth 1 or more");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 0, r.method = Method::single; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1}, r.target.depth = 0, r.method = Method::single; }),
             "the single sheet technique refines whole hexes: it needs depth 1 or more");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.depth = 1, r.method = Method::combination; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1}, r.target.depth = 1, r.method = Method::combination; }),
             "the combination technique has depth 0");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.levels = Levels::graded, r.method = Method::combination; }),
-            "graded levels need whole hexes to be cut: not the combination");
-  EXPECT_EQ(with([](Request& r) { r.kind = TargetKind::volume, r.size = 1, r.method = Method::combination; }),
+  EXPECT_EQ(
+      with([](Request& r) { r.how = Sizes{.size = 1}, r.levels = Levels::graded, r.method = Method::combination; }),
+      "graded levels need whole hexes to be cut: not the combination");
+  EXPECT_EQ(with([](Request& r) {
+              r.target.kind = EntityKind::volume, r.how = Sizes{.size = 1}, r.method = Method::combination;
+            }),
             "the combination technique refines around nodes, edges and faces, not a volume");
-  EXPECT_EQ(with([](Request& r) { r.size = 1, r.max_passes = 0; }), "max_passes must be from 1 to 30");
-  EXPECT_EQ(with([](Request& r) { r.radius = 0.1; }),
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1, .max_passes = 0}; }), "max_passes must be from 1 to 30");
+  EXPECT_EQ(with([](Request& r) { r.target.radius = 0.1; }),
             "no hex has its centroid within 0.100000 of the target: the nearest is 0.707107 away");
 }
 
@@ -236,7 +245,8 @@ TEST(size, is_met_by_the_hexes_at_every_curve_of_the_plate_and_the_bracket) {
     for (Index curve = 1; curve <= input.model->count(1); ++curve)
       for (const double size : {2.0, 1.0, 0.5}) {
         SCOPED_TRACE(std::string(part) + " curve " + std::to_string(curve) + " size " + std::to_string(size));
-        const Request request{.kind = TargetKind::curve, .targets = {curve}, .size = size, .bias = 1.5};
+        const Request request{.target = {.kind = EntityKind::curve, .ids = {curve}},
+                              .how = Sizes{.size = size, .bias = 1.5}};
         const MeshedModel fine = std::move(refine(input, request).refined);
         EXPECT_TRUE(test::uninverted(fine.mesh));
         std::vector<char> on_curve(fine.mesh.points.size(), 0);
@@ -264,7 +274,7 @@ TEST_P(size_on_cad, is_met_by_nine_tenths_and_no_hex_is_finer_by_more_than_three
   const auto [part, curve, size] = GetParam();
   const MeshedModel input = shipped(part);
   const RefineResult result =
-      checked(input, {.kind = TargetKind::curve, .targets = {curve}, .size = size, .bias = 1.5});
+      checked(input, {.target = {.kind = EntityKind::curve, .ids = {curve}}, .how = Sizes{.size = size, .bias = 1.5}});
   const SizeReport& sizes = *result.report.sizes;
   EXPECT_GE(sizes.met(), 0.9);
   EXPECT_EQ(sizes.n_coarser, 0);

@@ -64,39 +64,40 @@ Request request_of(const std::string& figure, const MeshedModel& input) {
   const Model& model = *input.model;
   const double big = 1e3;
   if (figure == "7(b)")  // 5 x 5 cells of the outside of the bend, 3 deep
-    return {.kind = TargetKind::hex, .targets = items_where(mesh, mesh.hexes, [](const Vec3& p) {
-                                       const auto [i, j, k] = bar_cell(p);
-                                       return i >= 3 && j >= 4 && j < 9 && k >= 5 && k < 10;
-                                     })};
+    return {.target = {.kind = EntityKind::hex, .ids = items_where(mesh, mesh.hexes, [](const Vec3& p) {
+                                                  const auto [i, j, k] = bar_cell(p);
+                                                  return i >= 3 && j >= 4 && j < 9 && k >= 5 && k < 10;
+                                                })}};
   if (figure == "7(c)") {  // a long edge of the bar, on the outside of the bend
     std::vector<Index> arcs = entities_in(model, 1, {-big, -big, 0}, {big, big, 0});
     std::erase_if(arcs, [&](Index id) { return model.measure({1, id}) < 90; });
-    return {.kind = TargetKind::curve, .targets = arcs, .depth = 1};
+    return {.target = {.kind = EntityKind::curve, .ids = arcs, .depth = 1}};
   }
   if (figure == "7(d)")  // one end
-    return {.kind = TargetKind::surface, .targets = entities_in(model, 2, {0, 0, 0}, {big, 0, big}), .depth = 1};
+    return {
+        .target = {.kind = EntityKind::surface, .ids = entities_in(model, 2, {0, 0, 0}, {big, 0, big}), .depth = 1}};
   if (figure == "16(b)") {  // the upper rim of the hole, as mesh edges
     const Edges all = edges(mesh);
-    return {.kind = TargetKind::edge, .targets = items_where(mesh, all.nodes, [](const Vec3& p) {
-                                        return p.z() > 15 - 1e-6 && std::hypot(p.x() - 40, p.y() - 18) < 10;
-                                      })};
+    return {.target = {.kind = EntityKind::edge, .ids = items_where(mesh, all.nodes, [](const Vec3& p) {
+                                                   return p.z() > 15 - 1e-6 && std::hypot(p.x() - 40, p.y() - 18) < 10;
+                                                 })}};
   }
   if (figure == "16(c)") {  // a patch of the upper side, beside the hole
     const Faces all = faces(mesh);
-    return {.kind = TargetKind::face, .targets = items_where(mesh, all.nodes, [](const Vec3& p) {
-                                        return p.z() > 15 - 1e-6 && p.x() > 51 && p.x() < 61 && p.y() > 12 &&
-                                               p.y() < 24;
-                                      })};
+    return {.target = {.kind = EntityKind::face, .ids = items_where(mesh, all.nodes, [](const Vec3& p) {
+                                                   return p.z() > 15 - 1e-6 && p.x() > 51 && p.x() < 61 && p.y() > 12 &&
+                                                          p.y() < 24;
+                                                 })}};
   }
   // 17: both rims of the rod.
-  Request rims{.kind = TargetKind::curve};
+  Request rims{.target = {.kind = EntityKind::curve}};
   for (int id = 1; id <= model.count(1); ++id)
-    if (model.type({1, id}) == "circle") rims.targets.push_back(id);
+    if (model.type({1, id}) == "circle") rims.target.ids.push_back(id);
   if (figure == "17(c)") {
     rims.method = Method::parallel;
-    rims.depth = 1;
+    rims.target.depth = 1;
   }
-  if (figure == "17(d)") rims.depth = 1;
+  if (figure == "17(d)") rims.target.depth = 1;
   return rims;
 }
 

@@ -1,0 +1,153 @@
+#include "hextwist/sizing/loop.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <ranges>
+#include <utility>
+
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/refine/carry.h"
+#include "hextwist/refine/place.h"
+#include "hextwist/sizing/levels.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
+
+namespace hextwist {
+namespace {
+
+constexpr int smooth_layers = 2;  // around the new hexes
+/// Between passes, new hexes below this shape are smoothed, even if smoothing is not asked for.
+constexpr double least_shape_to_go_on = 0.1;
+
+/// One more for the children of hexes all of whose edges were cut.
+void raise_levels(const Lineage& lineage, Mesh& refined) {
+  std::vector<double>& level = level_field_of(refined).values;
+  for (const CutHex& cut : lineage.hexes) {
+    const HexTemplate& pieces = lineage.table->hex(cut.code);
+    if (std::ranges::count(pieces.edge_code, 0) > 0) continue;
+    for (std::size_t i = 0; i < pieces.children.size(); ++i) ++level[static_cast<std::size_t>(cut.first_child) + i];
+  }
+}
+
+}  // namespace
+
+void State::run(Technique& technique) {
+  while (std::optional<Cut> cut = technique.next(*this)) {
+    if (cut->cuts_again) smooth_between_passes();
+    const bool is_first = current_ == &input;
+    const MeshedModel before = pass(std::move(*cut));
+    technique.follow(result_.lineage, is_first ? input.mesh : before.mesh, mesh());
+  }
+  if (current_ == &input) keep();
+  technique.finish(*this);
+}
+
+MeshedModel State::pass(Cut cut) {
+  ++n_passes_;
+  const MeshedModel& from = *current_;
+  begin("split");
+  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(cut.table), cut.codes);
+  begin("carry");
+  Carried carried = carry(from.mesh, from.association, parts);
+  MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
+  if (request.levels != Levels::ignored) raise_levels(parts.lineage, next.mesh);
+  if (!request.finish.dry_run) {
+    begin("place");
+    if (next.model && !next.association.empty()) {
+      const Interruptible interruptible([&] {
+        if (!stages.report("place", fraction())) throw Cancelled();
+      });
+      place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
+    }
+    begin("improve");
+    bool stopped = false;
+    const auto keep_going = [&](const char* stage, double) {
+      stopped |= !stages.report(stage, fraction());
+      return !stopped;
+    };
+    std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
+                                      request.finish.fixed, keep_going),
+                      std::back_inserter(report.off_nodes));
+    if (stopped) throw Cancelled();
+  }
+  const std::vector<Index>& parent = parts.lineage.parent;
+  std::vector<Index> origin(parent.size());
+  parallel_each(parent.size(),
+                [&](std::size_t h) { origin[h] = result_.origin.empty() ? parent[h] : result_.origin[parent[h]]; });
+  origin_before_ = std::exchange(result_.origin, std::move(origin));
+  n_kept_before_ = n_kept(from.mesh);
+  result_.lineage = std::move(parts.lineage);
+  current_ = &result_.refined;
+  return std::exchange(result_.refined, std::move(next));
+}
+
+void State::keep() {
+  result_.refined = input;
+  if (request.levels != Levels::ignored) level_field_of(result_.refined.mesh);
+  result_.lineage.n_old_nodes = input.mesh.n_nodes();
+  result_.lineage.n_old_hexes = input.mesh.n_hexes();
+  result_.lineage.parent.resize(input.mesh.hexes.size());
+  std::iota(result_.lineage.parent.begin(), result_.lineage.parent.end(), 0);
+  result_.origin = result_.lineage.parent;
+  current_ = &result_.refined;
+}
+
+void State::adopt(RefineResult result) {
+  ++n_passes_;
+  result_ = std::move(result);
+  current_ = &result_.refined;
+}
+
+Index State::n_kept(const Mesh& mesh) const {
+  // Hexes that were there before have their old ids and come first.
+  const std::int64_t last_old = hex_id(input.mesh, input.mesh.n_hexes() - 1);
+  const auto all = std::views::iota(Index{0}, mesh.n_hexes());
+  return static_cast<Index>(std::ranges::partition_point(all, [&](Index h) { return hex_id(mesh, h) <= last_old; }) -
+                            all.begin());
+}
+
+std::vector<Index> State::new_hexes() const {
+  std::vector<Index> fresh;
+  for (Index h = mesh().n_hexes() - 1, first = n_kept(mesh()); h >= first; --h) fresh.push_back(h);
+  return fresh;
+}
+
+void State::smooth_band(bool fix_boundary) {
+  begin("smooth");
+  Mesh& mesh = result_.refined.mesh;
+  SmoothOptions options;
+  options.nodes = nodes_inside(mesh, hex_band(mesh, new_hexes(), smooth_layers));
+  options.fixed = request.finish.fixed;
+  options.fix_boundary = fix_boundary;
+  const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,
+                                       [&](const char* stage, double) { return stages.report(stage, 0.9); });
+  if (smoothed.stopped) throw Cancelled();
+  note("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " + std::to_string(smoothed.sweeps) + " sweeps");
+}
+
+void State::smooth_between_passes() {
+  if (request.finish.dry_run) return;
+  if (!request.finish.smooth) {
+    const double smallest = summarize(quality(Metric::shape, mesh(), new_hexes())).min;
+    if (smallest >= least_shape_to_go_on) return;
+    if (!told_between_) note("smoothed between passes, as shapes had come down to " + std::to_string(smallest));
+    told_between_ = true;
+  }
+  smooth_band(!request.finish.smooth);
+}
+
+RefineResult run_passes(State& state, Approach approach) {
+  state.begin("targets");
+  if (approach == Approach::nearest_size)
+    run_nearest_size(state);
+  else
+    state.run(*make_technique(approach, state));
+  if (state.request.finish.smooth && !state.request.finish.dry_run) state.smooth_band();
+  state.stages.begin("verify", 0.9);
+  return state.take_result();
+}
+
+}  // namespace hextwist

@@ -1,0 +1,76 @@
+// The one loop over passes: a technique says what is cut next, a pass cuts it, the technique follows, until nothing is
+// left to cut.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hextwist/sizing/plan.h"
+#include "hextwist/sizing/stages.h"
+#include "hextwist/sizing/techniques/technique.h"
+
+namespace hextwist {
+
+/// A mesh on its way through the passes of a request.
+class State {
+ public:
+  State(const MeshedModel& of_input, const Request& of_request, Report& of_report, const Progress& of_progress)
+      : input(of_input),
+        request(of_request),
+        report(of_report),
+        progress(of_progress),
+        stages(of_report, of_progress),
+        current_(&of_input) {}
+
+  const MeshedModel& input;
+  const Request& request;
+  Report& report;
+  const Progress& progress;
+  Stages stages;
+
+  /// The mesh after the passes so far.
+  const MeshedModel& current() const { return *current_; }
+  const Mesh& mesh() const { return current_->mesh; }
+  /// How far the request has come, for the progress callback: nobody knows how many passes there will be.
+  double fraction() const { return 0.9 * n_passes_ / (n_passes_ + 1); }
+  void begin(const char* stage) { stages.begin(stage, fraction()); }
+  void note(std::string line) { report.notices.push_back(std::move(line)); }
+
+  /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
+  void run(Technique& technique);
+  /// Goes on with a result of the same request that was made apart.
+  void adopt(RefineResult result);
+  /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
+  /// are to stay.
+  void smooth_band(bool fix_boundary = false);
+
+  /// Before the last pass: per hex the hex of the input that it lay in (empty: itself); the first so many were those of
+  /// the input that had not been cut.
+  const std::vector<Index>& origin_before() const { return origin_before_; }
+  Index n_kept_before() const { return n_kept_before_; }
+  RefineResult take_result() { return std::move(result_); }
+
+ private:
+  /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one.
+  MeshedModel pass(Cut cut);
+  /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
+  /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
+  void smooth_between_passes();
+  /// Makes the input the result.
+  void keep();
+  /// Hexes of the input that a mesh made of it still has.
+  Index n_kept(const Mesh& mesh) const;
+  std::vector<Index> new_hexes() const;
+
+  const MeshedModel* current_;
+  RefineResult result_;
+  std::vector<Index> origin_before_;
+  Index n_kept_before_ = 0;
+  int n_passes_ = 0;
+  bool told_between_ = false;
+};
+
+/// All passes of a request, and smoothing: everything but the last check.
+RefineResult run_passes(State& state, Approach approach);
+
+}  // namespace hextwist

@@ -1,0 +1,77 @@
+// What a refinement reports and returns.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hextwist/mesh/meshed_model.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/validate/validate.h"
+#include "hextwist/refine/lineage.h"
+#include "hextwist/refine/place.h"
+
+namespace hextwist {
+
+struct Extremes;
+
+/// Seconds per stage of a refinement, in the order run.
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// How well a request for sizes was met. The zone: the hexes at which it was wished for (with a bias: the hexes that it
+/// made and those at the target). The actual size of a hex is the cube root of its volume; the wished one that at its
+/// centroid.
+struct SizeReport {
+  int n_passes = 0;
+  std::vector<Index> hexes;   ///< of the zone, ascending
+  std::vector<double> ratio;  ///< per hex of the zone: actual size / wished size
+  Index n_coarser = 0;        ///< ratio above sqrt(3)
+  Index n_finer = 0;          ///< below 1 / sqrt(3)
+  Index n_much_finer = 0;     ///< below 1 / 3
+  std::vector<Index> unmet;   ///< hexes that would be cut again if there were passes left, ascending
+  /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
+  double met() const {
+    const auto n = static_cast<double>(hexes.size());
+    return hexes.empty() ? 1 : 1 - static_cast<double>(n_coarser + n_finer) / n;
+  }
+};
+
+struct Report {
+  std::int64_t hexes_before = 0, hexes_after = 0;
+  std::int64_t nodes_before = 0, nodes_after = 0;
+  std::int64_t filled_hexes = 0;  ///< hexes that joined the region because of Concave::fill
+  Summary shape_before, shape_after;
+  Summary scaled_jacobian_before, scaled_jacobian_after;
+  OffModel off_cad;
+  std::shared_ptr<const Extremes> extremes;  ///< of the result (extremes.h), for who refines it again
+  double volume_before = 0, volume_after = 0;
+  std::vector<OffOwner> off_nodes;    ///< nodes that were left off their owner
+  std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
+  std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
+  std::vector<std::string> notices;   ///< decisions taken, one line each
+  std::vector<StageTime> seconds;
+  double total_seconds = 0;
+  std::size_t peak_memory_bytes = 0;  ///< of the process so far
+};
+
+/// Called now and then with a stage name and its progress 0..1; returns false to cancel (the call then throws
+/// Cancelled and nothing has changed).
+using Progress = std::function<bool(const char* stage, double fraction)>;
+struct Cancelled : Error {
+  Cancelled() : Error("cancelled") {}
+};
+
+struct RefineResult {
+  MeshedModel refined;
+  Lineage lineage;            ///< of the last pass
+  std::vector<Index> origin;  ///< over all passes: per hex, the hex of the input that it lies in; empty for a dry run
+  Report report;
+};
+
+}  // namespace hextwist
