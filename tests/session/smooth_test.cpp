@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 #include "hextwist/io/io.h"
@@ -38,6 +39,46 @@ TEST(SmoothCommand, improves_shapes_and_stays_on_the_model) {
     EXPECT_LT(record.off_cad.max_relative, 1e-9);
     EXPECT_NE(f.output.at(0).find("smallest shape"), std::string::npos);
   }
+}
+
+/// Runs `refine` on a cube whose nodes are all fixed: none of them may move.
+void expect_fixed_nodes_stay(const std::string& how, const std::function<void(Session&)>& refine) {
+  SCOPED_TRACE(how);
+  Fixture f;
+  f.session.run("create brick x 4 interval 4; node all position fixed");
+  const std::vector<Vec3> before = f.session.meshed().mesh.points;
+  refine(f.session);
+  const std::vector<Vec3>& after = f.session.meshed().mesh.points;
+  EXPECT_GT(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i], before[i]) << i;
+}
+
+TEST(SmoothCommand, nodes_fixed_stay_in_every_way_to_refine) {
+  for (const std::string how :
+       {"hex 22 depth 0 graded", "hex 22 depth 0", "hex 22 numsplit 2", "curve 1", "curve 1 depth 1 numsplit 2",
+        "curve 1 method parallel", "hex 22 23 26 method parallel", "vertex 1 radius 1.5", "curve 1 size 0.3",
+        "curve 1 size 0.3 bias 1.5", "surface 1 depth 1 size 0.5", "volume all sizing_function \"0.2 + abs(x) / 3\"",
+        "surface 1 direction thickness", "surface 1 direction layers 3 growth 1.5"})
+    expect_fixed_nodes_stay(how, [&](Session& session) { session.run("refine " + how + " smooth"); });
+  expect_fixed_nodes_stay("sheet", [](Session& session) { session.run("refine sheet edge 30 smooth"); });
+  expect_fixed_nodes_stay("adapt by flags", [](Session& session) {
+    std::vector<std::uint8_t> flags(64);
+    flags[21] = 1;
+    session.adapt(flags, {.smooth = true});
+  });
+  expect_fixed_nodes_stay("adapt by sizes", [](Session& session) {
+    std::vector<double> sizes(64, 1);
+    sizes[21] = 0.3;
+    session.adapt(sizes, {.smooth = true});
+  });
+  expect_fixed_nodes_stay("adapt with nodes of its own", [](Session& session) {
+    session.run("node all position free");
+    std::vector<std::uint8_t> flags(64);
+    flags[21] = 1;
+    AdaptOptions options{.smooth = true};
+    for (Index n = 0; n < session.meshed().mesh.n_nodes(); ++n) options.fixed.push_back(n);
+    session.adapt(flags, options);
+  });
 }
 
 TEST(SmoothCommand, moves_the_nodes_of_the_entities_only) {
