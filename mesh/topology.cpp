@@ -8,6 +8,7 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 
@@ -111,8 +112,7 @@ std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes
   for (const Index h : hexes)
     for (const Index n : mesh.hexes[h])
       if (n >= first_node) nodes.push_back(n);
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

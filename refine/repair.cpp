@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
@@ -57,11 +58,11 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
 std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, std::span<const Index> wanted) {
   std::vector<Vec3> places(wanted.size());
   const auto take = [&](Index node, const Origin& origin) {
-    const auto found = std::ranges::lower_bound(wanted, node);
-    if (found == wanted.end() || *found != node) return;
+    const Index at = position_in(wanted, node);
+    if (at < 0) return;
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];
-    places[found - wanted.begin()] = sum;
+    places[at] = sum;
   };
   for (const CutEdge& edge : lineage.edges) for_each_node(lineage, edge, take);
   for (const CutFace& face : lineage.faces) for_each_node(lineage, face, take);
@@ -114,8 +115,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
     bad = inverted_hexes(mesh, split.n_kept());
     if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed, progress);
   }
-  std::ranges::sort(backed_off);
-  backed_off.erase(std::ranges::unique(backed_off).begin(), backed_off.end());
+  sort_unique(backed_off);
   for (const Index node : backed_off) {
     const Owner on = owner(node);
     if (!model || on.dim > 2) continue;

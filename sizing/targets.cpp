@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/split_table.h"
@@ -25,12 +26,6 @@ int cad_dimension(EntityKind kind) {
     default:
       return -1;
   }
-}
-
-template <typename T>
-void sort_unique(std::vector<T>& items) {
-  std::ranges::sort(items);
-  items.erase(std::ranges::unique(items).begin(), items.end());
 }
 
 /// Each kind fills what it names; nodes of edges and faces are added by the caller.

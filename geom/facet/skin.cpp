@@ -9,6 +9,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "hextwist/base/sorted.h"
+
 namespace hextwist {
 namespace {
 
@@ -138,9 +140,7 @@ std::vector<int> Finder::surfaces_at(std::size_t edge) const {
 }
 
 int Finder::edge_label(Node a, Node b) const {
-  const auto at = std::ranges::lower_bound(labels->edges, std::array{std::min(a, b), std::max(a, b)});
-  const bool found = at != labels->edges.end() && *at == std::array{std::min(a, b), std::max(a, b)};
-  return found ? labels->edge_labels[at - labels->edges.begin()] : 0;
+  return value_of(labels->edges, labels->edge_labels, std::array{std::min(a, b), std::max(a, b)});
 }
 
 bool Finder::bends(Node node, Node from, Node to) const {
@@ -236,8 +236,7 @@ void Finder::find_curves() {
   }
   for (std::size_t e = 0; e < edges.size(); ++e)
     for (const int surface : surfaces_at(e)) result.surface_curves.push_back({surface, curve_of[e]});
-  std::ranges::sort(result.surface_curves);
-  result.surface_curves.erase(std::ranges::unique(result.surface_curves).begin(), result.surface_curves.end());
+  sort_unique(result.surface_curves);
 }
 
 }  // namespace

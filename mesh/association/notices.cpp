@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -193,9 +194,7 @@ void compare_with_tags(const Mesh& mesh, const Faces& faces, const Tags& tags, c
                 std::to_string(tag) + ", on " + to_string(owner));
   }
   for (const auto& [edge, tag] : tags.edge_curve) {
-    const auto at = std::ranges::lower_bound(association.curve_edges, edge);
-    const bool there = at != association.curve_edges.end() && *at == edge;
-    const int curve = there ? association.edge_curve[at - association.curve_edges.begin()] : 0;
+    const int curve = value_of(association.curve_edges, association.edge_curve, edge);
     if (curve != tag)
       edges.add(edge_name(mesh, edge) + ", tag " + std::to_string(tag) + ", on " +
                 (curve ? "curve " + std::to_string(curve) : std::string("no curve")));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/association/association_internal.h"
 
@@ -79,8 +80,7 @@ std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces
         continue;
       }
       if (volumes == here) continue;
-      std::vector<int> common;
-      std::ranges::set_intersection(volumes, here, std::back_inserter(common));
+      std::vector<int> common = intersection(volumes, here);
       if (common.empty()) {
         bool shared = false;
         for (const auto& both : facts.surface_volumes)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/validate/validate_internal.h"
@@ -196,8 +197,7 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
   for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
   if (found.empty()) return found;
 
-  std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   std::vector<Index> part = singletons(mesh.n_nodes());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     for (Index h = begin; h < end; ++h)

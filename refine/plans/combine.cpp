@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 
@@ -54,8 +55,7 @@ std::vector<Index> hexes_at_target(const Mesh& mesh, const CombinationTarget& ta
 std::vector<Edge> target_edges(const CombinationTarget& target) {
   std::vector<Edge> result = target.edges;
   for (const Quad& quad : target.faces) std::ranges::copy(edges_of(quad), std::back_inserter(result));
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 

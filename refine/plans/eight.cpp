@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
@@ -47,8 +48,7 @@ struct Surroundings {
     for (const Index n : nodes)
       for (const Index h : around[n])
         if (!target[h]) result.push_back(h);
-    std::ranges::sort(result);
-    result.erase(std::ranges::unique(result).begin(), result.end());
+    sort_unique(result);
     return result;
   }
   int mask(const Hex& hex, int pass) const {
@@ -64,8 +64,7 @@ RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
   region.hexes = std::move(hexes);
   for (const Index h : region.hexes)
     region.nodes.insert(region.nodes.end(), all.mesh.hexes[h].begin(), all.mesh.hexes[h].end());
-  std::ranges::sort(region.nodes);
-  region.nodes.erase(std::ranges::unique(region.nodes).begin(), region.nodes.end());
+  sort_unique(region.nodes);
   for (std::size_t i = 0; i < region.nodes.size(); ++i) all.local[region.nodes[i]] = static_cast<Index>(i);
   region.mesh.points.resize(region.nodes.size(), Vec3::Zero());
   for (const Index h : region.hexes) {
@@ -132,8 +131,7 @@ bool close_outside(Surroundings& all, int pass, std::vector<Index> hexes, std::s
       for (int c = 0; c < n_hex_corners; ++c)
         if ((closed ^ mask) >> c & 1) added.push_back(hex[c]);
     }
-    std::ranges::sort(added);
-    added.erase(std::ranges::unique(added).begin(), added.end());
+    sort_unique(added);
     for (const Index n : added) all.marks[n] |= 1U << pass;
     added_nodes.insert(added_nodes.end(), added.begin(), added.end());
     if (added_nodes.size() > limit) return false;
@@ -191,8 +189,7 @@ std::vector<std::pair<Index, Index>> crossing_outside(const Surroundings& all, c
         for (const Index b : of_axis[(axis + 1) % 3])
           if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 
@@ -232,8 +229,7 @@ std::optional<std::vector<Index>> mark_region(Surroundings& all, const RegionMes
                            : "a hex between its sides would have no template");
     found.n_added_nodes += static_cast<Index>(added.size());
   }
-  std::ranges::sort(touched);
-  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+  sort_unique(touched);
   if (!Group{}.takes(all, all.outside(touched))) return fail("edges beside it would be cut more than three times");
   return touched;
 }

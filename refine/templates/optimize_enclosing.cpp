@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/plans/combine.h"
@@ -108,8 +109,7 @@ std::vector<Case> cases() {
   for (Case& one : all) {
     for (const Edge& edge : target_edges(one.target))
       one.target.nodes.insert(one.target.nodes.end(), edge.begin(), edge.end());
-    std::ranges::sort(one.target.nodes);
-    one.target.nodes.erase(std::ranges::unique(one.target.nodes).begin(), one.target.nodes.end());
+    sort_unique(one.target.nodes);
     std::ranges::sort(one.target.edges);
   }
   return all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/session_internal.h"
 
@@ -120,11 +121,7 @@ void do_scheme(Execution& run) {
 void do_node(Execution& run) {
   const std::vector<Index> nodes = run.chosen(*run.command.find("range"));
   const std::vector<Index> old = run.state.fixed_nodes ? *run.state.fixed_nodes : std::vector<Index>();
-  std::vector<Index> fixed;
-  if (run.command.has("fixed"))
-    std::ranges::set_union(old, nodes, std::back_inserter(fixed));
-  else
-    std::ranges::set_difference(old, nodes, std::back_inserter(fixed));
+  std::vector<Index> fixed = run.command.has("fixed") ? union_of(old, nodes) : difference(old, nodes);
   run.say(counted(static_cast<std::int64_t>(nodes.size()), EntityKind::node) +
           (run.command.has("fixed") ? " fixed" : " free") + "; " + std::to_string(fixed.size()) + " of " +
           std::to_string(run.state.meshed->mesh.n_nodes()) + " are fixed now");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/session_internal.h"
@@ -50,8 +51,7 @@ std::vector<Index> inverted_among(const std::vector<Violation>& violations) {
     if (violation.kind != ViolationKind::inverted) return {};
     result.insert(result.end(), violation.hexes.begin(), violation.hexes.end());
   }
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 
