@@ -1,5 +1,6 @@
 #include "hextwist/io/io.h"
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
 
 namespace hextwist {
@@ -42,7 +43,7 @@ constexpr Format formats[] = {
 };
 
 const Format* format_of(const std::filesystem::path& file) {
-  const std::string extension = io::lower_case(file.extension().string());
+  const std::string extension = lower_extension(file);
   for (const Format& format : formats)
     if (format.extension == extension) return &format;
   return nullptr;

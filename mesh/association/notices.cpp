@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -15,13 +15,7 @@ namespace hextwist::detail {
 namespace {
 
 std::string number(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
-std::string place(const Vec3& p) {
-  return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")";
+  return short_number(value, 6);
 }
 
 /// Guesses why a mesh lies elsewhere: units, or a move.
@@ -45,8 +39,8 @@ std::string hint(const ModelFacts& facts, const Mesh& mesh) {
                " than the model: " + reason + " mixed up?";
   const Vec3 mesh_centre = (mesh_box.min + mesh_box.max) / 2, model_centre = (model_box.min + model_box.max) / 2;
   if (std::abs(ratio - 1) < alike && (mesh_centre - model_centre).norm() > alike * facts.size)
-    return "; the mesh is as large as the model, but its centre is at " + place(mesh_centre) + " instead of " +
-           place(model_centre);
+    return "; the mesh is as large as the model, but its centre is at " + point_text(mesh_centre, 6) + " instead of " +
+           point_text(model_centre, 6);
   if (std::abs(ratio - 1) >= alike)
     return "; the boxes of mesh and model are " + number(mesh_box.diagonal()) + " and " + number(facts.size) +
            " across: another model?";
@@ -75,8 +69,7 @@ struct Overruled {
   }
   void report(const char* kind, std::vector<std::string>& notices) const {
     if (count)
-      notices.push_back("the geometry contradicts " + std::to_string(count) + " " + kind + (count == 1 ? "" : "s") +
-                        ", replaced (first: " + first + ")");
+      notices.push_back("the geometry contradicts " + counted(count, kind) + ", replaced (first: " + first + ")");
   }
 };
 
@@ -101,10 +94,8 @@ void name_missing(const Model& model, int dim, const std::vector<char>& used, co
 }  // namespace
 
 std::string first_ids(std::span<const std::int64_t> ids) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(ids.size(), 5); ++i)
-    text += (i ? " " : "") + std::to_string(ids[i]);
-  return ids.size() > 5 ? text + " ... (" + std::to_string(ids.size()) + " in all)" : text;
+  if (ids.size() <= 5) return joined(ids);
+  return joined(ids.first(5)) + " ... (" + std::to_string(ids.size()) + " in all)";
 }
 
 void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin, std::span<const int> quad_surface) {
@@ -130,7 +121,7 @@ void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin
   }
   const std::string node = "node " + std::to_string(node_id(mesh, skin.nodes[worst]));
   if (off > 0)
-    throw Error("the mesh does not lie on the model: " + node + " at " + place(skin.points[worst]) + " is " +
+    throw Error("the mesh does not lie on the model: " + node + " at " + point_text(skin.points[worst], 6) + " is " +
                 number(worst_at.second) + " from the nearest surface, " + std::to_string(worst_at.first) +
                 " (tolerance " + number(facts.tolerance) + "); of " + std::to_string(skin.nodes.size()) +
                 " boundary nodes " + (step > 1 ? "about " : "") + std::to_string(off * static_cast<Index>(step)) +

@@ -6,6 +6,7 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/association/association_internal.h"
 
@@ -49,9 +50,7 @@ int volume_by_containment(const ModelFacts& facts, const Mesh& mesh, std::span<c
 }
 
 std::string volume_names(std::span<const int> ids) {
-  std::string text = ids.size() == 1 ? "volume" : "volumes";
-  for (std::size_t i = 0; i < ids.size(); ++i) text += (i ? " and " : " ") + std::to_string(ids[i]);
-  return text;
+  return (ids.size() == 1 ? "volume " : "volumes ") + joined(ids, " and ");
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/quality/quality_internal.h"
 
 namespace hextwist {
@@ -76,7 +76,7 @@ std::vector<std::string> words(std::string_view text) {
     if (c == ' ' || c == '_' || c == '-') {
       if (!list.back().empty()) list.emplace_back();
     } else {
-      list.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      list.back() += lower_case(c);
     }
   if (list.back().empty()) list.pop_back();
   return list;

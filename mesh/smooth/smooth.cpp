@@ -1,11 +1,11 @@
 #include "hextwist/mesh/smooth/smooth.h"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <iterator>
 
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/smooth/problem_internal.h"
 
 namespace hextwist {
@@ -194,7 +194,7 @@ class Smoother {
 std::string lower_words(std::string_view text) {
   std::string result;
   for (const char c : text)
-    if (c != ' ' && c != '_' && c != '-') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c != ' ' && c != '_' && c != '-') result += lower_case(c);
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
@@ -346,12 +347,10 @@ void find_inverted(const Part& part, const std::vector<char>& not_finite, Report
          return !(jacobians[i] > 0) &&
                 std::ranges::none_of(mesh.hexes[i], [&](Index node) { return not_finite[node]; });
        })) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.6g", jacobians[h]);
     const Index original = part.original_of(h);
     report.add(ViolationKind::inverted, {original}, {},
                report.hexes({original}) + (jacobians[h] == 0 ? " is flat" : " is inverted") +
-                   ": its smallest corner Jacobian is " + number);
+                   ": its smallest corner Jacobian is " + short_number(jacobians[h], 6));
   }
 }
 

@@ -41,7 +41,7 @@ std::string members_text(EntityKind kind, std::size_t n) {
   const auto count = static_cast<std::int64_t>(n);
   return kind == EntityKind::block     ? counted(count, EntityKind::hex)
          : kind == EntityKind::nodeset ? counted(count, EntityKind::node)
-                                       : counted(count, "side", "sides");
+                                       : counted(count, "side");
 }
 
 /// The side of a face that a side set takes: that of the hex in the volume with the lower id, which the normal of a

@@ -95,7 +95,7 @@ void do_smooth(Execution& run) {
   take_meshed(state, std::move(meshed));
   const QualityRow &was = before.shape, &is = state.mesh_state.shape;
   std::string line = text_of(command.statement) + ": " + counted(n_nodes, EntityKind::node) + ", " +
-                     counted(sweeps, "sweep", "sweeps") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
+                     counted(sweeps, "sweep") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
                      arrow(was.average, is.average);
   if (state.off_cad.node >= 0)
     line += ", nodes at most " + short_number(state.off_cad.max) + " off " + (state.has_cad ? "the CAD" : "the skin");

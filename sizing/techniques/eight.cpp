@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
@@ -12,10 +13,6 @@ namespace hextwist {
 namespace {
 
 constexpr std::size_t max_told_regions = 10;
-
-std::string counted(Index n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : what.ends_with('x') ? "es" : "s");
-}
 
 std::string describe(const EightRegion& region, const Mesh& mesh) {
   std::string line = counted(region.n_hexes, "hex") + " around hex " + std::to_string(hex_id(mesh, region.first_hex));
