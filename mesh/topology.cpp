@@ -8,7 +8,6 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
-#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 
@@ -104,16 +103,6 @@ std::int64_t counts_to_starts(std::vector<Index>& counts) {
   return running_sums(
       static_cast<Index>(counts.size()), 0, [&](Index i) { return counts[i]; },
       [&](Index i, std::int64_t sum) { counts[i] = static_cast<Index>(sum); });
-}
-
-std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes, Index first_node) {
-  std::vector<Index> nodes;
-  nodes.reserve(8 * hexes.size());
-  for (const Index h : hexes)
-    for (const Index n : mesh.hexes[h])
-      if (n >= first_node) nodes.push_back(n);
-  sort_unique(nodes);
-  return nodes;
 }
 
 CompressedRows node_corners(std::span<const Hex> hexes, Index begin, Index end) {

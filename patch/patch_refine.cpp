@@ -5,6 +5,7 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/loop.h"
@@ -29,9 +30,7 @@ Around around_target(const MeshedModel& input, const Target& target) {
   Around around;
   if (is_solid(target.kind)) {
     around.hexes = solid_target(input, target);
-    for (const Index h : around.hexes)
-      around.nodes.insert(around.nodes.end(), input.mesh.hexes[h].begin(), input.mesh.hexes[h].end());
-    sort_unique(around.nodes);
+    around.nodes = nodes_of_hexes(input.mesh, around.hexes);
   } else {
     std::vector<std::string> told_again;  // by the passes in the patch
     around.target = sub_element_target(input, target, told_again);

@@ -10,6 +10,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_internal.h"
 #include "hextwist/patch/verify_internal.h"
@@ -164,14 +165,11 @@ Box box_of(const Mesh& mesh, const Quad& nodes) {
 /// Changed hexes of the part, and all that share a node with them; ascending.
 std::vector<Index> hexes_around(const ChangedPart& change) {
   const Mesh& mesh = change.after.mesh;
-  std::vector<char> near(mesh.points.size(), 0);
-  for (const Index h : change.touched)
-    for (const Index n : mesh.hexes[h]) near[n] = 1;
+  std::vector<std::uint8_t> near(mesh.points.size(), 0);
+  mark_nodes(mesh.hexes, change.touched, near);
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h)
     for (const Index n : mesh.hexes[h]) near[n] = 1;
-  std::vector<Index> around = indices_where(change.n_kept, [&](Index h) {
-    return std::ranges::any_of(mesh.hexes[h], [&](Index n) { return near[n] != 0; });
-  });
+  std::vector<Index> around = touching_hexes(std::span(mesh.hexes).first(change.n_kept), near);
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h) around.push_back(h);
   return around;
 }
@@ -310,10 +308,9 @@ Index ChangedPart::whole_node(Index node) const {
 
 std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<const Index> moved) {
   if (moved.empty()) return {};
-  std::vector<char> has_moved(after.points.size(), 0);
+  std::vector<std::uint8_t> has_moved(after.points.size(), 0);
   for (const Index n : moved) has_moved[n] = 1;
-  return indices_where(
-      n_kept, [&](Index h) { return std::ranges::any_of(after.hexes[h], [&](Index n) { return has_moved[n] != 0; }); });
+  return touching_hexes(std::span(after.hexes).first(n_kept), has_moved);
 }
 
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report) {

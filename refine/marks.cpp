@@ -87,13 +87,4 @@ Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
   }
 }
 
-void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std::span<std::uint8_t> marked) {
-  for (const Index h : targets)
-    for (const Index n : hexes[h]) marked[n] = 1;
-}
-
-std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
-  return indices_where(static_cast<Index>(hexes.size()), [&](Index h) { return has_marked_corner(hexes[h], marked); });
-}
-
 }  // namespace hextwist

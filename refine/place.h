@@ -29,9 +29,6 @@ struct OffOwner {
   double distance = 0;  ///< from the owner, model units
 };
 
-/// Hexes among those with index >= first whose smallest corner Jacobian is not positive, ascending.
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
-
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end

@@ -5,6 +5,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/origin.h"
@@ -44,7 +45,7 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   options.scheme = SmoothScheme::untangle;
   options.iterations = reach.sweeps;
   options.fixed.assign(fixed.begin(), fixed.end());
-  options.nodes = nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers));
+  options.nodes = nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers));
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
   if (smooth(mesh, association, model, options, progress).not_repaired.empty()) {
     options.scheme = SmoothScheme::mean_ratio;
@@ -72,13 +73,6 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
 
 }  // namespace
 
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
-  std::vector<Index> result =
-      indices_where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
-  for (Index& h : result) h += first;
-  return result;
-}
-
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed,
                                       const SmoothProgress& progress) {
@@ -94,7 +88,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
   for (const Reach reach : reaches) {
     if (bad.empty()) return rows;
     if (reach.afresh) {
-      for (const Index n : nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers))) {
+      for (const Index n : nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers))) {
         mesh.points[n] = placed[n];
         if (!placed_parameters.empty()) association.node_parameters[n] = placed_parameters[n];
       }

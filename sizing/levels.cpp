@@ -5,6 +5,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 
 namespace hextwist {

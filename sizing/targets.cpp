@@ -6,7 +6,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/refine/marks.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/templates/split_table.h"
 #include "hextwist/sizing/target_distance.h"
 
@@ -245,21 +245,6 @@ std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> he
   for (const Index h : hexes) wanted[h] = 1;
   return indices_where(static_cast<Index>(lineage.parent.size()),
                        [&](Index h) { return wanted[lineage.parent[h]] != 0; });
-}
-
-std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers) {
-  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  for (const Index n : nodes) marked[n] = 1;
-  return with_layers(mesh, touching_hexes(mesh.hexes, marked), n_layers - 1);
-}
-
-std::vector<Index> with_layers(const Mesh& mesh, std::vector<Index> hexes, int n_layers) {
-  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  for (; n_layers > 0 && static_cast<Index>(hexes.size()) < mesh.n_hexes(); --n_layers) {
-    mark_nodes(mesh.hexes, hexes, marked);
-    hexes = touching_hexes(mesh.hexes, marked);
-  }
-  return hexes;
 }
 
 }  // namespace hextwist

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/problem_internal.h"
 
 namespace hextwist {
@@ -55,7 +56,7 @@ class Smoother {
     record("start");
     if (report_.inverted_before > 0 || options_.scheme == SmoothScheme::untangle) {
       untangle(state_, options_.iterations, [this](const SweepCount& count) { return end_sweep("untangle", count); });
-      report_.not_repaired = inverted(state_.mesh, state_.problem.hexes);
+      report_.not_repaired = inverted_hexes(state_.mesh, state_.problem.hexes);
       report_.converged = report_.not_repaired.empty();
     }
     std::ranges::fill(state_.awake, 1);
@@ -224,7 +225,7 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   SmoothState state{problem, mesh, association, model, std::vector<std::uint8_t>(problem.nodes.size(), 1)};
   report.n_nodes = problem.n_nodes();
   report.shape_before = report.shape_after = shape_summary(mesh, problem.hexes);
-  if (report.shape_before.min == 0) report.not_repaired = inverted(mesh, problem.hexes);
+  if (report.shape_before.min == 0) report.not_repaired = inverted_hexes(mesh, problem.hexes);
   report.inverted_before = static_cast<Index>(report.not_repaired.size());
   if (problem.n_nodes() > 0) {
     const std::vector<Vec3> points = mesh.points;

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/sweep_internal.h"
 
 namespace hextwist {
@@ -157,7 +158,7 @@ void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::v
                std::span<const Index> inverted_before) {
   for (;;) {
     bool any = false;
-    for (const Index h : inverted(state.mesh, state.problem.hexes)) {
+    for (const Index h : inverted_hexes(state.mesh, state.problem.hexes)) {
       if (std::ranges::binary_search(inverted_before, h)) continue;
       for (const Index node : state.mesh.hexes[h])
         if (state.problem.slot[node] >= 0 && state.mesh.points[node] != points[node]) {
@@ -174,7 +175,7 @@ void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::v
 
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep) {
   const SmoothProblem& problem = state.problem;
-  const std::vector<Index> inverted_before = inverted(state.mesh, problem.hexes);
+  const std::vector<Index> inverted_before = inverted_hexes(state.mesh, problem.hexes);
   if (inverted_before.empty()) return;
   const std::vector<Vec3> points = state.mesh.points;
   const std::vector<Parameters> parameters = state.association.node_parameters;
@@ -186,7 +187,7 @@ void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const
   target.eps = 2 * std::sqrt(1e-4 + before.least * before.least);
   before = level(state.mesh, problem.hexes, target);
   for (int i = 0; i < max_sweeps; ++i) {
-    const std::vector<Index> bad = inverted(state.mesh, problem.hexes);
+    const std::vector<Index> bad = inverted_hexes(state.mesh, problem.hexes);
     if (bad.empty()) return;
     for (const Index h : bad)
       for (const Index node : state.mesh.hexes[h])

@@ -8,6 +8,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/plans/eight_internal.h"
@@ -62,9 +63,7 @@ struct Surroundings {
 RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
   RegionMesh region;
   region.hexes = std::move(hexes);
-  for (const Index h : region.hexes)
-    region.nodes.insert(region.nodes.end(), all.mesh.hexes[h].begin(), all.mesh.hexes[h].end());
-  sort_unique(region.nodes);
+  region.nodes = nodes_of_hexes(all.mesh, region.hexes);
   for (std::size_t i = 0; i < region.nodes.size(); ++i) all.local[region.nodes[i]] = static_cast<Index>(i);
   region.mesh.points.resize(region.nodes.size(), Vec3::Zero());
   for (const Index h : region.hexes) {
@@ -278,23 +277,6 @@ std::optional<std::vector<Index>> halve(Surroundings& all, const RegionMesh& reg
 }
 
 }  // namespace
-
-std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<Index> parent = singletons(mesh.n_nodes());
-  for (const Index h : hexes)
-    for (int c = 1; c < n_hex_corners; ++c) join(parent, mesh.hexes[h][0], mesh.hexes[h][c]);
-  std::vector<std::vector<Index>> result;
-  std::vector<Index> number(mesh.points.size(), -1);
-  for (const Index h : hexes) {
-    Index& region = number[find_root(parent, mesh.hexes[h][0])];
-    if (region < 0) {
-      region = static_cast<Index>(result.size());
-      result.emplace_back();
-    }
-    result[region].push_back(h);
-  }
-  return result;
-}
 
 EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets) {
   EightPlan plan;

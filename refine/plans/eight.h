@@ -62,9 +62,6 @@ struct EightPlan {
   std::vector<Index> trisected;
 };
 
-/// The regions of these hexes (ascending): connected by common nodes. By lowest hex, each ascending.
-std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes);
-
 /// Decides how the hexes (ascending) are refined. Depends on the mesh alone, and only on its connectivity.
 ///
 /// Guarantees: when the passes are done in this order with carried_marks() in between, every hex has an enclosing

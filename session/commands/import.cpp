@@ -11,6 +11,7 @@
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/session_internal.h"
 
@@ -44,12 +45,8 @@ void check_extension(const Execution& run, const Item& word, const Item& file, b
 
 /// Pieces of a mesh that share no node.
 int n_pieces(const Mesh& mesh) {
-  std::vector<Index> parent = singletons(mesh.n_nodes());
-  for (const Hex& hex : mesh.hexes)
-    for (const Index node : hex) join(parent, hex[0], node);
-  std::set<Index> roots;
-  for (const Hex& hex : mesh.hexes) roots.insert(find_root(parent, hex[0]));
-  return static_cast<int>(roots.size());
+  const std::vector<Index> all = indices_where(mesh.n_hexes(), [](Index) { return true; });
+  return static_cast<int>(connected_regions(mesh, all).size());
 }
 
 /// Pieces of a model whose volumes share no surface, curve or vertex.

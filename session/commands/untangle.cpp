@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/session_internal.h"
@@ -59,7 +60,7 @@ bool untangle_mesh(const Execution& run, Mesh& mesh, Association& association, c
                    const std::vector<Index>& inverted, bool boundary) {
   std::vector<Index> all(mesh.hexes.size());
   for (Index h = 0; h < mesh.n_hexes(); ++h) all[h] = h;
-  return untangle(run, mesh, association, model, hex_band(mesh, inverted, band_layers), boundary) ||
+  return untangle(run, mesh, association, model, with_layers(mesh, inverted, band_layers), boundary) ||
          untangle(run, mesh, association, model, all, boundary);
 }
 

@@ -3,6 +3,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
