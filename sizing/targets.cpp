@@ -219,32 +219,11 @@ void carry_faces(const std::vector<Quad>& faces, const Lineage& lineage, const M
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined) {
   CombinationTarget carried;
   carried.nodes = target.nodes;
-  for (const Edge& edge : target.edges) {
-    const auto found = std::ranges::lower_bound(lineage.edges, edge, {}, [](const CutEdge& cut) {
-      return Edge{cut.a, cut.b};
-    });
-    if (found == lineage.edges.end() || Edge{found->a, found->b} != edge) {
-      carried.edges.push_back(edge);
-      continue;
-    }
-    Index from = edge[0];
-    const auto n = static_cast<Index>(lineage.table->edge[found->code].at.size());
-    for (Index s = 0; s <= n; ++s) {
-      const Index to = s == n ? edge[1] : found->first_node + s;
-      carried.edges.push_back({std::min(from, to), std::max(from, to)});
-      from = to;
-    }
-  }
+  for (const Edge& edge : target.edges)
+    for_each_child_edge(lineage, edge, [&](const Edge& child) { carried.edges.push_back(child); });
   carry_faces(target.faces, lineage, refined, carried.faces);
   finish(carried);
   return carried;
-}
-
-std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
-  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(lineage.n_old_hexes), 0);
-  for (const Index h : hexes) wanted[h] = 1;
-  return indices_where(static_cast<Index>(lineage.parent.size()),
-                       [&](Index h) { return wanted[lineage.parent[h]] != 0; });
 }
 
 }  // namespace hextwist

@@ -34,7 +34,4 @@ CombinationTarget sub_element_target(const MeshedModel& input, const Target& tar
 /// What a sub-element target has become after a pass: children of its edges and faces, and all nodes on it.
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined);
 
-/// Children of these hexes (ascending); of a hex that was not cut, itself.
-std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes);
-
 }  // namespace hextwist

@@ -65,9 +65,7 @@ std::optional<Cut> EncloseRound::next(State& state, Enclosed& done, bool cuts_ag
 void EncloseRound::follow(const Lineage& lineage, const Mesh& after) {
   target_ = carried_target(target_, lineage, after);
   if (has_trisected_) return;
-  std::erase_if(uncut_, [&](const Edge& edge) {
-    return std::ranges::binary_search(lineage.edges, edge, {}, [](const CutEdge& cut) { return Edge{cut.a, cut.b}; });
-  });
+  std::erase_if(uncut_, [&](const Edge& edge) { return find_cut_edge(lineage, edge) != nullptr; });
 }
 
 std::unique_ptr<Technique> enclose_technique(State& state, Approach approach) {
