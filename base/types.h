@@ -39,4 +39,9 @@ struct Box {
   double diagonal() const { return empty() ? 0 : (max - min).norm(); }
 };
 
+/// Squared distance of a point from a box; 0 inside.
+inline double distance2(const Box& box, const Vec3& p) {
+  return (p - p.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+}
+
 }  // namespace hextwist
