@@ -56,7 +56,7 @@ double bytes_of(double n_hexes, double n_nodes) {
 
 std::size_t available_memory() {
   std::size_t available = available_to_all();
-  // What the group uses already is left out: much of that is files in memory, which it gives back.
+  // The group's present use is not subtracted: much of it is cached files, which can be given up.
   for (const char* limit : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
     available = std::min(available, number_in(limit));
   return available;

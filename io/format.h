@@ -166,7 +166,7 @@ std::vector<Field> merge_components(std::vector<Field> scalars);
 
 // ---- associations ----
 
-/// Owner of a node, "nobody" where the association does not say.
+/// Owner of a node, none where the association does not say.
 inline Owner owner(const Association& association, Index node) {
   return association.node_owner.empty() ? Owner{} : association.node_owner[node];
 }

@@ -83,7 +83,7 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Assoc
   try {
     format->write(file, mesh, association ? *association : nothing, options);
   } catch (const Error& error) {
-    // Reasons that lie in the mesh do not know the file's name.
+    // Errors about the mesh lack the file's name.
     const std::string what = error.what();
     if (what.starts_with(file.string() + ":")) throw;
     throw Error(file.string() + ": " + what);

@@ -9,7 +9,7 @@
 namespace hextwist {
 namespace {
 
-/// CompressedRows from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
+/// Lists from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
 template <class Pairs>
 CompressedRows collect(Index n_lists, Pairs pairs) {
   CompressedRows lists;

@@ -325,7 +325,7 @@ std::vector<Side> boundary_sides(const Faces& faces) {
 }
 
 std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads) {
-  // Quads by lowest node; then every face of every hex looks there, which is nothing in most places.
+  // Quads by lowest node; then every face of every hex looks there, which costs nothing in most places.
   const auto known = [&](Index node) { return node >= 0 && node < mesh.n_nodes(); };
   std::vector<Quad> sorted(quads.begin(), quads.end());
   CompressedRows of_node;

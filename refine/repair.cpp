@@ -26,9 +26,9 @@ struct Reach {
   bool afresh = false;
   int sweeps = 100;
 };
-/// Nodes inside volumes go first: those on the CAD lie evenly, and what slides away to make room makes others thin and
-/// is missed in the next pass. A try that fails leaves nodes heaped upon each other, which more freedom hardly gets
-/// apart again: they end inverted still, or the skin folds over itself there. So the widest reach begins anew.
+/// Nodes inside volumes move first: those on the CAD lie evenly, and one that slides away to make room makes other
+/// hexes thin for the next pass. A failed try leaves nodes crowded together, and more freedom hardly separates them
+/// again: hexes stay inverted, or the skin folds over itself. So the widest reach starts afresh.
 constexpr Reach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
 constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 

@@ -411,7 +411,7 @@ void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<c
 }
 
 const std::vector<double>& FacetModel::curvatures(Owner entity) const {
-  // Without threads: one that waits for others' work inside could be given work that asks for this.
+  // Without threads: one that waits in here could be given other work that needs this result.
   std::call_once(curvatures_known_, [&] {
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const FacetCurve& curve = curves_[c];

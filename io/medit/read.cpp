@@ -3,7 +3,7 @@
 // References of hexes are blocks, of quads side sets, of vertices node sets; the nodes of edges with a reference are a
 // node set, too. Corners, RequiredVertices, Ridges and RequiredEdges are node sets of these names,
 // RequiredQuadrilaterals a side set. In files of our own, comments say which references are owners and which are groups
-// (io_references_internal.h).
+// (references_internal.h).
 #include "hextwist/io/medit/references_internal.h"
 
 #include "hextwist/base/sorted.h"

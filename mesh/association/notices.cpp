@@ -1,4 +1,4 @@
-// What association has to say: the error for a mesh that is not on the CAD, tags that were overruled, entities that got
+// The messages of association: the error for a mesh that is not on the CAD, tags that were overruled, entities that got
 // nothing.
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ std::string hint(const ModelFacts& facts, const Mesh& mesh) {
   return "";
 }
 
-/// Closest surface, whatever the distance. project() has to be asked of those near enough only.
+/// Closest surface, whatever the distance. Only those near enough are projected onto.
 std::pair<int, double> nearest_surface(const ModelFacts& facts, const Vec3& p) {
   std::pair<int, double> best = {0, std::numeric_limits<double>::infinity()};
   for (double reach = 16 * facts.tolerance; best.second > reach; reach *= 16) {
@@ -106,7 +106,7 @@ void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin
   std::vector<Index> nodes;
   for (Index n = 0; n < skin.n_nodes(); ++n)
     if (suspect[n]) nodes.push_back(n);
-  // Thousands of far nodes would take long and say no more.
+  // Thousands of far nodes would take long and tell nothing more.
   constexpr std::size_t max_asked = 1000;
   const std::size_t step = nodes.size() / max_asked + 1;
   Index off = 0, worst = -1;
@@ -229,7 +229,7 @@ void notice_coverage(const ModelFacts& facts, const Mesh& mesh, const Associatio
       volume_of[id] += of_chunk[id].volume;
       if (of_chunk[id].n_hexes > 0) used[3][id] = 1;
     }
-  // Nobody misses a seam, a pole, or a vertex on nothing else.
+  // Seams, poles, and vertices on nothing else need no notice.
   for (int curve = 1; curve <= model.count(1); ++curve)
     if (facts.degenerate[curve - 1] || facts.curve_surfaces[curve - 1].size() < 2) used[1][curve] = 1;
   for (int vertex = 1; vertex <= model.count(0); ++vertex)

@@ -73,7 +73,7 @@ OffModel off_model_at(const Mesh& mesh, const Association& association, const Mo
       id.push_back(association.node_owner[n].id);
       points.push_back(mesh.points[n]);
     }
-    // From the stored parameters, as projections without are slow; but those may be wrong: a far node is asked again.
+    // Seeded by the stored parameters, which is fast; they may be wrong, so far nodes are projected again without.
     std::vector<Parameters> seeds;
     if (association.node_parameters.size() == association.node_owner.size())
       for (const Index n : nodes[dim]) seeds.push_back(association.node_parameters[n]);

@@ -233,7 +233,7 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
       boxes.back().max.array() += reach;
     }
   if (boxes.empty()) return {};
-  // Asking the model is dear and most nodes are in no box.
+  // Asking the model is expensive, and most nodes are in no box.
   std::vector<char> near(mesh.points.size(), 0);
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     for (Index n = begin; n < end; ++n) {

@@ -1,4 +1,4 @@
-// Hexes to volumes: the mesh falls into parts at the faces that lie on surfaces; the surfaces around a part say which
+// Hexes to volumes: faces that lie on surfaces divide the mesh into parts; the surfaces around a part tell which
 // volume it is.
 #include <algorithm>
 #include <numeric>
@@ -34,7 +34,7 @@ std::vector<Index> parts(const Mesh& mesh, const Faces& faces, std::span<const I
   return part;
 }
 
-/// Where the surfaces leave a choice (two volumes that have all the surfaces of a part): three hexes are asked.
+/// Where the surfaces leave a choice (two volumes with all the surfaces of a part), three hexes decide.
 int volume_by_containment(const ModelFacts& facts, const Mesh& mesh, std::span<const Index> part, Index wanted,
                           std::span<const int> among) {
   std::vector<Index> hexes;

@@ -20,7 +20,7 @@ struct Entry {
   const Kernel* kernel;
 };
 constexpr double none = std::numeric_limits<double>::infinity();
-/// A new metric is a kernel in quality_*.cpp, a line here and one in the enum, in the same order.
+/// A new metric is a kernel in one of the files here, a line here and one in the enum, in the same order.
 constexpr Entry table[] = {
     {Metric::shape, "shape", false, 1, &shape_kernel},
     {Metric::scaled_jacobian, "scaled Jacobian", false, 1, &scaled_jacobian_kernel},

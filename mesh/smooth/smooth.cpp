@@ -232,7 +232,7 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
     const std::vector<Parameters> parameters = association.node_parameters;
     Smoother(state, options, progress, report).run();
     report.shape_after = shape_summary(mesh, problem.hexes);
-    // Sweeps keep clear of the limit by more than rounding; were that ever not enough, the promise would still hold.
+    // Sweeps keep clear of the limit by more than rounding; should that ever not be enough, the guarantee still holds.
     if (report.shape_after.min < report.shape_before.min) {
       mesh.points = points;
       association.node_parameters = parameters;

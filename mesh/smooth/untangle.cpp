@@ -4,7 +4,7 @@
 // With N = |A|^2 and D = det A at a corner, both divided by powers of the size wished there (so that D = 1, N = 3 is a
 // cube of that size), and chi(D) = (D + sqrt(D^2 + eps^2)) / 2, which is positive whatever D is:
 //   energy = (N / 3)^(3/2) / chi(D) + (D^2 + 1) / (2 chi(D)).
-// The first term is the distortion of mesh/smooth_patch_internal.h for D > 0, the second holds sizes. eps falls, as
+// The first term is the distortion of smooth_patch_internal.h for D > 0, the second holds sizes. eps falls, as
 // the smallest D rises, by the rule of that paper; when it reaches zero only uninverted corners have finite energy.
 #include <algorithm>
 #include <cmath>
@@ -86,8 +86,8 @@ class UntanglePatch {
   std::size_t n_ = 0;
 };
 
-/// Wished determinant per hex: volumes, averaged over neighbours some times, so that those of inverted hexes come from
-/// around them. The sum stays the volume there is.
+/// Wished determinant per hex: volumes, averaged over neighbours a few times, so that those of inverted hexes come from
+/// their surroundings. The sum stays the total volume.
 std::vector<double> wished_sizes(const Mesh& mesh, const SmoothProblem& problem) {
   std::vector<double> size(mesh.hexes.size(), 1), node_sum(mesh.points.size(), 0), node_count(mesh.points.size(), 0);
   double total = 0, positive = 0;

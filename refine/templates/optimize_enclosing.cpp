@@ -1,7 +1,7 @@
 // Optimises where the new nodes of the enclosing templates lie, once and for all, and prints what the engine includes:
 //
-//   optimize_enclosing third > refine/enclose_places_third.inc
-//   optimize_enclosing half  > refine/enclose_places_half.inc
+//   optimize_enclosing third > refine/templates/enclose_places_third.inc
+//   optimize_enclosing half  > refine/templates/enclose_places_half.inc
 //
 // The templates are judged by what they are for: refinements of grids of unit cubes before any smoothing. For "third"
 // the whole combination, trisecting included, of a node, an edge, a face, a path that turns, a whole side, and two and
