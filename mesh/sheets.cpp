@@ -70,4 +70,17 @@ Sheets sheets(const Mesh& mesh, const Edges& edges) {
   return result;
 }
 
+std::vector<std::uint8_t> in_sheets_of(const Edges& edges, std::span<const Index> hexes, std::span<const Index> seeds) {
+  std::vector<Index> parent = singletons(static_cast<Index>(edges.nodes.size()));
+  for (const Index h : hexes)
+    for (int e = 0; e < 12; ++e) join(parent, edges.of_hex[h][e & ~3], edges.of_hex[h][e]);
+  std::vector<std::uint8_t> result(parent.size(), 0);
+  for (const Index e : seeds) result[find_root(parent, e)] = 1;
+  parallel_each(result.size(), [&](std::size_t e) {
+    const Index root = find_root(parent, static_cast<Index>(e));
+    if (root != static_cast<Index>(e)) result[e] = result[root];
+  });
+  return result;
+}
+
 }  // namespace hextwist

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/topology.h"
 
 namespace hextwist {
 
@@ -18,6 +18,8 @@ inline int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
 
 /// One code per hex: an edge is cut when both its nodes are marked. marked: one byte per node, 0 or 1.
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
+/// The same from the cut edges. cut: one byte per edge, 0 or 1.
+std::vector<std::uint16_t> trisect_codes(const Edges& edges, std::span<const std::uint8_t> cut);
 
 /// Concave filling (section 4.3): a hex that is concave in a direction gets all its nodes marked, until there is none;
 /// then all hexes that still have an L or U on a face (three marked corners, say) do, and so on until the paper's

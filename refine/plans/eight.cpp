@@ -5,8 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
-#include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
@@ -332,23 +332,13 @@ std::vector<std::uint16_t> thirds_codes(const Mesh& mesh, std::span<const Index>
                                         std::span<const std::uint8_t> marked) {
   if (thirds.empty()) return trisect_codes(mesh.hexes, marked);
   const Edges all = edges(mesh);
-  const auto n = static_cast<Index>(all.nodes.size());
-  std::vector<Index> sheet = singletons(n);
-  for (const Index h : region)
-    for (int e = 0; e < n_hex_edges; ++e) join(sheet, all.of_hex[h][e & ~3], all.of_hex[h][e]);
-  std::vector<std::uint8_t> is_third(n, 0), cut(n, 0);
-  for (const auto& [a, b] : thirds) is_third[find_root(sheet, find_edge(all, a, b))] = 1;
+  std::vector<Index> seeds;
+  for (const auto& [a, b] : thirds) seeds.push_back(find_edge(all, a, b));
+  std::vector<std::uint8_t> cut = in_sheets_of(all, region, seeds);
   parallel_each(cut.size(), [&](std::size_t e) {
-    const auto [a, b] = all.nodes[e];
-    cut[e] = (marked[a] && marked[b]) || is_third[find_root(sheet, static_cast<Index>(e))];
+    if (marked[all.nodes[e][0]] && marked[all.nodes[e][1]]) cut[e] = 1;
   });
-  std::vector<std::uint16_t> codes(mesh.hexes.size());
-  parallel_each(codes.size(), [&](std::size_t h) {
-    int code = 0;
-    for (int e = 0; e < n_hex_edges; ++e) code |= cut[all.of_hex[h][e]] << e;
-    codes[h] = static_cast<std::uint16_t>(code);
-  });
-  return codes;
+  return trisect_codes(all, cut);
 }
 
 }  // namespace hextwist
