@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "exit_status.h"
+#include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
 
 namespace hextwist::app {
@@ -19,9 +20,7 @@ constexpr const char* description =
     "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh.\n";
 
 bool is_journal(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".jou";
+  return lower_extension(name) == ".jou";
 }
 
 /// Runs a parse, prints help, version or the error; status to end with, -1 to go on.
@@ -89,8 +88,7 @@ int read_options(int argc, char** argv, Options& options) {
   }
   if (!options.output.empty()) {
     // Better now than after an hour of work.
-    std::string extension = options.output.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = lower_extension(options.output);
     if (extension.empty() || (" " + writable_extensions() + " ").find(" " + extension + " ") == std::string::npos)
       return wrong(options.output.string() + ": unknown format to write; extensions are " + writable_extensions());
   }

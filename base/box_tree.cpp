@@ -1,52 +1,50 @@
 #include "hextwist/base/box_tree.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <numeric>
 
 namespace hextwist {
-namespace {
 
-constexpr std::int32_t leaf_size = 4;
-
-}  // namespace
-
-BoxTree::BoxTree(std::span<const Box> boxes) : items_(boxes.size()), boxes_(boxes.begin(), boxes.end()) {
+BoxTree::BoxTree(std::span<const Box> boxes) : items_(boxes.size()), boxes_(boxes.size()) {
   if (boxes.empty()) return;
   std::iota(items_.begin(), items_.end(), 0);
-  nodes_.reserve(boxes.size());
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::int32_t>(boxes.size()));
+  std::size_t n_nodes = 1;
+  for (std::size_t n = items_.size(); n > leaf_size; n = (n + 1) / 2) n_nodes = 2 * n_nodes + 1;
+  nodes_.resize(n_nodes);
+  std::vector<Vec3> centres(boxes.size());  // twice
+  for (std::size_t i = 0; i < boxes.size(); ++i) centres[i] = boxes[i].min + boxes[i].max;
+  build(boxes, centres, 0, 0, items_.size());
   for (std::size_t i = 0; i < items_.size(); ++i) boxes_[i] = boxes[items_[i]];
 }
 
-// Halves at the median of the longest axis, so that no path is longer than the logarithm of the number of items.
-void BoxTree::build(std::int32_t node, std::int32_t begin, std::int32_t end) {
-  Box box, centres;
-  const auto centre = [&](std::int32_t item) -> Vec3 { return (boxes_[item].min + boxes_[item].max) / 2; };
-  for (std::int32_t i = begin; i < end; ++i) {
-    box.add(boxes_[items_[i]]);
-    centres.add(centre(items_[i]));
-  }
-  nodes_[node].box = box;
+void BoxTree::build(std::span<const Box> boxes, std::span<const Vec3> centres, std::size_t node, std::size_t begin,
+                    std::size_t end) {
   if (end - begin <= leaf_size) {
-    nodes_[node].first = begin;
-    nodes_[node].n_items = end - begin;
+    for (std::size_t i = begin; i < end; ++i) nodes_[node].add(boxes[items_[i]]);
     return;
   }
+  Box extent;
+  for (std::size_t i = begin; i < end; ++i) extent.add(centres[items_[i]]);
   int axis = 0;
-  (centres.max - centres.min).maxCoeff(&axis);
-  const std::int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
+  (extent.max - extent.min).maxCoeff(&axis);
+  const std::size_t half = middle(begin, end), low = 2 * node + 1, high = 2 * node + 2;
+  std::nth_element(items_.begin() + begin, items_.begin() + half, items_.begin() + end,
                    [&](std::int32_t a, std::int32_t b) {
-                     const double x = centre(a)[axis], y = centre(b)[axis];
-                     return x != y ? x < y : a < b;
+                     return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
                    });
-  const auto left = static_cast<std::int32_t>(nodes_.size());
-  nodes_[node].first = left;
-  nodes_.emplace_back();
-  nodes_.emplace_back();
-  build(left, begin, middle);
-  build(left + 1, middle, end);
+  const auto build_low = [&] { build(boxes, centres, low, begin, half); };
+  const auto build_high = [&] { build(boxes, centres, high, half, end); };
+  constexpr std::size_t worth_threads = 4096;
+  if (end - begin > worth_threads) {
+    tbb::parallel_invoke(build_low, build_high);
+  } else {
+    build_low();
+    build_high();
+  }
+  nodes_[node].add(nodes_[low]);
+  nodes_[node].add(nodes_[high]);
 }
 
 }  // namespace hextwist

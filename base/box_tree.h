@@ -1,7 +1,8 @@
-// A tree of boxes for "which of these is nearest to p", whatever "these" are.
+// A tree of boxes: which item is nearest to a point, which ones may meet something. What items are, only the caller
+// knows.
 //
-// The tree knows boxes only; the caller says how far an item is. Immutable after construction, so any number of threads
-// may ask; of items at the same distance the lowest number wins, so the answer does not depend on the tree's shape.
+// Immutable after construction, so any number of threads may ask; of items at the same distance the lowest number wins,
+// so the answer does not depend on the tree's shape.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,6 @@
 
 namespace hextwist {
 
-/// Squared distance of a point from a box; 0 inside.
-inline double distance2(const Box& box, const Vec3& p) {
-  return (p - p.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
-}
-
 struct NearItem {
   std::int32_t item = -1;  ///< -1: nothing within the bound
   double distance2 = std::numeric_limits<double>::infinity();
@@ -25,49 +21,71 @@ struct NearItem {
 class BoxTree {
  public:
   BoxTree() = default;
-  /// One box per item, none empty.
+  /// One box per item, none empty. Built on all threads.
   explicit BoxTree(std::span<const Box> boxes);
 
   /// The item for which item_distance2(item), a squared distance no less than that of its box, is smallest and at most
   /// `bound2`.
   template <class ItemDistance2>
-  NearItem nearest(const Vec3& p, ItemDistance2&& item_distance2,
+  NearItem nearest(const Vec3& p, const ItemDistance2& item_distance2,
                    double bound2 = std::numeric_limits<double>::infinity()) const {
     NearItem best{-1, bound2};
-    if (nodes_.empty()) return best;
-    std::int32_t stack[64];
-    int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-      const Node& node = nodes_[stack[--depth]];
-      if (distance2(node.box, p) > best.distance2) continue;
-      if (node.n_items > 0) {
-        for (std::int32_t i = node.first; i < node.first + node.n_items; ++i) {
-          if (distance2(boxes_[i], p) > best.distance2) continue;
-          const double d = item_distance2(items_[i]);
-          if (d < best.distance2 || (d == best.distance2 && (best.item < 0 || items_[i] < best.item)))
-            best = {items_[i], d};
-        }
-        continue;
-      }
-      // The nearer child is looked at first.
-      const std::int32_t left = node.first, right = node.first + 1;
-      const bool left_first = distance2(nodes_[left].box, p) <= distance2(nodes_[right].box, p);
-      stack[depth++] = left_first ? right : left;
-      stack[depth++] = left_first ? left : right;
-    }
+    if (!items_.empty() && distance2(nodes_[0], p) <= bound2) search(p, item_distance2, best, 0, 0, items_.size());
     return best;
   }
 
- private:
-  struct Node {
-    Box box;
-    std::int32_t first = 0;    // of its items, or its left child; the right one follows
-    std::int32_t n_items = 0;  // 0: has children
-  };
-  void build(std::int32_t node, std::int32_t begin, std::int32_t end);
+  /// Calls found(item) for all items in leaves to which overlap(box) leads from the root; their own boxes are not
+  /// asked.
+  template <class Overlap, class Found>
+  void visit(const Overlap& overlap, const Found& found) const {
+    if (!items_.empty()) visit(overlap, found, 0, 0, items_.size());
+  }
 
-  std::vector<Node> nodes_;
+ private:
+  // Node i has items begin .. end - 1; its halves are 2 i + 1 and 2 i + 2, so that no path is longer than the logarithm
+  // of the number of items.
+  static constexpr std::size_t leaf_size = 8;
+  static std::size_t middle(std::size_t begin, std::size_t end) { return begin + (end - begin) / 2; }
+
+  void build(std::span<const Box> boxes, std::span<const Vec3> centres, std::size_t node, std::size_t begin,
+             std::size_t end);
+
+  template <class ItemDistance2>
+  void search(const Vec3& p, const ItemDistance2& item_distance2, NearItem& best, std::size_t node, std::size_t begin,
+              std::size_t end) const {
+    if (end - begin <= leaf_size) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (distance2(boxes_[i], p) > best.distance2) continue;
+        const double d = item_distance2(items_[i]);
+        if (d < best.distance2 || (d == best.distance2 && (best.item < 0 || items_[i] < best.item)))
+          best = {items_[i], d};
+      }
+      return;
+    }
+    const double to_low = distance2(nodes_[2 * node + 1], p), to_high = distance2(nodes_[2 * node + 2], p);
+    const auto low = [&] {
+      if (to_low <= best.distance2) search(p, item_distance2, best, 2 * node + 1, begin, middle(begin, end));
+    };
+    const auto high = [&] {
+      if (to_high <= best.distance2) search(p, item_distance2, best, 2 * node + 2, middle(begin, end), end);
+    };
+    if (to_high < to_low) high();
+    low();
+    if (!(to_high < to_low)) high();
+  }
+
+  template <class Overlap, class Found>
+  void visit(const Overlap& overlap, const Found& found, std::size_t node, std::size_t begin, std::size_t end) const {
+    if (!overlap(nodes_[node])) return;
+    if (end - begin <= leaf_size) {
+      for (std::size_t i = begin; i < end; ++i) found(items_[i]);
+      return;
+    }
+    visit(overlap, found, 2 * node + 1, begin, middle(begin, end));
+    visit(overlap, found, 2 * node + 2, middle(begin, end), end);
+  }
+
+  std::vector<Box> nodes_;
   std::vector<std::int32_t> items_;
   std::vector<Box> boxes_;  // in the order of items_
 };

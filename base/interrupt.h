@@ -1,8 +1,8 @@
-// Lets somebody stop a long loop from within.
+// Stopping a long loop from within.
 //
-// Who can stop it makes an Interruptible and calls what takes long; loops over many items call check_interrupt() now
-// and then. Only the thread that made it asks, so `ask` need not be safe for several; in the others check_interrupt()
-// does nothing. That is enough: it takes part in its own loops.
+// Make an Interruptible before a call that may take long; loops over many items call check_interrupt() now and then.
+// Only the thread that made the Interruptible asks, so `ask` need not be thread-safe; on other threads
+// check_interrupt() does nothing. That is enough, since the thread takes part in its own loops.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ class Interruptible {
   const Interruptible* outer_;
 };
 
-/// Throws what the innermost Interruptible of this thread throws; costs nothing to speak of where there is none.
+/// Calls `ask` of this thread's innermost Interruptible, which may throw. Almost free when there is none.
 void check_interrupt();
 
 }  // namespace hextwist

@@ -3,12 +3,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
 
+#include "hextwist/base/text.h"
 #include "hextwist/base/types.h"
 
 namespace hextwist {
@@ -40,14 +41,10 @@ std::size_t available_to_all() {
 
 std::string text_of(double number) {
   constexpr double round_above = 1e12;
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), number < round_above ? "%.0f" : "%.3g", number);
-  return text.data();
+  return number < round_above ? short_number(std::round(number), 12) : short_number(number, 3);
 }
 std::string gigabytes(double bytes) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / 1e9);
-  return text.data();
+  return short_number(bytes / 1e9, 3) + " GB";
 }
 
 double bytes_of(double n_hexes, double n_nodes) {
@@ -59,7 +56,7 @@ double bytes_of(double n_hexes, double n_nodes) {
 
 std::size_t available_memory() {
   std::size_t available = available_to_all();
-  // What the group uses already is left out: much of that is files in memory, which it gives back.
+  // The group's present use is not subtracted: much of it is cached files, which can be given up.
   for (const char* limit : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
     available = std::min(available, number_in(limit));
   return available;

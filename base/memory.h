@@ -5,19 +5,19 @@
 
 namespace hextwist {
 
-/// Bytes that the system could still give: free ones, caches and swap, and no more than the limit of the control group.
-/// The largest number where that is not known.
+/// Bytes still available: free memory, caches and swap, within the limit of the control group. The largest number when
+/// that is unknown.
 std::size_t available_memory();
 
-/// Most bytes that the process has held so far.
+/// Peak memory of the process so far, in bytes.
 std::size_t peak_memory();
 
 /// Throws Error, with both amounts, when the arrays that every mesh of this size has take more than `available` bytes:
-/// then nobody could hold it. (With CAD, ids and what a pass itself needs it is twice as much.)
+/// such a mesh could never be held. (CAD, ids and the pass itself take about as much again.)
 /// how_many: "" or "at least ".
 void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many = "");
 
-/// check_memory() with what there is; not asked where the mesh is small.
+/// check_memory() against available_memory(); small meshes are not checked.
 void check_memory(double n_hexes, double n_nodes, const char* how_many = "");
 
 }  // namespace hextwist

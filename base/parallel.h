@@ -19,7 +19,7 @@
 
 namespace hextwist {
 
-/// Threads that a loop can have. For choosing how to cut work; results must not depend on it.
+/// Threads available to a loop: for deciding how to divide work. Results must not depend on it.
 inline int n_threads() {
   const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(limit)));

@@ -15,7 +15,7 @@ using Vec3 = Eigen::Vector3d;
 using Index = std::int32_t;
 
 /// Bad input: names the file, line, entity or id that is wrong. what() is one line, ready to be shown to a user.
-/// Programmer errors are asserts, geometric disappointments are rows of a report; neither is an Error.
+/// Programmer errors are asserts; a node that cannot reach the CAD is a row of the report. Neither is an Error.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -38,5 +38,10 @@ struct Box {
   /// Length of the diagonal, 0 when empty: what "model size" means everywhere.
   double diagonal() const { return empty() ? 0 : (max - min).norm(); }
 };
+
+/// Squared distance of a point from a box; 0 inside.
+inline double distance2(const Box& box, const Vec3& p) {
+  return (p - p.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+}
 
 }  // namespace hextwist

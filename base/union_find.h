@@ -1,5 +1,5 @@
-// Union-find in which a root is always the lowest of its tree, so that who comes first does not matter and all threads
-// can join at once: links go from higher to lower roots only, a lost race is tried again.
+// Union-find in which a root is always the lowest item of its set, so the order of joins does not matter and all
+// threads can join at once: links go from higher to lower roots only, and a lost race is retried.
 #pragma once
 
 #include <utility>
@@ -21,7 +21,7 @@ inline Index find_root(std::vector<Index>& parent, Index i) {
     const Index up = std::atomic_ref(parent[i]).load(std::memory_order_relaxed);
     if (up == i) return i;
     const Index next = std::atomic_ref(parent[up]).load(std::memory_order_relaxed);
-    // Halve the way for those who come later. Whatever another thread has made of it meanwhile is an ancestor too.
+    // Path halving. If another thread has changed the link meanwhile, it still leads to an ancestor.
     if (next != up) std::atomic_ref(parent[i]).store(next, std::memory_order_relaxed);
     i = next;
   }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "hextwist/base/text.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/command/written.h"
@@ -386,7 +387,7 @@ class Parser {
     }
     const auto want = [&](std::size_t n) {
       if (arguments.size() != n)
-        fail(name + " takes " + std::to_string(n) + (n == 1 ? " value" : " values") + ", not " +
+        fail(name + " takes " + counted(static_cast<std::int64_t>(n), "value") + ", not " +
                  std::to_string(arguments.size()),
              begin, at_ - begin);
     };
@@ -425,7 +426,7 @@ class Parser {
       return formatted(*number, form, places[1]);
     }
     for (char& c : text) {
-      if (name == "tolower") c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (name == "tolower") c = lower_case(c);
       if (name == "toupper") c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     }
     return text;

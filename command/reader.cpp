@@ -1,15 +1,10 @@
 #include "hextwist/command/reader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
 namespace hextwist {
 namespace {
-
-char lower(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
 
 /// Edits (insert, drop, replace, swap of neighbours) from one short word to another.
 int distance(std::string_view a, std::string_view b) {
@@ -20,9 +15,10 @@ int distance(std::string_view a, std::string_view b) {
         d[i][j] = static_cast<int>(i + j);
         continue;
       }
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same ? 0 : 1)});
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+      if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
+          lower_case(a[i - 2]) == lower_case(b[j - 1]))
         d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[a.size()][b.size()];
@@ -49,13 +45,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
   return distance(word, *best) <= (word.size() > 5 ? 2 : 1) ? *best : "";
 }
 
-bool same_word(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && begins_word(a, b);
-}
-
 bool begins_word(std::string_view beginning, std::string_view word) {
-  return beginning.size() <= word.size() && std::equal(beginning.begin(), beginning.end(), word.begin(),
-                                                       [](char a, char b) { return lower(a) == lower(b); });
+  return same_word(beginning, word.substr(0, beginning.size()));
 }
 
 const Token& Reader::peek() const {

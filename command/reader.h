@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hextwist/base/text.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/select/range.h"
 #include "hextwist/command/token.h"
@@ -77,7 +78,6 @@ std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short = true);
 RangeTerm read_single(Reader& reader);
 
 /// Without case.
-bool same_word(std::string_view a, std::string_view b);
 bool begins_word(std::string_view beginning, std::string_view word);
 
 }  // namespace hextwist

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/format.h"
 #include "hextwist/mesh/corners.h"
 
@@ -69,13 +70,13 @@ void read_groups(const hextwist_arrays& in, Mesh& mesh) {
   groups(in.blocks, in.n_blocks, 1, "block", mesh.blocks, [&](Block& block, auto members, const std::string& name) {
     check_positions(members, mesh.n_hexes(), 1, name, "hex");
     block.hexes.assign(members.begin(), members.end());
-    io::make_set(block.hexes);
+    sort_unique(block.hexes);
   });
   groups(in.node_sets, in.n_node_sets, 1, "node set", mesh.node_sets,
          [&](NodeSet& set, auto members, const std::string& name) {
            check_positions(members, mesh.n_nodes(), 1, name, "node");
            set.nodes.assign(members.begin(), members.end());
-           io::make_set(set.nodes);
+           sort_unique(set.nodes);
          });
   groups(in.side_sets, in.n_side_sets, 4, "side set", mesh.side_sets,
          [&](SideSet& set, auto members, const std::string& name) {
@@ -84,7 +85,7 @@ void read_groups(const hextwist_arrays& in, Mesh& mesh) {
            const auto lost = std::ranges::find(set.sides, -1, &Side::hex);
            if (lost != set.sides.end())
              throw Error(name + "[" + std::to_string(lost - set.sides.begin()) + "] is no side of a hex");
-           io::make_set(set.sides);
+           sort_unique(set.sides);
          });
 }
 

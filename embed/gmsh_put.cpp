@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/embed/gmsh_exchange.h"
 #include "hextwist/embed/gmsh_internal.h"
 #include "hextwist/io/gmsh/gmsh.h"
@@ -149,8 +150,8 @@ class Writing {
   std::size_t element_tag(int dim, std::span<const Index> nodes) {
     const auto key = element_key(mesh_, nodes);
     const auto& list = link_.elements[dim];
-    const auto found = std::ranges::lower_bound(list, key, {}, [](const auto& each) { return each.first; });
-    return found != list.end() && found->first == key ? found->second : ++last_element_;
+    const Index at = position_in(list, key, [](const auto& each) { return each.first; });
+    return at >= 0 ? list[at].second : ++last_element_;
   }
 
   void hexes() {

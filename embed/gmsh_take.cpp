@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/embed/gmsh_exchange.h"
 #include "hextwist/embed/gmsh_internal.h"
 #include "hextwist/geom/occ/model.h"
@@ -40,10 +41,7 @@ class Reading {
   std::vector<std::size_t> own_;             // tags of the nodes of hexes, ascending
   std::vector<std::pair<const GmshEntity*, std::size_t>> line_source_, quad_source_;  // entity and tag
 
-  Index find(std::size_t node) const {
-    const auto at = std::ranges::lower_bound(own_, node);
-    return at != own_.end() && *at == node ? static_cast<Index>(at - own_.begin()) : -1;
-  }
+  Index find(std::size_t node) const { return position_in(own_, node); }
 
   void hexes() {
     struct Found {
@@ -69,7 +67,7 @@ class Reading {
     if (found.empty()) throw Error("there are no hexes in Gmsh's model: generate the mesh first");
     std::ranges::sort(found, {}, &Found::tag);
     for (const Found& hex : found) own_.insert(own_.end(), hex.nodes, hex.nodes + 8);
-    io::make_set(own_);
+    sort_unique(own_);
     Mesh& mesh = file.mesh;
     for (const Found& hex : found) {
       Hex& to = mesh.hexes.emplace_back();
@@ -98,7 +96,7 @@ class Reading {
         mesh.points[node] = Vec3(entity.coord.data() + 3 * i);
         file.tags.node_owner[node] = {entity.dim, entity.tag};
       }
-    io::make_set(link.other_nodes);
+    sort_unique(link.other_nodes);
     for (std::size_t n = 0; n < own_.size(); ++n)
       if (!mesh.points[n].allFinite())
         throw Error("node " + std::to_string(own_[n]) + " of a hex is in no entity of Gmsh's model");
@@ -192,8 +190,7 @@ class Reading {
   static void sort_by(std::vector<T>& keys, F others) {
     std::vector<std::size_t> order(keys.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return keys[i]; });
-    order.erase(std::ranges::unique(order, {}, [&](std::size_t i) { return keys[i]; }).begin(), order.end());
+    sort_unique(order, [&](std::size_t i) { return keys[i]; });
     reorder(keys, order);
     others(order);
   }
@@ -218,7 +215,7 @@ class Reading {
           for (std::size_t i = 0; i < cycles.size(); ++i)
             if (of.contains(tags.face_surface[i])) quads.push_back(cycles[i]);
           set.sides = io::oriented_sides(mesh, quads);
-          io::make_set(set.sides);
+          sort_unique(set.sides);
         } else {
           const bool taken = std::ranges::find(mesh.node_sets, group.tag, &NodeSet::id) != mesh.node_sets.end();
           NodeSet& set = io::group_of_id(mesh.node_sets, taken ? io::free_id(mesh.node_sets) : group.tag);
@@ -228,7 +225,7 @@ class Reading {
           for (std::size_t e = 0; dim == 1 && e < tags.curve_edges.size(); ++e)
             if (of.contains(tags.edge_curve[e]))
               set.nodes.insert(set.nodes.end(), tags.curve_edges[e].begin(), tags.curve_edges[e].end());
-          io::make_set(set.nodes);
+          sort_unique(set.nodes);
         }
       }
   }

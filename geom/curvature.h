@@ -1,5 +1,5 @@
 // How strongly the CAD bends. The skin of a mesh estimates it from how its facets are turned against each other
-// (facet_curvature_internal.h); what turns by more than the feature angle is an edge there, and no curvature.
+// (facet/curvature_internal.h); where they turn by more than the feature angle is an edge, not curvature.
 #pragma once
 
 #include <vector>

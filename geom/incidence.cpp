@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "hextwist/base/sorted.h"
+
 namespace hextwist {
 
 Incidence::Incidence(const std::array<int, 4>& n) : n_(n) {
@@ -16,15 +18,11 @@ void Incidence::add(Owner whole, Owner part) {
 }
 
 void Incidence::close() {
-  const auto tidy = [](std::vector<int>& ids) {
-    std::ranges::sort(ids);
-    ids.erase(std::ranges::unique(ids).begin(), ids.end());
-  };
   // Dimensions ascending, and within one entity from its highest parts down: each list that is read is complete.
   for (int dim = 1; dim < 4; ++dim)
     for (int i = 0; i < n_[dim]; ++i)
       for (int middle = dim - 1; middle >= 0; --middle) {
-        tidy(lists_[dim][middle][i]);
+        sort_unique(lists_[dim][middle][i]);
         for (const int part : lists_[dim][middle][i])
           for (int low = 0; low < middle; ++low) {
             const auto& below = lists_[middle][low][part - 1];

@@ -11,7 +11,7 @@
 namespace hextwist {
 
 /// One entity of the CAD: dim 0 vertex, 1 curve, 2 surface, 3 volume; id 1-based per dim.
-/// The default value means "nobody".
+/// The default value means "no owner".
 struct Owner {
   std::int32_t dim = -1;
   std::int32_t id = 0;

@@ -29,7 +29,7 @@ struct Bytes {
 };
 
 /// The bytes of a whole file, mapped where the system can: no copy of them is made, and pages that were read can go.
-/// As with every mapped file, nobody may cut it short meanwhile (our own writers replace files and never do).
+/// As with every mapped file, it must not be truncated meanwhile (our own writers replace files and never do).
 /// Throws Error when it is missing, a folder, unreadable or empty.
 Bytes read_bytes(const std::filesystem::path& file);
 
@@ -37,8 +37,8 @@ Bytes read_bytes(const std::filesystem::path& file);
 void check_readable(const std::filesystem::path& file);
 
 /// The file that is written in place of another one: a temporary name in the same folder that commit() renames, and
-/// the destructor removes when commit() was not reached. Links are followed; what is no ordinary file (a device, a
-/// pipe) is written directly.
+/// the destructor removes when commit() was not reached. Links are followed; anything but an ordinary file (a
+/// device, a pipe) is written directly.
 class Replacement {
  public:
   /// Throws Error when the folder is missing or `overwrite` is false and the file exists.
@@ -100,7 +100,7 @@ class Output {
   void put_all(std::span<const T> values) {
     raw(values.data(), values.size_bytes());
   }
-  /// value(0) .. value(n - 1), made where they leave from.
+  /// value(0) .. value(n - 1), computed straight into the buffer.
   template <class F>
   void put_each(std::size_t n, F&& value) {
     using T = decltype(value(n));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/io.h"
 #include "hextwist/io/text.h"
 #include "hextwist/mesh/corners.h"
@@ -97,10 +98,6 @@ struct Classes {
 };
 Classes classify(const std::vector<int>& key_of_item, std::span<const std::span<const Index>> groups);
 
-/// Sorts and removes what stands twice.
-template <class T>
-void make_set(std::vector<T>& items);
-
 /// The group of an id, made if there is none; keeps groups sorted by id.
 template <class Group>
 Group& group_of_id(std::vector<Group>& groups, int id);
@@ -169,7 +166,7 @@ std::vector<Field> merge_components(std::vector<Field> scalars);
 
 // ---- associations ----
 
-/// Owner of a node, "nobody" where the association does not say.
+/// Owner of a node, none where the association does not say.
 inline Owner owner(const Association& association, Index node) {
   return association.node_owner.empty() ? Owner{} : association.node_owner[node];
 }
@@ -184,13 +181,6 @@ void derive_owners(std::vector<Owner>& owners, int dim, std::span<const Index> e
 void tidy(Association& tags);
 
 // ---- inline parts ----
-
-template <class T>
-void make_set(std::vector<T>& items) {
-  if (std::ranges::is_sorted(items) && std::ranges::adjacent_find(items) == items.end()) return;
-  std::ranges::sort(items);
-  items.erase(std::ranges::unique(items).begin(), items.end());
-}
 
 template <class Group>
 Group& group_of_id(std::vector<Group>& groups, int id) {

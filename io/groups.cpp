@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/format.h"
 
 namespace hextwist::io {
@@ -66,8 +67,7 @@ Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& 
 }
 
 Index Ids::find_sorted(std::int64_t id) const {
-  const auto at = std::ranges::lower_bound(ids_, id);
-  return at != ids_.end() && *at == id ? static_cast<Index>(at - ids_.begin()) : -1;
+  return position_in(ids_, id);
 }
 
 std::vector<std::int64_t> Ids::stored() const {
@@ -79,13 +79,12 @@ Classes classify(const std::vector<int>& key_of_item, std::span<const std::span<
   // Neighbours mostly have the same key.
   for (std::size_t i = 0; i < key_of_item.size(); ++i)
     if (i == 0 || key_of_item[i] != key_of_item[i - 1]) result.key.push_back(key_of_item[i]);
-  make_set(result.key);
+  sort_unique(result.key);
   result.groups.resize(result.key.size());
   resize_for_overwrite(result.of_item, key_of_item.size());
   int of_key = 0;
   for (std::size_t i = 0; i < key_of_item.size(); ++i) {
-    if (i == 0 || key_of_item[i] != key_of_item[i - 1])
-      of_key = static_cast<int>(std::ranges::lower_bound(result.key, key_of_item[i]) - result.key.begin());
+    if (i == 0 || key_of_item[i] != key_of_item[i - 1]) of_key = position_in(result.key, key_of_item[i]);
     result.of_item[i] = of_key;
   }
   std::vector<int> moved;

@@ -1,5 +1,6 @@
 #include "hextwist/io/io.h"
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
 
 namespace hextwist {
@@ -42,7 +43,7 @@ constexpr Format formats[] = {
 };
 
 const Format* format_of(const std::filesystem::path& file) {
-  const std::string extension = io::lower_case(file.extension().string());
+  const std::string extension = lower_extension(file);
   for (const Format& format : formats)
     if (format.extension == extension) return &format;
   return nullptr;
@@ -82,7 +83,7 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Assoc
   try {
     format->write(file, mesh, association ? *association : nothing, options);
   } catch (const Error& error) {
-    // Reasons that lie in the mesh do not know the file's name.
+    // Errors about the mesh lack the file's name.
     const std::string what = error.what();
     if (what.starts_with(file.string() + ":")) throw;
     throw Error(file.string() + ": " + what);

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/format.h"
 #include "hextwist/mesh/corners.h"
 
@@ -102,7 +103,7 @@ PlannedSides plan_sides(const Mesh& mesh, const Association& association) {
   PlannedSides plan;
   std::vector<Side> in_sets;
   for (const SideSet& set : mesh.side_sets) in_sets.insert(in_sets.end(), set.sides.begin(), set.sides.end());
-  make_set(in_sets);
+  sort_unique(in_sets);
   // The sides in sets by the side of the lower hex, which is how surface faces are named.
   const auto lower = lower_sides(mesh, in_sets);
   std::vector<std::pair<Side, Side>> of_lower(in_sets.size());
@@ -118,9 +119,7 @@ PlannedSides plan_sides(const Mesh& mesh, const Association& association) {
   std::ranges::sort(all);
   const std::size_t n_owned = all.size();
   for (const Side& side : in_sets) {
-    const auto owned = std::ranges::lower_bound(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n_owned), side,
-                                                {}, &std::pair<Side, int>::first);
-    if (owned == all.begin() + static_cast<std::ptrdiff_t>(n_owned) || owned->first != side) all.emplace_back(side, 0);
+    if (position_in(std::span(all).first(n_owned), side, &std::pair<Side, int>::first) < 0) all.emplace_back(side, 0);
   }
   std::ranges::sort(all);
   for (const auto& [side, id] : all) {
@@ -129,8 +128,7 @@ PlannedSides plan_sides(const Mesh& mesh, const Association& association) {
   }
   for (const SideSet& set : mesh.side_sets) {
     auto& to = plan.members.emplace_back();
-    for (const Side& side : set.sides)
-      to.push_back(static_cast<Index>(std::ranges::lower_bound(plan.sides, side) - plan.sides.begin()));
+    for (const Side& side : set.sides) to.push_back(position_in(plan.sides, side));
   }
   return plan;
 }

@@ -95,20 +95,6 @@ void Cursor::fail_truncated(std::string_view what) const {
   fail_at(end, "the file ends where " + std::string(what) + " should stand");
 }
 
-bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    return lower(x) == lower(y);
-  });
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return result;
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && Cursor::blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && Cursor::blank(text.back())) text.remove_suffix(1);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/file.h"
 
 namespace hextwist::io {
@@ -107,9 +108,6 @@ class Cursor {
   double odd_real(std::string_view what);
 };
 
-/// Case ignored, ASCII.
-bool same_word(std::string_view a, std::string_view b);
-std::string lower_case(std::string_view text);
 std::string_view trimmed(std::string_view text);
 /// What may stand in a message: cut to a few characters, control characters replaced.
 std::string shown(std::string_view text);

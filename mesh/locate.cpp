@@ -29,7 +29,7 @@ bool invert(std::span<const Vec3, 8> corners, const Vec3& p, Vec3& at) {
     const Vec3 step = jacobian.partialPivLu().solve(miss);
     if (!step.allFinite()) return false;
     at += step;
-    // So far out that the hex does not hold the point; its map need not be one to one there.
+    // Far outside the hex, where its map need not be one to one.
     if (at.minCoeff() < -2 || at.maxCoeff() > 3) return false;
     if (step.squaredNorm() < 1e-30) return true;
   }

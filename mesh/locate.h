@@ -20,7 +20,8 @@ Vec3 trilinear_point(std::span<const Vec3, 8> corners, const Vec3& at);
 /// six bilinear faces for those outside.
 HexPlace closest_place(std::span<const Vec3, 8> corners, const Vec3& p);
 
-/// Finds the hexes of a mesh; keeps a copy of their corners and a tree of their boxes. Any number of threads may ask.
+/// Finds the hexes of a mesh; keeps a copy of their corners and a tree of their boxes. May be asked from any number of
+/// threads.
 class HexLocator {
  public:
   explicit HexLocator(const Mesh& mesh);

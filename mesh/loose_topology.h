@@ -27,9 +27,6 @@ CompressedRows node_corners(std::span<const Hex> hexes, Index begin, Index end);
 /// than an Index holds; the entries then mean nothing.
 std::int64_t counts_to_starts(std::vector<Index>& counts);
 
-/// Nodes of these hexes from first_node on, ascending, each once.
-std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes, Index first_node = 0);
-
 /// One use of a face by a hex, at the face's lowest node.
 struct FaceUse {
   Index diagonal, low, high;  ///< node across; the two neighbours, lower first

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist {
@@ -13,8 +14,7 @@ std::int64_t id_of(std::span<const std::int64_t> ids, Index index) {
 
 Index find_id(std::span<const std::int64_t> ids, Index n, std::int64_t id) {
   if (ids.empty()) return id >= 1 && id <= n ? static_cast<Index>(id - 1) : -1;
-  const auto found = std::ranges::lower_bound(ids, id);
-  return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : -1;
+  return position_in(ids, id);
 }
 
 }  // namespace

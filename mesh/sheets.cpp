@@ -9,7 +9,7 @@
 namespace hextwist {
 namespace {
 
-/// CompressedRows from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
+/// Lists from pairs (list, item) that `pairs` hands to its argument in ascending order of items, twice.
 template <class Pairs>
 CompressedRows collect(Index n_lists, Pairs pairs) {
   CompressedRows lists;
@@ -67,6 +67,19 @@ Sheets sheets(const Mesh& mesh, const Edges& edges) {
     const Index sheet = sheet_of(result, edges, a.hex, a.face / 2);
     if (sheet == sheet_of(result, edges, b.hex, b.face / 2)) ++result.n_self_touches[sheet];
   }
+  return result;
+}
+
+std::vector<std::uint8_t> in_sheets_of(const Edges& edges, std::span<const Index> hexes, std::span<const Index> seeds) {
+  std::vector<Index> parent = singletons(static_cast<Index>(edges.nodes.size()));
+  for (const Index h : hexes)
+    for (int e = 0; e < 12; ++e) join(parent, edges.of_hex[h][e & ~3], edges.of_hex[h][e]);
+  std::vector<std::uint8_t> result(parent.size(), 0);
+  for (const Index e : seeds) result[find_root(parent, e)] = 1;
+  parallel_each(result.size(), [&](std::size_t e) {
+    const Index root = find_root(parent, static_cast<Index>(e));
+    if (root != static_cast<Index>(e)) result[e] = result[root];
+  });
   return result;
 }
 

@@ -5,6 +5,8 @@
 // across that direction. So three sheets run through every hex, or one sheet runs through it twice or three times.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hextwist/mesh/topology.h"
@@ -28,5 +30,8 @@ Sheets sheets(const Mesh& mesh, const Edges& edges);
 inline Index sheet_of(const Sheets& sheets, const Edges& edges, Index hex, int axis) {
   return sheets.of_edge[edges.of_hex[hex][4 * axis]];
 }
+
+/// Per edge 1 where, among these hexes alone, it is in one sheet with one of the seeds (edges); else 0.
+std::vector<std::uint8_t> in_sheets_of(const Edges& edges, std::span<const Index> hexes, std::span<const Index> seeds);
 
 }  // namespace hextwist

@@ -105,17 +105,6 @@ std::int64_t counts_to_starts(std::vector<Index>& counts) {
       [&](Index i, std::int64_t sum) { counts[i] = static_cast<Index>(sum); });
 }
 
-std::vector<Index> nodes_of_hexes(const Mesh& mesh, std::span<const Index> hexes, Index first_node) {
-  std::vector<Index> nodes;
-  nodes.reserve(8 * hexes.size());
-  for (const Index h : hexes)
-    for (const Index n : mesh.hexes[h])
-      if (n >= first_node) nodes.push_back(n);
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  return nodes;
-}
-
 CompressedRows node_corners(std::span<const Hex> hexes, Index begin, Index end) {
   // Each thread has a range of nodes and walks along the hexes that have some of them: no counter is shared, every list
   // comes out ascending.
@@ -336,7 +325,7 @@ std::vector<Side> boundary_sides(const Faces& faces) {
 }
 
 std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads) {
-  // Quads by lowest node; then every face of every hex looks there, which is nothing in most places.
+  // Quads by lowest node; then every face of every hex looks there, which costs nothing in most places.
   const auto known = [&](Index node) { return node >= 0 && node < mesh.n_nodes(); };
   std::vector<Quad> sorted(quads.begin(), quads.end());
   CompressedRows of_node;

@@ -18,7 +18,7 @@ namespace hextwist {
 using Edge = std::array<Index, 2>;  ///< nodes, lower first
 using Quad = std::array<Index, 4>;  ///< nodes; bit frame or cycle, as the context says
 
-/// CompressedRows of varying length in two arrays.
+/// Lists of varying length in two arrays.
 struct CompressedRows {
   std::vector<Index> first;  ///< n + 1
   std::vector<Index> items;

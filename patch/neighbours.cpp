@@ -2,9 +2,9 @@
 #include <iterator>
 #include <numeric>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/patch/gaps.h"
 #include "hextwist/patch/neighbours.h"
 
 namespace hextwist {
@@ -27,14 +27,14 @@ void Neighbours::hexes_at(std::span<const Index> nodes, std::vector<Index>& hexe
 bool Neighbours::apply(const Splice& splice, bool forward) {
   const auto n_nodes = static_cast<std::size_t>(splice.n_nodes(forward));
   const auto n_new = static_cast<Index>(splice.new_hexes().size());
-  std::vector<Index> fresh(static_cast<std::size_t>(n_new)), others;
+  std::vector<Index> fresh(static_cast<std::size_t>(n_new));
   if (forward) {
     std::vector<Index> gone;
     for (const Index h : splice.gone()) gone.push_back(before_gaps(gone_, h));
     std::iota(fresh.begin(), fresh.end(), n_serials_);
     of_node_.resize(n_nodes);
     exchange(splice.gone_hexes(), gone, splice.new_hexes(), fresh);
-    std::ranges::set_union(gone_, gone, std::back_inserter(others));
+    gone_ = union_of(gone_, gone);
     each_.push_back(std::move(gone));
     n_serials_ += n_new;
   } else {
@@ -43,10 +43,9 @@ bool Neighbours::apply(const Splice& splice, bool forward) {
     std::iota(fresh.begin(), fresh.end(), n_serials_);
     exchange(splice.new_hexes(), fresh, splice.gone_hexes(), each_.back());
     of_node_.resize(n_nodes);
-    std::ranges::set_difference(gone_, each_.back(), std::back_inserter(others));
+    gone_ = difference(gone_, each_.back());
     each_.pop_back();
   }
-  gone_ = std::move(others);
   constexpr std::size_t small_part = 4;
   return items_.size() - n_first_items_ < n_first_items_ / small_part + 100000;
 }

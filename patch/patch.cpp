@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "hextwist/patch/gaps.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {

@@ -1,5 +1,5 @@
 // A small refinement does not need the mesh, only the part around its target. That part, the patch, is cut out as a
-// mesh of its own, refined by the same passes as any mesh, verified, and spliced into the whole (splice_internal.h).
+// mesh of its own, refined by the same passes as any mesh, verified, and spliced into the whole (splice.h).
 //
 // Nodes and hexes of a patch are in the order of the whole, and all rules of refining (which node comes first, which
 // hex names a face, how children follow each other) compare numbers only. So the result is the one that the passes over

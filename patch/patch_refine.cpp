@@ -4,8 +4,9 @@
 #include <cstring>
 
 #include "hextwist/base/memory.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/patch/gaps.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/loop.h"
 #include "hextwist/sizing/targets.h"
@@ -29,10 +30,7 @@ Around around_target(const MeshedModel& input, const Target& target) {
   Around around;
   if (is_solid(target.kind)) {
     around.hexes = solid_target(input, target);
-    for (const Index h : around.hexes)
-      around.nodes.insert(around.nodes.end(), input.mesh.hexes[h].begin(), input.mesh.hexes[h].end());
-    std::ranges::sort(around.nodes);
-    around.nodes.erase(std::ranges::unique(around.nodes).begin(), around.nodes.end());
+    around.nodes = nodes_of_hexes(input.mesh, around.hexes);
   } else {
     std::vector<std::string> told_again;  // by the passes in the patch
     around.target = sub_element_target(input, target, told_again);
@@ -55,9 +53,7 @@ Request request_in(const Patch& patch, const Request& request, const Around& aro
   };
   if (request.target.kind == EntityKind::node) renumber(request.target.ids, node);
   if (request.target.kind == EntityKind::hex)
-    renumber(request.target.ids, [&](Index h) {
-      return static_cast<Index>(std::ranges::lower_bound(patch.hexes, h) - patch.hexes.begin());
-    });
+    renumber(request.target.ids, [&](Index h) { return position_in(patch.hexes, h); });
   if (request.target.kind == EntityKind::edge) {
     const Edges all = edges(patch.meshed.mesh);
     renumber(around.target.edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });

@@ -4,8 +4,8 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/patch/patch.h"
-#include "hextwist/refine/marks.h"
 
 namespace hextwist {
 namespace {

@@ -36,7 +36,7 @@ struct ListEdit {
 };
 
 /// The difference between two meshes on their model, from which either can be made of the other, in place. Hexes that
-/// are kept are called otherwise afterwards (gaps_internal.h); in all else what is not mentioned stays.
+/// are kept are called otherwise afterwards (base/sorted.h); in all else what is not mentioned stays.
 class Splice {
  public:
   /// Between a whole mesh and itself with its patch refined. Throws Error where it would have too many nodes or hexes.

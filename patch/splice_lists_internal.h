@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "hextwist/patch/gaps.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/patch/splice.h"
 
 namespace hextwist {

@@ -7,11 +7,12 @@
 #include <ranges>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_internal.h"
-#include "hextwist/patch/gaps.h"
 #include "hextwist/patch/verify_internal.h"
 
 namespace hextwist {
@@ -164,14 +165,11 @@ Box box_of(const Mesh& mesh, const Quad& nodes) {
 /// Changed hexes of the part, and all that share a node with them; ascending.
 std::vector<Index> hexes_around(const ChangedPart& change) {
   const Mesh& mesh = change.after.mesh;
-  std::vector<char> near(mesh.points.size(), 0);
-  for (const Index h : change.touched)
-    for (const Index n : mesh.hexes[h]) near[n] = 1;
+  std::vector<std::uint8_t> near(mesh.points.size(), 0);
+  mark_nodes(mesh.hexes, change.touched, near);
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h)
     for (const Index n : mesh.hexes[h]) near[n] = 1;
-  std::vector<Index> around = indices_where(change.n_kept, [&](Index h) {
-    return std::ranges::any_of(mesh.hexes[h], [&](Index n) { return near[n] != 0; });
-  });
+  std::vector<Index> around = touching_hexes(std::span(mesh.hexes).first(change.n_kept), near);
   for (Index h = change.n_kept; h < mesh.n_hexes(); ++h) around.push_back(h);
   return around;
 }
@@ -224,23 +222,17 @@ Mesh mesh_to_validate(const ChangedPart& change, std::span<const Index> of_part,
     for (Index& n : mesh.hexes.emplace_back(part.hexes[h])) n = of_part_node(n);
   // Other hexes may have nodes of the part, and of their own.
   std::vector<Index> own;
-  const auto in_part = [&](Index n) {
-    if (change.nodes.empty()) return n;
-    const auto at = std::ranges::lower_bound(change.nodes, n);
-    return at != change.nodes.end() && *at == n ? static_cast<Index>(at - change.nodes.begin()) : -1;
-  };
+  const auto in_part = [&](Index n) { return change.nodes.empty() ? n : position_in(change.nodes, n); };
   for (const Index h : others)
     for (const Index n : input.hexes[h])
       if (in_part(n) < 0) own.push_back(n);
-  std::ranges::sort(own);
-  own.erase(std::ranges::unique(own).begin(), own.end());
+  sort_unique(own);
   const Index first_own = mesh.n_nodes();
   for (const Index n : own) mesh.points.push_back(input.points[n]);
   for (const Index h : others)
     for (Index& n : mesh.hexes.emplace_back(input.hexes[h])) {
       const Index there = in_part(n);
-      n = there >= 0 ? of_part_node(there)
-                     : first_own + static_cast<Index>(std::ranges::lower_bound(own, n) - own.begin());
+      n = there >= 0 ? of_part_node(there) : first_own + position_in(own, n);
     }
   return mesh;
 }
@@ -250,8 +242,7 @@ bool is_sound(const ChangedPart& change) {
   std::vector<Index> known;  // of these, the kept ones in numbers of the input
   for (const Index h : of_part)
     if (h < change.n_kept) known.push_back(change.whole_hex(before_gaps(change.gone, h)));
-  std::vector<Index> others;
-  std::ranges::set_difference(hexes_near_new_boundary(change), known, std::back_inserter(others));
+  const std::vector<Index> others = difference(hexes_near_new_boundary(change), known);
   const Mesh mesh = mesh_to_validate(change, of_part, others);
   std::vector<Side> open;
   if (!is_sound_without_skin(mesh, open)) return false;
@@ -317,10 +308,9 @@ Index ChangedPart::whole_node(Index node) const {
 
 std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<const Index> moved) {
   if (moved.empty()) return {};
-  std::vector<char> has_moved(after.points.size(), 0);
+  std::vector<std::uint8_t> has_moved(after.points.size(), 0);
   for (const Index n : moved) has_moved[n] = 1;
-  return indices_where(
-      n_kept, [&](Index h) { return std::ranges::any_of(after.hexes[h], [&](Index n) { return has_moved[n] != 0; }); });
+  return touching_hexes(std::span(after.hexes).first(n_kept), has_moved);
 }
 
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report) {

@@ -9,7 +9,7 @@
 namespace hextwist {
 
 /// A changed mesh, and the part of it that holds the change with all hexes that share a node with it: a mesh of its
-/// own, or the whole. CompressedRows ascending.
+/// own, or the whole. All lists ascend.
 struct ChangedPart {
   const MeshedModel& input;   ///< all of it, before
   const MeshedModel& before;  ///< the part

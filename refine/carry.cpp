@@ -211,21 +211,12 @@ void carry_curve_edges(const Association& old, const Lineage& lineage, Associati
     int curve;
   };
   std::vector<Owned> owned;
-  const auto add = [&](Index a, Index b, int curve) { owned.push_back({{std::min(a, b), std::max(a, b)}, curve}); };
   for (std::size_t i = 0; i < old.curve_edges.size(); ++i) {
-    const auto [a, b] = old.curve_edges[i];
-    const int curve = old.edge_curve[i];
-    const auto found = std::ranges::lower_bound(lineage.edges, Edge{a, b}, {}, [](const CutEdge& edge) {
-      return Edge{edge.a, edge.b};
+    for_each_child_edge(lineage, old.curve_edges[i], [&](const Edge& edge) {
+      owned.push_back({edge, old.edge_curve[i]});
+      for (const Index node : edge)
+        if (node >= lineage.n_old_nodes) association.node_owner[node] = {1, old.edge_curve[i]};
     });
-    if (found == lineage.edges.end() || found->a != a || found->b != b) {
-      add(a, b, curve);
-      continue;
-    }
-    const Index n = static_cast<Index>(lineage.table->edge[found->code].at.size());
-    for (Index s = 0; s < n; ++s) association.node_owner[found->first_node + s] = {1, curve};
-    for (Index s = 0; s <= n; ++s)
-      add(s == 0 ? a : found->first_node + s - 1, s == n ? b : found->first_node + s, curve);
   }
   std::ranges::sort(owned, {}, &Owned::edge);
   for (const Owned& item : owned) {

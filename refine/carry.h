@@ -1,4 +1,4 @@
-// Hands everything that an old mesh knew to its refinement: ids, blocks, sets, fields, association.
+// Hands everything that was known of an old mesh on to its refinement: ids, blocks, sets, fields, association.
 #pragma once
 
 #include "hextwist/mesh/association/association.h"

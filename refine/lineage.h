@@ -1,7 +1,9 @@
 // Where everything in a refined mesh came from.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "hextwist/mesh/topology.h"
@@ -49,5 +51,27 @@ struct Lineage {
   std::vector<CutHex> hexes;
   std::vector<Index> parent;  ///< per new hex: old hex
 };
+
+/// An edge of the old mesh among those that got new nodes; null where it got none.
+const CutEdge* find_cut_edge(const Lineage& lineage, const Edge& old_edge);
+/// How many it got.
+Index n_new_nodes(const Lineage& lineage, const CutEdge& edge);
+
+/// Calls use(edge) for the edges that an edge of the old mesh has become, from its lower node to its higher one; for
+/// itself where it was not cut. All have their lower node first.
+template <class Use>
+void for_each_child_edge(const Lineage& lineage, const Edge& old_edge, const Use& use) {
+  const CutEdge* cut = find_cut_edge(lineage, old_edge);
+  const Index n = cut ? n_new_nodes(lineage, *cut) : 0;
+  Index from = old_edge[0];
+  for (Index s = 0; s <= n; ++s) {
+    const Index to = s == n ? old_edge[1] : cut->first_node + s;
+    use(Edge{std::min(from, to), std::max(from, to)});
+    from = to;
+  }
+}
+
+/// Children of these hexes, ascending; of a hex that was not cut, itself.
+std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> old_hexes);
 
 }  // namespace hextwist

@@ -7,7 +7,6 @@
 #include <array>
 
 #include "hextwist/base/parallel.h"
-#include "hextwist/mesh/topology.h"
 #include "hextwist/refine/templates/trisect.h"
 
 namespace hextwist {
@@ -42,6 +41,16 @@ std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<c
   std::vector<std::uint16_t> codes(hexes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hexes.size(), 4096), [&](const auto& range) {
     for (std::size_t h = range.begin(); h != range.end(); ++h) codes[h] = table.edges[corner_mask(hexes[h], marked)];
+  });
+  return codes;
+}
+
+std::vector<std::uint16_t> trisect_codes(const Edges& edges, std::span<const std::uint8_t> cut) {
+  std::vector<std::uint16_t> codes(edges.of_hex.size());
+  parallel_each(codes.size(), [&](std::size_t h) {
+    int code = 0;
+    for (int e = 0; e < 12; ++e) code |= cut[edges.of_hex[h][e]] << e;
+    codes[h] = static_cast<std::uint16_t>(code);
   });
   return codes;
 }
@@ -85,15 +94,6 @@ Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
     if (rest.empty()) return static_cast<Index>(n_full() - n_before);
     for (const Index h : rest) mark_all_nodes(h);
   }
-}
-
-void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std::span<std::uint8_t> marked) {
-  for (const Index h : targets)
-    for (const Index n : hexes[h]) marked[n] = 1;
-}
-
-std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
-  return indices_where(static_cast<Index>(hexes.size()), [&](Index h) { return has_marked_corner(hexes[h], marked); });
 }
 
 }  // namespace hextwist

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/topology.h"
 
 namespace hextwist {
 
@@ -15,26 +15,16 @@ inline int corner_mask(const Hex& hex, std::span<const std::uint8_t> marked) {
   for (int c = 0; c < 8; ++c) mask |= marked[hex[c]] << c;
   return mask;
 }
-/// corner_mask(hex, marked) != 0, in a third of the time: for sweeps over a mesh.
-inline bool has_marked_corner(const Hex& hex, std::span<const std::uint8_t> marked) {
-  std::uint8_t any = 0;
-  for (const Index n : hex) any |= marked[n];
-  return any != 0;
-}
 
 /// One code per hex: an edge is cut when both its nodes are marked. marked: one byte per node, 0 or 1.
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
+/// The same from the cut edges. cut: one byte per edge, 0 or 1.
+std::vector<std::uint16_t> trisect_codes(const Edges& edges, std::span<const std::uint8_t> cut);
 
 /// Concave filling (section 4.3): a hex that is concave in a direction gets all its nodes marked, until there is none;
 /// then all hexes that still have an L or U on a face (three marked corners, say) do, and so on until the paper's
 /// templates suffice everywhere. Only ever adds marks; the result does not depend on the order. Returns how many hexes
 /// became fully marked.
 Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked);
-
-/// Marks the nodes of these hexes.
-void mark_nodes(std::span<const Hex> hexes, std::span<const Index> targets, std::span<std::uint8_t> marked);
-
-/// Hexes with at least one marked node, ascending.
-std::vector<Index> touching_hexes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);
 
 }  // namespace hextwist

@@ -9,6 +9,7 @@
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {
@@ -140,8 +141,7 @@ class RimParameters {
       for (const Index node : face_nodes(work.old_mesh.hexes[side.hex], side.face))
         if (old.node_owner[node] != Owner{2, old.face_surface[i]}) entries_.push_back({old.face_surface[i], node, {}});
     }
-    std::ranges::sort(entries_, {}, &Entry::key);
-    entries_.erase(std::ranges::unique(entries_, {}, &Entry::key).begin(), entries_.end());
+    sort_unique(entries_, &Entry::key);
     parallel_each(entries_.size(), [&](std::size_t i) {
       entries_[i].parameters =
           work.model.project({2, entries_[i].surface}, work.old_mesh.points[entries_[i].node]).parameters;
@@ -150,8 +150,8 @@ class RimParameters {
 
   Parameters operator()(int surface, Index node) const {
     if (work_.old.node_owner[node] == Owner{2, surface}) return work_.old.node_parameters[node];
-    const auto found = std::ranges::lower_bound(entries_, std::pair{surface, node}, {}, &Entry::key);
-    return found != entries_.end() && found->key() == std::pair{surface, node} ? found->parameters : Parameters{};
+    const Index at = position_in(entries_, std::pair{surface, node}, &Entry::key);
+    return at >= 0 ? entries_[at].parameters : Parameters{};
   }
 
  private:

@@ -17,8 +17,8 @@ namespace hextwist {
 ///     parameters of the nearest old node;
 ///  3. elsewhere: the straight place plus the displacements of the edges and faces around, blended (transfinite
 ///     interpolation of Gordon and Hall, 1973), so that fine cells follow a curved coarse boundary.
-/// Parameters of nodes on curves and surfaces are set. Old nodes do not move. No node depends on the order or on
-/// threads. split.hexes is not used (it has moved into the mesh).
+/// Parameters of nodes on curves and surfaces are set. Old nodes do not move. The result does not depend on the
+/// number of threads. split.hexes is not used (it has moved into the mesh).
 void place(const Mesh& old_mesh, const Association& old_association, const Split& split, const Model& model, Mesh& mesh,
            Association& association);
 
@@ -29,14 +29,11 @@ struct OffOwner {
   double distance = 0;  ///< from the owner, model units
 };
 
-/// Hexes among those with index >= first whose smallest corner Jacobian is not positive, ascending.
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
-
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end
 /// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
-/// (inverted_hexes). progress is asked after each sweep; once it returns false, little more is tried, and the caller
+/// (inverted_hexes). progress is called after each sweep; once it returns false, repair stops soon, and the caller
 /// should drop the mesh.
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed = {},

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/origin.h"
@@ -24,9 +26,9 @@ struct Reach {
   bool afresh = false;
   int sweeps = 100;
 };
-/// Nodes inside volumes go first: those on the CAD lie evenly, and what slides away to make room makes others thin and
-/// is missed in the next pass. A try that fails leaves nodes heaped upon each other, which more freedom hardly gets
-/// apart again: they end inverted still, or the skin folds over itself there. So the widest reach begins anew.
+/// Nodes inside volumes move first: those on the CAD lie evenly, and one that slides away to make room makes other
+/// hexes thin for the next pass. A failed try leaves nodes crowded together, and more freedom hardly separates them
+/// again: hexes stay inverted, or the skin folds over itself. So the widest reach starts afresh.
 constexpr Reach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
 constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 
@@ -43,7 +45,7 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   options.scheme = SmoothScheme::untangle;
   options.iterations = reach.sweeps;
   options.fixed.assign(fixed.begin(), fixed.end());
-  options.nodes = nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers));
+  options.nodes = nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers));
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
   if (smooth(mesh, association, model, options, progress).not_repaired.empty()) {
     options.scheme = SmoothScheme::mean_ratio;
@@ -57,11 +59,11 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
 std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, std::span<const Index> wanted) {
   std::vector<Vec3> places(wanted.size());
   const auto take = [&](Index node, const Origin& origin) {
-    const auto found = std::ranges::lower_bound(wanted, node);
-    if (found == wanted.end() || *found != node) return;
+    const Index at = position_in(wanted, node);
+    if (at < 0) return;
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];
-    places[found - wanted.begin()] = sum;
+    places[at] = sum;
   };
   for (const CutEdge& edge : lineage.edges) for_each_node(lineage, edge, take);
   for (const CutFace& face : lineage.faces) for_each_node(lineage, face, take);
@@ -70,13 +72,6 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
 }
 
 }  // namespace
-
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
-  std::vector<Index> result =
-      indices_where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
-  for (Index& h : result) h += first;
-  return result;
-}
 
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed,
@@ -93,7 +88,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
   for (const Reach reach : reaches) {
     if (bad.empty()) return rows;
     if (reach.afresh) {
-      for (const Index n : nodes_of_hexes(mesh, hex_band(mesh, bad, reach.layers))) {
+      for (const Index n : nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers))) {
         mesh.points[n] = placed[n];
         if (!placed_parameters.empty()) association.node_parameters[n] = placed_parameters[n];
       }
@@ -114,8 +109,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
     bad = inverted_hexes(mesh, split.n_kept());
     if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed, progress);
   }
-  std::ranges::sort(backed_off);
-  backed_off.erase(std::ranges::unique(backed_off).begin(), backed_off.end());
+  sort_unique(backed_off);
   for (const Index node : backed_off) {
     const Owner on = owner(node);
     if (!model || on.dim > 2) continue;

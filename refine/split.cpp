@@ -11,6 +11,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
@@ -41,10 +42,9 @@ CutList cut_hexes(std::span<const Hex> hexes, Index n_nodes, const SplitTable& t
   if (cut.hex.size() > static_cast<std::size_t>(n_nodes) / 100) return cut;
   std::vector<Index> used;
   for (const Hex& hex : cut.own_nodes) used.insert(used.end(), hex.begin(), hex.end());
-  std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  sort_unique(used);
   for (Hex& hex : cut.own_nodes)
-    for (Index& node : hex) node = static_cast<Index>(std::ranges::lower_bound(used, node) - used.begin());
+    for (Index& node : hex) node = position_in(used, node);
   cut.n_nodes = static_cast<Index>(used.size());
   return cut;
 }
@@ -309,9 +309,9 @@ Index checked_count(std::int64_t n) {
 }
 
 Index Split::cut_index(Index old_hex) const {
-  const auto found = std::ranges::lower_bound(lineage.hexes, old_hex, {}, &CutHex::hex);
-  assert(found != lineage.hexes.end() && found->hex == old_hex);
-  return static_cast<Index>(found - lineage.hexes.begin());
+  const Index at = position_in(lineage.hexes, old_hex, &CutHex::hex);
+  assert(at >= 0);
+  return at;
 }
 
 Split split(std::span<const Hex> hexes, Index n_nodes, std::shared_ptr<const SplitTable> table,

@@ -29,7 +29,7 @@ struct Split {
   Index cut_index(Index old_hex) const;
 };
 
-/// A number of nodes or hexes as an Index. Throws Error when it is none.
+/// A number of nodes or hexes as an Index. Throws Error when it does not fit.
 Index checked_count(std::int64_t n);
 
 /// codes: one per hex, 0 to leave it alone. Precondition (asserted): hexes that share an edge or face agree on its

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/session/session_internal.h"
 
@@ -52,8 +53,7 @@ std::vector<std::string> Session::completions(std::string_view line) const {
   if (!expected.before.empty() && begins_word(expected.before[0].text, "help") && expects("a word"))
     for (const CommandSpec& spec : language())
       if (begins_word(expected.beginning, spec.name) && !spec.syntax.empty()) result.emplace_back(spec.name);
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 

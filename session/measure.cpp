@@ -1,8 +1,5 @@
 // What a session knows about its mesh, as rows of its records.
 
-#include <array>
-#include <cstdio>
-
 #include "hextwist/patch/verify.h"
 #include "hextwist/session/session_internal.h"
 
@@ -15,16 +12,6 @@ std::string off_text(const OffModel& off, bool has_cad) {
 }
 
 }  // namespace
-
-std::string short_number(double value) {
-  std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
-}
-
-std::string counted(std::int64_t n, std::string_view one, std::string_view many) {
-  return std::to_string(n) + " " + std::string(n == 1 ? one : many);
-}
 
 QualityRow quality_row(const Mesh& mesh, const Summary& summary) {
   if (summary.count == 0) return {};
@@ -54,7 +41,7 @@ std::string record_violations(CommandRecord& record, const Mesh& mesh, const std
     if (rows.size() < max_violation_rows) rows.push_back(violation_row(mesh, violation));
   }
   if (record.n_violations <= 1) return first;
-  return counted(record.n_violations, "violation", "violations") + ", the first: " + first;
+  return counted(record.n_violations, "violation") + ", the first: " + first;
 }
 
 void take_meshed(SessionState& state, MeshedModel meshed) {

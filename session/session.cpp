@@ -299,7 +299,7 @@ void do_playback(Execution& run) {
     ~Nested() { --level; }
   } const nested(run.core.nesting);
   if (const int n_failed = run_text(run.core, text, file.text))
-    throw Error(file.text + ": " + counted(n_failed, "command", "commands") + " failed");
+    throw Error(file.text + ": " + counted(n_failed, "command") + " failed");
 }
 
 void do_quit(Execution& run) {

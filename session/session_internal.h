@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/base/text.h"
 #include "hextwist/command/expression.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/command/syntax.h"
@@ -172,10 +173,7 @@ Command made_command(std::string_view name, std::string_view word, const std::fi
 
 /// "312 bytes", "4.1 kB", "2.3 MB".
 std::string bytes_text(std::size_t bytes);
-/// 0.4913, 1.2e-15: four significant digits.
-std::string short_number(double value);
 /// "1 hex", "3 hexes".
-std::string counted(std::int64_t n, std::string_view one, std::string_view many);
 inline std::string counted(std::int64_t n, EntityKind kind) {
   return counted(n, name(kind), plural(kind));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 
 namespace hextwist {
@@ -67,9 +69,7 @@ Index grade_marks(const Mesh& mesh, Concave concave, std::span<std::uint8_t> mar
 
 void say_graded(Index n_hexes, std::vector<std::string>& notices) {
   if (n_hexes > 0)
-    notices.push_back("cut " + std::to_string(n_hexes) +
-                      (n_hexes == 1 ? " hex more than asked for" : " hexes more than asked for") +
-                      ", to keep neighbours within one level");
+    notices.push_back("cut " + counted(n_hexes, "hex") + " more than asked for, to keep neighbours within one level");
 }
 
 }  // namespace hextwist

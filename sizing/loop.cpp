@@ -8,6 +8,7 @@
 
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
@@ -119,7 +120,7 @@ void State::smooth_band(bool fix_boundary) {
   begin("smooth");
   Mesh& mesh = result_.refined.mesh;
   SmoothOptions options;
-  options.nodes = nodes_inside(mesh, hex_band(mesh, new_hexes(), smooth_layers));
+  options.nodes = nodes_inside(mesh, with_layers(mesh, new_hexes(), smooth_layers));
   options.fixed = request.finish.fixed;
   options.fix_boundary = fix_boundary;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,

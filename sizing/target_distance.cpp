@@ -4,20 +4,11 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/geom/facet/bilinear.h"
+#include "hextwist/geom/segment.h"
 #include "hextwist/mesh/locate.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist {
-namespace {
-
-double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& p) {
-  const Vec3 along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
-  return (a + t * along - p).squaredNorm();
-}
-
-}  // namespace
 
 TargetDistance::TargetDistance(const MeshedModel& input, EntityKind kind, std::span<const Index> targets)
     : model_(input.model) {

@@ -4,8 +4,9 @@
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/refine/marks.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/templates/split_table.h"
 #include "hextwist/sizing/target_distance.h"
 
@@ -25,12 +26,6 @@ int cad_dimension(EntityKind kind) {
     default:
       return -1;
   }
-}
-
-template <typename T>
-void sort_unique(std::vector<T>& items) {
-  std::ranges::sort(items);
-  items.erase(std::ranges::unique(items).begin(), items.end());
 }
 
 /// Each kind fills what it names; nodes of edges and faces are added by the caller.
@@ -224,47 +219,11 @@ void carry_faces(const std::vector<Quad>& faces, const Lineage& lineage, const M
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined) {
   CombinationTarget carried;
   carried.nodes = target.nodes;
-  for (const Edge& edge : target.edges) {
-    const auto found = std::ranges::lower_bound(lineage.edges, edge, {}, [](const CutEdge& cut) {
-      return Edge{cut.a, cut.b};
-    });
-    if (found == lineage.edges.end() || Edge{found->a, found->b} != edge) {
-      carried.edges.push_back(edge);
-      continue;
-    }
-    Index from = edge[0];
-    const auto n = static_cast<Index>(lineage.table->edge[found->code].at.size());
-    for (Index s = 0; s <= n; ++s) {
-      const Index to = s == n ? edge[1] : found->first_node + s;
-      carried.edges.push_back({std::min(from, to), std::max(from, to)});
-      from = to;
-    }
-  }
+  for (const Edge& edge : target.edges)
+    for_each_child_edge(lineage, edge, [&](const Edge& child) { carried.edges.push_back(child); });
   carry_faces(target.faces, lineage, refined, carried.faces);
   finish(carried);
   return carried;
-}
-
-std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes) {
-  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(lineage.n_old_hexes), 0);
-  for (const Index h : hexes) wanted[h] = 1;
-  return indices_where(static_cast<Index>(lineage.parent.size()),
-                       [&](Index h) { return wanted[lineage.parent[h]] != 0; });
-}
-
-std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers) {
-  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  for (const Index n : nodes) marked[n] = 1;
-  return with_layers(mesh, touching_hexes(mesh.hexes, marked), n_layers - 1);
-}
-
-std::vector<Index> with_layers(const Mesh& mesh, std::vector<Index> hexes, int n_layers) {
-  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
-  for (; n_layers > 0 && static_cast<Index>(hexes.size()) < mesh.n_hexes(); --n_layers) {
-    mark_nodes(mesh.hexes, hexes, marked);
-    hexes = touching_hexes(mesh.hexes, marked);
-  }
-  return hexes;
 }
 
 }  // namespace hextwist

@@ -34,12 +34,4 @@ CombinationTarget sub_element_target(const MeshedModel& input, const Target& tar
 /// What a sub-element target has become after a pass: children of its edges and faces, and all nodes on it.
 CombinationTarget carried_target(const CombinationTarget& target, const Lineage& lineage, const Mesh& refined);
 
-/// Children of these hexes (ascending); of a hex that was not cut, itself.
-std::vector<Index> children_of(const Lineage& lineage, std::span<const Index> hexes);
-
-/// Hexes that the nodes touch (1 layer), those that touch them (2), ...; ascending.
-std::vector<Index> layers_around(const Mesh& mesh, std::span<const Index> nodes, int n_layers);
-/// The hexes and so many layers around them; ascending.
-std::vector<Index> with_layers(const Mesh& mesh, std::vector<Index> hexes, int n_layers);
-
 }  // namespace hextwist

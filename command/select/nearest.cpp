@@ -7,18 +7,13 @@
 
 #include "hextwist/command/select/selection.h"
 #include "hextwist/geom/facet/bilinear.h"
+#include "hextwist/geom/segment.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist {
 namespace {
 
 using Values = std::vector<double>;
-
-double to_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
-  const Vec3 along = b - a;
-  const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
-  return (a + t * along - p).norm();
-}
 
 Values cad_distances(const Model& model, int dim, const Vec3& p) {
   Values result;
@@ -83,7 +78,7 @@ Values distances(const Selector& selector, EntityKind kind, const Vec3& p) {
       return result;
     case EntityKind::edge:
       for (const Edge& edge : selector.topology.edges().nodes)
-        result.push_back(to_segment(mesh.points[edge[0]], mesh.points[edge[1]], p));
+        result.push_back(std::sqrt(segment_distance2(mesh.points[edge[0]], mesh.points[edge[1]], p)));
       return result;
     case EntityKind::face:
       return face_distances(selector, p);

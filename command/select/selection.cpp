@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/command/reader.h"
 
@@ -141,12 +142,8 @@ class Evaluation {
       for_each_kind(term, [&](EntityKind from, const std::vector<Index>& of) {
         std::vector<Index> candidates = positions(chosen);
         if (of.size() <= candidates.size()) {
-          for (std::size_t i = 0; i < of.size() && !candidates.empty(); ++i) {
-            std::vector<Index> both;
-            std::ranges::set_intersection(candidates, related(selector_, from, {of[i]}, kind),
-                                          std::back_inserter(both));
-            candidates = std::move(both);
-          }
+          for (std::size_t i = 0; i < of.size() && !candidates.empty(); ++i)
+            candidates = intersection(candidates, related(selector_, from, {of[i]}, kind));
         } else {
           std::erase_if(candidates,
                         [&](Index i) { return !std::ranges::includes(related(selector_, kind, {i}, from), of); });
@@ -320,8 +317,7 @@ class Evaluation {
 
   /// What may have been meant: the nearest name, or the names that there are.
   static std::string hint(const std::string& wanted, std::vector<std::string> known) {
-    std::ranges::sort(known);
-    known.erase(std::ranges::unique(known).begin(), known.end());
+    sort_unique(known);
     if (const std::string near = nearest_word(wanted, known); !near.empty())
       return " (did you mean '" + printable(near) + "'?)";
     constexpr std::size_t most = 8;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/geom/segment.h"
+
 namespace hextwist {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr std::array<double, 2> gauss2 = {0.21132486540518712, 0.788675134594812
 
 void improve(PatchFoot& best, double s, double t, double distance2) {
   if (distance2 < best.distance2) best = {s, t, distance2};
-}
-
-/// Closest point of a segment as a fraction of it.
-double closest_fraction(const Vec3& from, const Vec3& to, const Vec3& p) {
-  const Vec3 along = to - from;
-  const double length2 = along.squaredNorm();
-  return length2 > 0 ? std::clamp((p - from).dot(along) / length2, 0.0, 1.0) : 0;
 }
 
 double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

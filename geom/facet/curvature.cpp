@@ -35,7 +35,7 @@ class Fit {
 
   double largest() const {
     if (most_turned_ < least_turn) return 0;
-    // What the neighbours say nothing about is taken as straight.
+    // Directions that the neighbours do not determine are taken as straight.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(left_);
     Vec3 form = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
@@ -93,7 +93,7 @@ std::vector<double> facet_curvatures(std::span<const BilinearPatch> patches, std
   std::vector<double> result(patches.size(), 0);
   for (std::size_t f = 0; f < patches.size(); ++f) {
     if (facets[f].normal.isZero()) continue;
-    // Corner by corner: a fillet ends at flat facets, whose little turn must not water down what is seen on its side.
+    // Corner by corner: a fillet ends at flat facets, whose small turn must not dilute the curvature on its side.
     for (int corner = 0; corner < 4; ++corner) {
       Fit fit(facets[f]);
       const auto add = [&](std::int32_t other) {
@@ -103,7 +103,7 @@ std::vector<double> facet_curvatures(std::span<const BilinearPatch> patches, std
         const std::int32_t next = beside[f][side];
         add(next);
         if (next < 0 || side != corner) continue;
-        // The one across the corner is beside the one beside.
+        // The facet across the corner is a neighbour of this neighbour.
         for (const std::int32_t across : beside[next])
           if (across != static_cast<std::int32_t>(f) && has(across, quads[f][corner])) add(across);
       }

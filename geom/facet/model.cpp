@@ -17,6 +17,7 @@
 #include "hextwist/geom/facet/curvature_internal.h"
 #include "hextwist/geom/facet/skin.h"
 #include "hextwist/geom/incidence.h"
+#include "hextwist/geom/segment.h"
 
 namespace hextwist {
 namespace {
@@ -39,9 +40,7 @@ Foot foot_on(const BilinearPatch& patch, const Vec3& p) {
   return {-1, foot.s, foot.t, foot.distance2};
 }
 Foot foot_on(const Segment& segment, const Vec3& p) {
-  const Vec3 along = segment[1] - segment[0];
-  const double length2 = along.squaredNorm();
-  const double s = length2 > 0 ? std::clamp((p - segment[0]).dot(along) / length2, 0.0, 1.0) : 0;
+  const double s = closest_fraction(segment[0], segment[1], p);
   return {-1, s, 0, ((1 - s) * segment[0] + s * segment[1] - p).squaredNorm()};
 }
 
@@ -57,12 +56,9 @@ double distance2(const CGAL::Bbox_3& box, const Vec3& p) {
 /// The same for the box of an item's corners.
 template <std::size_t n>
 double box_distance2(const std::array<Vec3, n>& item, const Vec3& p) {
-  Vec3 low = item[0], high = item[0];
-  for (std::size_t i = 1; i < n; ++i) {
-    low = low.cwiseMin(item[i]);
-    high = high.cwiseMax(item[i]);
-  }
-  return (p - p.cwiseMax(low).cwiseMin(high)).squaredNorm();
+  Box box{item[0], item[0]};
+  for (std::size_t i = 1; i < n; ++i) box.add(item[i]);
+  return distance2(box, p);
 }
 
 /// The box of an item, for CGAL: a property map from its number.
@@ -415,7 +411,7 @@ void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<c
 }
 
 const std::vector<double>& FacetModel::curvatures(Owner entity) const {
-  // Without threads: one that waits for others' work inside could be given work that asks for this.
+  // Without threads: one that waits in here could be given other work that needs this result.
   std::call_once(curvatures_known_, [&] {
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const FacetCurve& curve = curves_[c];
@@ -459,8 +455,7 @@ std::vector<int> FacetModel::near(int dim, const Vec3& p, double distance) const
   std::vector<int> ids;
   for (int id = 1; id <= count(dim); ++id) {
     const auto close = [&] {
-      const Box at = box({dim, id});
-      if ((p - p.cwiseMax(at.min).cwiseMin(at.max)).squaredNorm() > reach2) return false;
+      if (distance2(box({dim, id}), p) > reach2) return false;
       if (dim == 1) return curves_[id - 1].tree->closest(p, reach2).item >= 0;
       if (dim == 2) return surfaces_[id - 1].tree->closest(p, reach2).item >= 0;
       return true;
@@ -473,11 +468,10 @@ std::vector<int> FacetModel::near(int dim, const Vec3& p, double distance) const
 bool FacetModel::contains(int volume, const Vec3& p) const {
   const auto& boundary = incidence_.adjacent({3, volume}, 2);
   const double slack = contains_slack * box_.diagonal();
-  const Box at = box({3, volume});
-  if ((p - p.cwiseMax(at.min).cwiseMin(at.max)).norm() > slack) return false;
+  const auto is_near = [&](const Box& box) { return !(std::sqrt(distance2(box, p)) > slack); };
+  if (!is_near(box({3, volume}))) return false;
   for (const int surface : boundary) {
-    const Box& near_by = surfaces_[surface - 1].box;
-    if ((p - p.cwiseMax(near_by.min).cwiseMin(near_by.max)).norm() > slack) continue;
+    if (!is_near(surfaces_[surface - 1].box)) continue;
     if (surfaces_[surface - 1].tree->closest(p, slack * slack).item >= 0) return true;
   }
   // A ray from an inner point leaves the volume once more than it enters. Where a ray meets an edge or grazes a

@@ -21,7 +21,7 @@ struct FacetClassification {
   std::vector<std::int32_t> vertex_nodes;          ///< per vertex id - 1: node
 };
 
-/// What the skin is divided into where somebody knows, such as a program that tags its elements.
+/// How the skin is divided, when that is known: from a program that tags its elements, say.
 struct FacetLabels {
   std::span<const int> quads;                          ///< per quad
   std::span<const std::array<std::int32_t, 2>> edges;  ///< on curves: (a < b), lexicographic

@@ -7,7 +7,9 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/union_find.h"
 
 namespace hextwist {
 namespace {
@@ -23,21 +25,6 @@ struct EdgeUse {
   std::int32_t quad;
   std::int32_t corner;  ///< the edge runs from this corner of the quad to the next
   auto operator<=>(const EdgeUse&) const = default;
-};
-
-/// Union-find; the representative of a group is its lowest member.
-struct Groups {
-  std::vector<std::int32_t> parent;
-  explicit Groups(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  std::int32_t find(std::int32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void unite(std::int32_t i, std::int32_t j) {
-    i = find(i);
-    j = find(j);
-    parent[std::max(i, j)] = std::min(i, j);
-  }
 };
 
 /// Degrees between two vectors; 0 if one of them vanishes (a degenerate quad is no reason for a feature).
@@ -106,20 +93,20 @@ bool Finder::is_feature(std::size_t first, std::size_t last) const {
 
 void Finder::find_edges_and_surfaces() {
   const auto n_quads = result.quads.size();
-  Groups surfaces(n_quads);
+  std::vector<Index> surfaces = singletons(static_cast<Index>(n_quads));
   for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
     while (last < uses.size() && uses[last].a == uses[first].a && uses[last].b == uses[first].b) ++last;
     if (is_feature(first, last)) {
       result.classification.edges.push_back({uses[first].a, uses[first].b});
       feature_uses.push_back({first, last});
     } else {
-      surfaces.unite(uses[first].quad, uses[first + 1].quad);
+      join(surfaces, uses[first].quad, uses[first + 1].quad);
     }
   }
   auto& ids = result.classification.quad_surface;
   ids.resize(n_quads);
   for (std::size_t q = 0; q < n_quads; ++q) {
-    const auto lowest = surfaces.find(static_cast<std::int32_t>(q));
+    const auto lowest = find_root(surfaces, static_cast<Index>(q));
     if (static_cast<std::size_t>(lowest) == q) {
       ids[q] = ++result.n_surfaces;
       result.surface_volumes.push_back(quad_volumes[q]);
@@ -138,9 +125,7 @@ std::vector<int> Finder::surfaces_at(std::size_t edge) const {
 }
 
 int Finder::edge_label(Node a, Node b) const {
-  const auto at = std::ranges::lower_bound(labels->edges, std::array{std::min(a, b), std::max(a, b)});
-  const bool found = at != labels->edges.end() && *at == std::array{std::min(a, b), std::max(a, b)};
-  return found ? labels->edge_labels[at - labels->edges.begin()] : 0;
+  return value_of(labels->edges, labels->edge_labels, std::array{std::min(a, b), std::max(a, b)});
 }
 
 bool Finder::bends(Node node, Node from, Node to) const {
@@ -163,14 +148,14 @@ void Finder::find_vertices() {
     }
 
   // Fans: corners of quads at a node that are joined through edges at it. Two fans touch in the node alone.
-  Groups fans(4 * result.quads.size());
+  std::vector<Index> fans = singletons(static_cast<Index>(4 * result.quads.size()));
   const auto corner_at = [&](const EdgeUse& use, Node node) {
     const int corner = result.quads[use.quad][use.corner] == node ? use.corner : (use.corner + 1) % 4;
     return 4 * use.quad + corner;
   };
   for (std::size_t u = 1; u < uses.size(); ++u)
     if (uses[u - 1].a == uses[u].a && uses[u - 1].b == uses[u].b)
-      for (const Node node : {uses[u].a, uses[u].b}) fans.unite(corner_at(uses[u - 1], node), corner_at(uses[u], node));
+      for (const Node node : {uses[u].a, uses[u].b}) join(fans, corner_at(uses[u - 1], node), corner_at(uses[u], node));
 
   std::vector<int> n_fans(n_nodes, 0);
   std::vector<Vec3> mean(n_nodes, Vec3::Zero());
@@ -178,7 +163,7 @@ void Finder::find_vertices() {
     for (int c = 0; c < 4; ++c) {
       const auto corner = static_cast<std::int32_t>(4 * q) + c;
       const Node node = result.quads[q][c];
-      n_fans[node] += fans.find(corner) == corner;
+      n_fans[node] += find_root(fans, corner) == corner;
       mean[node] += normals[q].stableNormalized();
     }
   for (std::size_t n = 0; n < n_nodes; ++n) {
@@ -236,8 +221,7 @@ void Finder::find_curves() {
   }
   for (std::size_t e = 0; e < edges.size(); ++e)
     for (const int surface : surfaces_at(e)) result.surface_curves.push_back({surface, curve_of[e]});
-  std::ranges::sort(result.surface_curves);
-  result.surface_curves.erase(std::ranges::unique(result.surface_curves).begin(), result.surface_curves.end());
+  sort_unique(result.surface_curves);
 }
 
 }  // namespace

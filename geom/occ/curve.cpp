@@ -16,18 +16,12 @@
 #include <cmath>
 
 #include "hextwist/geom/occ/curve_internal.h"
+#include "hextwist/geom/segment.h"
 
 namespace hextwist::occ {
 namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-// Closest point of segment ab as its fraction.
-double segment_fraction(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double length2 = ab.squaredNorm();
-  return length2 > 0 ? std::clamp(ab.dot(p - a) / length2, 0.0, 1.0) : 0.0;
-}
 
 }  // namespace
 
@@ -150,7 +144,7 @@ Curve::Polyline Curve::make_polyline() const {
   for (std::size_t i = 0; i + 1 < line.t.size(); ++i) {
     for (const double s : {0.25, 0.5, 0.75}) {
       const Vec3 q = point(line.t[i] + s * (line.t[i + 1] - line.t[i]));
-      const double f = segment_fraction(q, line.p[i], line.p[i + 1]);
+      const double f = closest_fraction(line.p[i], line.p[i + 1], q);
       line.sagitta = std::max(line.sagitta, 1.5 * (line.p[i] + f * (line.p[i + 1] - line.p[i]) - q).norm());
     }
   }
@@ -217,7 +211,7 @@ CurveFoot Curve::find(const Evaluator& evaluator, const Vec3& p, double seed) co
   distance.resize(n);
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
-    const double f = segment_fraction(p, line.p[i], line.p[i + 1]);
+    const double f = closest_fraction(line.p[i], line.p[i + 1], p);
     distance[i] = (line.p[i] + f * (line.p[i + 1] - line.p[i]) - p).squaredNorm();
     best = std::min(best, distance[i]);
   }
@@ -234,7 +228,7 @@ CurveFoot Curve::find(const Evaluator& evaluator, const Vec3& p, double seed) co
       if (distance[end] < distance[closest]) closest = end;
     }
     i = end;
-    const double f = segment_fraction(p, line.p[closest], line.p[closest + 1]);
+    const double f = closest_fraction(line.p[closest], line.p[closest + 1], p);
     const CurveFoot found = descend(evaluator, p, line.t[closest] + f * (line.t[closest + 1] - line.t[closest]));
     if (found.distance < foot.distance) foot = found;
     // A kink at a knot, or the end of the range, is a minimum without zero derivative.

@@ -1,4 +1,4 @@
-// One edge of an OpenCASCADE shape, ready for evaluation and closest points. Included by geom/occ_*.cpp only.
+// One edge of an OpenCASCADE shape, ready for evaluation and closest points. Included by geom/occ/*.cpp only.
 #pragma once
 
 #include <GeomAbs_CurveType.hxx>

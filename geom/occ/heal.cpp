@@ -17,8 +17,8 @@
 #include <TopoDS.hxx>
 #include <array>
 #include <cmath>
-#include <sstream>
 
+#include "hextwist/base/text.h"
 #include "hextwist/base/types.h"
 
 namespace hextwist::occ {
@@ -40,13 +40,6 @@ double size_of(const TopoDS_Shape& shape) {
   Bnd_Box box;
   BRepBndLib::Add(shape, box, false);
   return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
-}
-
-std::string in_words(double x) {
-  std::ostringstream s;
-  s.precision(3);
-  s << x;
-  return s.str();
 }
 
 TopoDS_Solid solid_from(const TopoDS_Shape& shell) {
@@ -125,8 +118,8 @@ void make_solids(Part& part) {
   } else {
     part.shape = result;
   }
-  part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + std::to_string(n_solids) +
-                         (n_solids == 1 ? " solid" : " solids") + " (tolerance " + in_words(tolerance) + ")");
+  part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + counted(n_solids, "solid") +
+                         " (tolerance " + short_number(tolerance, 3) + ")");
 }
 
 void glue_solids(Part& part, double tolerance) {
@@ -184,7 +177,8 @@ void glue_solids(Part& part, double tolerance) {
   part.notices.push_back(notice);
   if (!split.empty()) part.notices.push_back(split);
   if (std::abs(before - after) > 1e-6 * before) {
-    part.notices.push_back("gluing changed the volume from " + in_words(before) + " to " + in_words(after));
+    part.notices.push_back("gluing changed the volume from " + short_number(before, 3) + " to " +
+                           short_number(after, 3));
   }
 }
 

@@ -1,4 +1,4 @@
-// What is done to a shape between reading and use. Included by geom/occ_*.cpp only.
+// What is done to a shape between reading and use. Included by geom/occ/*.cpp only.
 #pragma once
 
 #include <TopoDS_Shape.hxx>

@@ -34,6 +34,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "hextwist/base/text.h"
 #include "hextwist/geom/occ/cad_text_internal.h"
 #include "hextwist/geom/occ/heal_internal.h"
 #include "hextwist/geom/occ/model.h"
@@ -65,13 +66,8 @@ class Silence {
   Message_SequenceOfPrinters printers_;
 };
 
-std::string lower(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return s;
-}
-
 CadFormat format_by_extension(const std::filesystem::path& file) {
-  const std::string ext = lower(file.extension().string());
+  const std::string ext = lower_extension(file);
   if (ext == ".step" || ext == ".stp") return CadFormat::step;
   if (ext == ".brep" || ext == ".brp") return CadFormat::brep;
   if (ext == ".iges" || ext == ".igs") return CadFormat::iges;
@@ -157,7 +153,7 @@ Part read_step(const std::filesystem::path& file) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   if (!lengths.IsEmpty()) {
-    const std::string unit = lower(lengths.First().ToCString());
+    const std::string unit = lower_case(lengths.First().ToCString());
     if (unit != "millimetre" && unit != "millimeter" && unit != "mm") {
       part.notices.push_back("lengths converted from " + unit + " to millimetre");
     }

@@ -20,7 +20,7 @@ struct CadOptions {
   double glue_tolerance = 0;
 };
 
-/// A model and what had to be said while it was made (units, merged faces, healed edges): one line each.
+/// A model and notices about its making (units, merged faces, healed edges), one line each.
 struct CadImport {
   std::shared_ptr<const Model> model;
   std::vector<std::string> notices;

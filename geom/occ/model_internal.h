@@ -1,4 +1,4 @@
-// The model behind occ_model.h. Included by geom/occ_*.cpp only.
+// The model behind model.h. Included by geom/occ/*.cpp only.
 #pragma once
 
 #include <BRepClass3d_SolidClassifier.hxx>

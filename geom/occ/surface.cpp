@@ -118,7 +118,7 @@ bool Surface::has_closed_form() const {
 
 double Surface::curvature(double u, double v) const {
   if (kind_ == GeomAbs_Plane) return 0;
-  // In closed form also at poles, where the parameters have no say.
+  // In closed form also at poles, where the parameters have no effect.
   if (kind_ == GeomAbs_Cylinder)
     return 1 / static_cast<const Geom_CylindricalSurface*>(surface_.get())->Cylinder().Radius();
   if (kind_ == GeomAbs_Sphere) return 1 / static_cast<const Geom_SphericalSurface*>(surface_.get())->Sphere().Radius();
@@ -288,7 +288,7 @@ Surface::Tessellation Surface::tessellate() const {
     }
   }
   if (result.triangles.empty()) {
-    // The face defeats the mesher: a grid over its parameter box, which only finds places, does as well.
+    // The mesher fails on this face: a grid over its parameter box is good enough for finding places.
     constexpr int n = 40;
     result.uv.clear();
     for (int j = 0; j <= n; ++j) {

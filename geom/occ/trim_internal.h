@@ -1,4 +1,4 @@
-// Is a parameter pair inside a face's boundary? Included by geom/occ_*.cpp only.
+// Is a parameter pair inside a face's boundary? Included by geom/occ/*.cpp only.
 #pragma once
 
 #include <Geom2d_Curve.hxx>

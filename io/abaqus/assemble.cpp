@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/abaqus/abaqus_internal.h"
 
 namespace hextwist::io {
@@ -29,7 +30,7 @@ class Assembly {
   explicit Assembly(AbaqusContents&& contents) : in_(std::move(contents)) {}
 
   MeshFile result() {
-    for (const auto& scope : in_.scopes) make_set(scope->other_ids);
+    for (const auto& scope : in_.scopes) sort_unique(scope->other_ids);
     place();
     elements();
     for (const Placed& placed : placed_)
@@ -227,7 +228,7 @@ class Assembly {
     if (face.empty()) {
       // Without a face: those that are on the skin.
       if (!skin_.n_hexes) skin_ = {out_.mesh.n_hexes(), boundary_sides(faces(out_.mesh))};
-      make_set(elements.hexes);
+      sort_unique(elements.hexes);
       for (const Side& side : skin_.sides)
         if (std::ranges::binary_search(elements.hexes, side.hex)) to.sides.push_back(side);
       return;
@@ -244,9 +245,9 @@ class Assembly {
     Mesh& mesh = out_.mesh;
     for (const auto& [position, key] : order) {
       auto& [unused, name, members] = sets_[key];
-      make_set(members.nodes);
-      make_set(members.hexes);
-      make_set(members.sides);
+      sort_unique(members.nodes);
+      sort_unique(members.hexes);
+      sort_unique(members.sides);
       const auto real = [&](const char* kind, auto& groups) -> auto& {
         const auto known = in_.real_names.find({kind, key.second});
         auto& group = group_of_id(groups, known == in_.real_names.end() ? free_id(groups) : known->second.first);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/exodus/exodus_internal.h"
 
 namespace hextwist::io {
@@ -158,7 +159,7 @@ class Reader {
       grow_large(to.hexes, static_cast<std::size_t>(block.n));
       to.hexes.insert(to.hexes.end(), hex_of_element_.begin() + block.first,
                       hex_of_element_.begin() + block.first + block.n);
-      make_set(to.hexes);
+      sort_unique(to.hexes);
     }
     quad_sides_ = oriented_sides(out_.mesh, quads_);
     for (const FileBlock& block : blocks_) {
@@ -167,7 +168,7 @@ class Reader {
       quad_sets_.push_back({taken ? 0 : group_id(block.id, "element block"), group_name(EX_ELEM_BLOCK, block.id), {}});
       for (std::int64_t e = block.first; e < block.first + block.n; ++e)
         if (const Side side = quad_sides_[quad(e)]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
-      make_set(quad_sets_.back().sides);
+      sort_unique(quad_sets_.back().sides);
     }
   }
 
@@ -277,7 +278,7 @@ class Reader {
         else
           ++dropped;
       }
-      make_set(to.sides);
+      sort_unique(to.sides);
       if (dropped)
         out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are no sides of a hex");
     }
@@ -295,7 +296,7 @@ class Reader {
       to.name = group_name(EX_NODE_SET, id);
       for (const std::int64_t n : set(EX_NODE_SET, id).first)
         to.nodes.push_back(node(n, "node set " + std::to_string(id)));
-      make_set(to.nodes);
+      sort_unique(to.nodes);
     }
   }
 
@@ -304,7 +305,7 @@ class Reader {
       Block group{group_id(id, "element set"), group_name(EX_ELEM_SET, id), {}};
       for (const std::int64_t element : set(EX_ELEM_SET, id).first)
         if (const Index h = hex(element, "element set " + std::to_string(id)); h >= 0) group.hexes.push_back(h);
-      make_set(group.hexes);
+      sort_unique(group.hexes);
       auto& blocks = out_.mesh.blocks;
       const auto same = std::ranges::find(blocks, group.id, &Block::id);
       const bool whole =

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/mesh/corners.h"
 
@@ -97,7 +98,7 @@ class Assembly {
       for (const std::int64_t tag : tags)
         if (const auto i = element_of_tag(dim, tag); i >= 0) member(static_cast<std::size_t>(i), to);
     }
-    for (auto& [id, items] : groups) make_set(items);
+    for (auto& [id, items] : groups) sort_unique(items);
     return groups;
   }
   /// Position in the file's order.

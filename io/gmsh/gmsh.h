@@ -14,9 +14,9 @@ struct GmshType {
   int n_nodes;
   const char* name;
 };
-/// nullptr for a type that this program has not heard of.
+/// nullptr for an unknown type.
 const GmshType* gmsh_type(int type);
-inline constexpr int most_gmsh_nodes = 56;  ///< of the types that it knows
+inline constexpr int most_gmsh_nodes = 56;  ///< of the known types
 inline constexpr int gmsh_line = 1, gmsh_quad = 3, gmsh_hex = 5, gmsh_point = 15;
 inline constexpr std::array<int, 4> gmsh_kept = {gmsh_point, gmsh_line, gmsh_quad, gmsh_hex};  // per dimension
 

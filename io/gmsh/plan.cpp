@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
@@ -31,7 +32,7 @@ class Planner {
     boxes();
     boundaries();
     for (auto& entities : plan_.entities)
-      for (PlannedEntity& entity : entities) make_set(entity.physicals);
+      for (PlannedEntity& entity : entities) sort_unique(entity.physicals);
     return std::move(plan_);
   }
 
@@ -167,7 +168,7 @@ class Planner {
     for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s)
       for (const Index n : mesh_.node_sets[s].nodes)
         if (!is_on_curves_[s]) all.emplace_back(n, owner(tags_, n).dim == 0 ? owner(tags_, n).id : 0);
-    make_set(all);
+    sort_unique(all);
     std::vector<int> vertex;
     std::vector<Index> items;
     for (const auto& [n, id] : all) {
@@ -180,8 +181,7 @@ class Planner {
       plan_.groups.push_back({{is_on_curves_[s], set.id}, set.name, set.nodes.empty(), {}});
       if (is_on_curves_[s]) continue;
       auto& to = members.emplace_back();
-      for (const Index n : set.nodes)
-        to.push_back(static_cast<Index>(std::ranges::lower_bound(items, n) - items.begin()));
+      for (const Index n : set.nodes) to.push_back(position_in(items, n));
       group_ids_[0].push_back(set.id);
     }
     const std::vector<std::span<const Index>> spans(members.begin(), members.end());
@@ -278,9 +278,8 @@ class Planner {
         if (owned(3, back) && front != back) bounds(3, back, run.entity);
         for (int c = 0; c < 4; ++c) {
           const auto [a, b] = std::minmax(behind[k][c], behind[k][(c + 1) % 4]);
-          const auto at = std::ranges::lower_bound(tags_.curve_edges, Edge{a, b});
-          if (at != tags_.curve_edges.end() && *at == Edge{a, b})
-            bounds(2, run.entity, tags_.edge_curve[at - tags_.curve_edges.begin()]);
+          if (const Index at = position_in(tags_.curve_edges, Edge{a, b}); at >= 0)
+            bounds(2, run.entity, tags_.edge_curve[at]);
         }
       }
     }
@@ -300,7 +299,7 @@ class Planner {
       for (const Index n : tags_.curve_edges[i])
         if (const Owner vertex = owner(tags_, n); vertex.dim == 0) bounds(1, tags_.edge_curve[i], vertex.id);
     for (auto& entities : plan_.entities)
-      for (PlannedEntity& entity : entities) make_set(entity.boundary);
+      for (PlannedEntity& entity : entities) sort_unique(entity.boundary);
     for (PlannedEntity& curve : plan_.entities[1]) {
       // From one vertex to another, or back to the same.
       if (curve.boundary.size() == 1) curve.boundary.push_back(curve.boundary[0]);

@@ -7,7 +7,7 @@ namespace hextwist::io {
 
 /// An entity of the file. Gmsh puts whole entities in physical groups; where a block or set takes a part of a volume
 /// or surface only, that is written as an entity of its own, and `parent` says what it is part of. Entities that
-/// merely carry a group have the parent "nobody".
+/// merely carry a group have no parent.
 struct PlannedEntity {
   int tag = 0;
   bool is_part = false;

@@ -4,7 +4,7 @@
 namespace hextwist::io {
 namespace {
 
-/// Skips a section that says nothing to us.
+/// Skips an unknown section.
 void skip_section(Cursor& cursor, std::string_view name, const char* start) {
   const std::string mark = "$End" + std::string(name);
   const std::string_view rest(cursor.at, cursor.left());

@@ -26,7 +26,7 @@ void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametr
     ids[i] = source.integer("a node id");
     source.coordinates(coordinates(std::span(contents.points).subspan(i, 1)));
     if (!parametric) continue;
-    // The entity and its parameters: the elements say it better.
+    // Skips the entity and its parameters: owners are better known from the elements.
     const int dim = source.integer("a dimension");
     source.integer("an entity");
     for (int k = 0; k < dim && dim < 3; ++k) source.real("a parameter");

@@ -113,7 +113,7 @@ void write_entities_4(const Writer& to, const GmshPlan& plan) {
   to.out << "$EndEntities\n";
 }
 
-/// Nodes by owner, those of nobody on an entity that says so; and where each owner's begin.
+/// Nodes by owner, those without one on an entity of their own; and where each owner's nodes begin.
 struct NodeOrder {
   struct Run {
     Owner owner;

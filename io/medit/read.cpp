@@ -3,8 +3,10 @@
 // References of hexes are blocks, of quads side sets, of vertices node sets; the nodes of edges with a reference are a
 // node set, too. Corners, RequiredVertices, Ridges and RequiredEdges are node sets of these names,
 // RequiredQuadrilaterals a side set. In files of our own, comments say which references are owners and which are groups
-// (io_references_internal.h).
+// (references_internal.h).
 #include "hextwist/io/medit/references_internal.h"
+
+#include "hextwist/base/sorted.h"
 
 namespace hextwist::io {
 namespace {
@@ -182,7 +184,7 @@ class Reader {
       for (auto* group : current) member(i, *group);
     }
     for (auto& [id, items] : members) {
-      make_set(items);
+      sort_unique(items);
       done(id, groups[id].name, std::move(items));
     }
   }
@@ -244,7 +246,7 @@ class Reader {
     SideSet set{free_id(mesh.side_sets), "RequiredQuadrilaterals", {}};
     for (const Index i : required_quads_)
       if (i < std::ssize(sides) && sides[i].hex >= 0) set.sides.push_back(sides[i]);
-    make_set(set.sides);
+    sort_unique(set.sides);
     mesh.side_sets.push_back(std::move(set));
   }
 
@@ -276,7 +278,7 @@ class Reader {
     derive_owners(out_.tags.node_owner, 0, all, entities(0, vertex_references_));
     if (comments_.ours) return;
     const auto add = [&](const std::string& name, std::vector<Index> nodes, int id) {
-      make_set(nodes);
+      sort_unique(nodes);
       if (nodes.empty()) return;
       const bool taken = id == 0 || std::ranges::find(sets, id, &NodeSet::id) != sets.end();
       NodeSet& set = group_of_id(sets, taken ? free_id(sets) : id);

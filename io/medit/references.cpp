@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "hextwist/base/sorted.h"
+
 namespace hextwist::io {
 
 std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, const Classes& classes,
@@ -69,7 +71,7 @@ std::map<int, ReferenceComments::Entry> ReferenceComments::groups(const Referenc
       for (const auto& [id, entry] : found->second) explained.insert(entry.references.begin(), entry.references.end());
       if (kind == kinds.group) result = found->second;
     }
-  make_set(references);
+  sort_unique(references);
   for (const int reference : references)
     if (reference > 0 && !explained.contains(reference)) result[reference].references = {reference};
   return result;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/vtk/vtk_internal.h"
 
 namespace hextwist::io {
@@ -165,11 +166,9 @@ class Assembly {
     for (const VtkArray& array : in_.arrays)
       if (array.on == VtkArray::On::file && array.name.starts_with("hextwist:") && array.is_integer())
         group(array, std::string_view(array.name).substr(9));
-    const auto by_id = [](auto& groups) {
-      std::ranges::stable_sort(groups, {}, [](const auto& g) { return g.id; });
-      groups.erase(std::ranges::unique(groups, {}, [](const auto& g) { return g.id; }).begin(), groups.end());
-    };
-    by_id(mesh.blocks), by_id(mesh.node_sets), by_id(mesh.side_sets);
+    sort_unique(mesh.blocks, &Block::id);
+    sort_unique(mesh.node_sets, &NodeSet::id);
+    sort_unique(mesh.side_sets, &SideSet::id);
     tidy(tags);
   }
 
@@ -240,14 +239,14 @@ class Assembly {
     const std::string name(rest.substr(std::min<std::size_t>(1, rest.size())));
     if (kind == "block" || kind == "nodeset") {
       std::vector<Index> items = rows(array, {kind == "block" ? mesh.n_hexes() : mesh.n_nodes()});
-      make_set(items);
+      sort_unique(items);
       if (kind == "block")
         mesh.blocks.push_back({id, name, std::move(items)});
       else
         mesh.node_sets.push_back({id, name, std::move(items)});
     } else if (kind == "sideset") {
       std::vector<Side> items = sides(array);
-      make_set(items);
+      sort_unique(items);
       mesh.side_sets.push_back({id, name, std::move(items)});
     }
   }
@@ -271,7 +270,7 @@ class Assembly {
         if (const int id = value(quad_cells_[q]); id && sides[q].hex >= 0) sets[id].push_back(sides[q]);
       for (auto& [id, items] : blocks) out_.mesh.blocks.push_back({id, "", std::move(items)});
       for (auto& [id, items] : sets) {
-        make_set(items);
+        sort_unique(items);
         out_.mesh.side_sets.push_back({id, "", std::move(items)});
       }
       break;

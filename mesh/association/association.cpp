@@ -4,6 +4,7 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist {
@@ -88,8 +89,7 @@ void drop_false_walls(const Mesh& mesh, const Faces& faces, Parted& parted) {
     }
   parted.skin = make_skin(mesh, faces, kept);  // the order stays
   for (const Index node : parted.skin.nodes)
-    parted.surfaces.node_at.push_back(
-        old.surfaces.node_at[std::ranges::lower_bound(old.skin.nodes, node) - old.skin.nodes.begin()]);
+    parted.surfaces.node_at.push_back(old.surfaces.node_at[position_in(old.skin.nodes, node)]);
 }
 
 Parted part_by_tags_or_geometry(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, const Tags& tags,

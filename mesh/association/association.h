@@ -14,14 +14,14 @@
 namespace hextwist {
 
 /// Guarantees of a complete association (one made by associate() or carried through a refinement):
-///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex are owned by nobody;
+///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex have no owner;
 ///  2. curve_edges are exactly the mesh edges that lie on curves; every node of one is owned by the curve or by a
 ///     vertex of it;
 ///  3. surface_faces are exactly the boundary faces and the faces between different volumes; every node of one is
 ///     owned by the surface, a curve or a vertex of it. A face between two volumes stands once, as a side of the hex
 ///     with the lower index;
 ///  4. parameters of a node on a curve (t) or surface (u, v) give its point.
-/// One read from a file may be partial (owner "nobody", lists short).
+/// One read from a file may be partial (nodes without owner, short lists).
 struct Association {
   std::vector<Owner> node_owner;            ///< per node
   std::vector<Parameters> node_parameters;  ///< per node; NaN where unknown or not on a curve or surface
@@ -53,12 +53,12 @@ struct AssociateResult {
 };
 
 /// Builds a complete association of a valid mesh with a model, from tags that are checked against the geometry, or
-/// from geometry alone (DESIGN section 4). tags may be null or partial; they never decide against the geometry, so
+/// from geometry alone (docs/design.md). tags may be null or partial; they never decide against the geometry, so
 /// that files whose tags follow another numbering give the same result. The rules:
 ///  - faces: on the surface that all four corners lie on; of several, the nearest to corners and centre with the
 ///    same normal;
-///  - volumes: the mesh falls apart at the faces inside it that lie on surfaces between volumes; the surfaces around
-///    a part say which volume it is;
+///  - volumes: interior faces that lie on surfaces between volumes divide the mesh; the surfaces around a part tell
+///    which volume it is;
 ///  - edges between different surfaces: on a curve that bounds them all, the nearest to ends and middle. Edges within
 ///    one surface: on its seam if both ends are and the seam stays with the edge in between; a mesh need not follow
 ///    seams;
@@ -86,7 +86,7 @@ struct SkinOptions {
 };
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options = {});
 
-/// Owner queries both ways. "Nobody" where the association says nothing.
+/// Owner queries both ways. No owner where the association has none.
 Owner owner_of_node(const Association& association, Index node);
 /// Curve if the edge lies on one, else the surface of its boundary faces, else the volume. Linear in the boundary.
 Owner owner_of_edge(const Association& association, const Mesh& mesh, const Edges& edges, const Faces& faces,

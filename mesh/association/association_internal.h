@@ -11,7 +11,7 @@
 
 namespace hextwist::detail {
 
-/// What the inner loops ask of a model, as arrays; entity id i stands at i - 1.
+/// What the inner loops need to know of a model, as arrays; entity id i stands at i - 1.
 struct ModelFacts {
   ModelFacts(const Model& model, double relative_tolerance);
 
@@ -106,7 +106,7 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
 [[noreturn]] void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin,
                                   std::span<const int> quad_surface);
 
-/// Entities of the model that got nothing, volumes that differ.
+/// Notices: entities of the model without any part of the mesh, volumes that differ.
 void notice_coverage(const ModelFacts& facts, const Mesh& mesh, const Association& association,
                      std::vector<std::string>& notices);
 

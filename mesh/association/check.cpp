@@ -1,4 +1,4 @@
-// Every promise of a complete association, looked at one by one.
+// Checks every guarantee of a complete association.
 #include <algorithm>
 #include <cmath>
 

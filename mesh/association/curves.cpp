@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist::detail {
@@ -32,18 +33,13 @@ bool near_box(const Box& box, const Vec3& p, double distance) {
 std::vector<int> surfaces_at(const SkinEdges& edges, std::span<const int> quad_surface, Index e) {
   std::vector<int> ids;
   for (const Index q : edges.quads[e]) ids.push_back(quad_surface[q]);
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sort_unique(ids);
   return ids;
 }
 
 std::vector<int> common_curves(const ModelFacts& facts, std::span<const int> surfaces) {
-  std::vector<int> common = facts.surface_curves[surfaces[0] - 1], next;
-  for (const int s : surfaces.subspan(1)) {
-    next.clear();
-    std::ranges::set_intersection(common, facts.surface_curves[s - 1], std::back_inserter(next));
-    common.swap(next);
-  }
+  std::vector<int> common = facts.surface_curves[surfaces[0] - 1];
+  for (const int s : surfaces.subspan(1)) common = intersection(common, facts.surface_curves[s - 1]);
   return common;
 }
 

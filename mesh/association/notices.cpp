@@ -1,12 +1,13 @@
-// What association has to say: the error for a mesh that is not on the CAD, tags that were overruled, entities that got
+// The messages of association: the error for a mesh that is not on the CAD, tags that were overruled, entities that got
 // nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -14,13 +15,7 @@ namespace hextwist::detail {
 namespace {
 
 std::string number(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
-std::string place(const Vec3& p) {
-  return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")";
+  return short_number(value, 6);
 }
 
 /// Guesses why a mesh lies elsewhere: units, or a move.
@@ -44,15 +39,15 @@ std::string hint(const ModelFacts& facts, const Mesh& mesh) {
                " than the model: " + reason + " mixed up?";
   const Vec3 mesh_centre = (mesh_box.min + mesh_box.max) / 2, model_centre = (model_box.min + model_box.max) / 2;
   if (std::abs(ratio - 1) < alike && (mesh_centre - model_centre).norm() > alike * facts.size)
-    return "; the mesh is as large as the model, but its centre is at " + place(mesh_centre) + " instead of " +
-           place(model_centre);
+    return "; the mesh is as large as the model, but its centre is at " + point_text(mesh_centre, 6) + " instead of " +
+           point_text(model_centre, 6);
   if (std::abs(ratio - 1) >= alike)
     return "; the boxes of mesh and model are " + number(mesh_box.diagonal()) + " and " + number(facts.size) +
            " across: another model?";
   return "";
 }
 
-/// Closest surface, whatever the distance. project() has to be asked of those near enough only.
+/// Closest surface, whatever the distance. Only those near enough are projected onto.
 std::pair<int, double> nearest_surface(const ModelFacts& facts, const Vec3& p) {
   std::pair<int, double> best = {0, std::numeric_limits<double>::infinity()};
   for (double reach = 16 * facts.tolerance; best.second > reach; reach *= 16) {
@@ -74,8 +69,7 @@ struct Overruled {
   }
   void report(const char* kind, std::vector<std::string>& notices) const {
     if (count)
-      notices.push_back("the geometry contradicts " + std::to_string(count) + " " + kind + (count == 1 ? "" : "s") +
-                        ", replaced (first: " + first + ")");
+      notices.push_back("the geometry contradicts " + counted(count, kind) + ", replaced (first: " + first + ")");
   }
 };
 
@@ -100,10 +94,8 @@ void name_missing(const Model& model, int dim, const std::vector<char>& used, co
 }  // namespace
 
 std::string first_ids(std::span<const std::int64_t> ids) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(ids.size(), 5); ++i)
-    text += (i ? " " : "") + std::to_string(ids[i]);
-  return ids.size() > 5 ? text + " ... (" + std::to_string(ids.size()) + " in all)" : text;
+  if (ids.size() <= 5) return joined(ids);
+  return joined(ids.first(5)) + " ... (" + std::to_string(ids.size()) + " in all)";
 }
 
 void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin, std::span<const int> quad_surface) {
@@ -114,7 +106,7 @@ void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin
   std::vector<Index> nodes;
   for (Index n = 0; n < skin.n_nodes(); ++n)
     if (suspect[n]) nodes.push_back(n);
-  // Thousands of far nodes would take long and say no more.
+  // Thousands of far nodes would take long and tell nothing more.
   constexpr std::size_t max_asked = 1000;
   const std::size_t step = nodes.size() / max_asked + 1;
   Index off = 0, worst = -1;
@@ -129,7 +121,7 @@ void throw_off_model(const ModelFacts& facts, const Mesh& mesh, const Skin& skin
   }
   const std::string node = "node " + std::to_string(node_id(mesh, skin.nodes[worst]));
   if (off > 0)
-    throw Error("the mesh does not lie on the model: " + node + " at " + place(skin.points[worst]) + " is " +
+    throw Error("the mesh does not lie on the model: " + node + " at " + point_text(skin.points[worst], 6) + " is " +
                 number(worst_at.second) + " from the nearest surface, " + std::to_string(worst_at.first) +
                 " (tolerance " + number(facts.tolerance) + "); of " + std::to_string(skin.nodes.size()) +
                 " boundary nodes " + (step > 1 ? "about " : "") + std::to_string(off * static_cast<Index>(step)) +
@@ -193,9 +185,7 @@ void compare_with_tags(const Mesh& mesh, const Faces& faces, const Tags& tags, c
                 std::to_string(tag) + ", on " + to_string(owner));
   }
   for (const auto& [edge, tag] : tags.edge_curve) {
-    const auto at = std::ranges::lower_bound(association.curve_edges, edge);
-    const bool there = at != association.curve_edges.end() && *at == edge;
-    const int curve = there ? association.edge_curve[at - association.curve_edges.begin()] : 0;
+    const int curve = value_of(association.curve_edges, association.edge_curve, edge);
     if (curve != tag)
       edges.add(edge_name(mesh, edge) + ", tag " + std::to_string(tag) + ", on " +
                 (curve ? "curve " + std::to_string(curve) : std::string("no curve")));
@@ -239,7 +229,7 @@ void notice_coverage(const ModelFacts& facts, const Mesh& mesh, const Associatio
       volume_of[id] += of_chunk[id].volume;
       if (of_chunk[id].n_hexes > 0) used[3][id] = 1;
     }
-  // Nobody misses a seam, a pole, or a vertex on nothing else.
+  // Seams, poles, and vertices on nothing else need no notice.
   for (int curve = 1; curve <= model.count(1); ++curve)
     if (facts.degenerate[curve - 1] || facts.curve_surfaces[curve - 1].size() < 2) used[1][curve] = 1;
   for (int vertex = 1; vertex <= model.count(0); ++vertex)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/geom/facet/model.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/corners.h"
@@ -28,11 +29,9 @@ std::vector<int> volumes_of_blocks(const Mesh& mesh) {
 /// The tags of volumes, numbered from 1.
 std::vector<int> volumes_of_tags(std::span<const int> tags) {
   std::vector<int> known(tags.begin(), tags.end());
-  std::ranges::sort(known);
-  known.erase(std::ranges::unique(known).begin(), known.end());
+  sort_unique(known);
   std::vector<int> volume;
-  for (const int tag : tags)
-    volume.push_back(static_cast<int>(std::ranges::lower_bound(known, tag) - known.begin()) + 1);
+  for (const int tag : tags) volume.push_back(position_in(known, tag) + 1);
   return volume;
 }
 
@@ -43,11 +42,7 @@ struct Labels {
   FacetLabels view;
 
   Labels(const Association& tags, std::span<const Side> sides) : quads(sides.size(), 0) {
-    for (std::size_t q = 0; q < quads.size(); ++q) {
-      const auto at = std::ranges::lower_bound(tags.surface_faces, sides[q]);
-      if (at != tags.surface_faces.end() && *at == sides[q])
-        quads[q] = tags.face_surface[static_cast<std::size_t>(at - tags.surface_faces.begin())];
-    }
+    for (std::size_t q = 0; q < quads.size(); ++q) quads[q] = value_of(tags.surface_faces, tags.face_surface, sides[q]);
     for (std::size_t n = 0; n < tags.node_owner.size(); ++n)
       if (tags.node_owner[n].dim == 0) vertices.push_back(static_cast<Index>(n));
     view = {quads, tags.curve_edges, tags.edge_curve, vertices};

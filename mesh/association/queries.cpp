@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/association_internal.h"
 #include "hextwist/mesh/association/off_model.h"
 
@@ -13,9 +14,7 @@ Owner owner_of_node(const Association& association, Index node) {
 
 Owner owner_of_face(const Association& association, const Faces& faces, Index face) {
   const Side side = faces.sides[face][0];
-  const auto at = std::ranges::lower_bound(association.surface_faces, side);
-  if (at != association.surface_faces.end() && *at == side)
-    return {2, association.face_surface[at - association.surface_faces.begin()]};
+  if (const int surface = value_of(association.surface_faces, association.face_surface, side)) return {2, surface};
   const int volume = association.hex_volume.empty() ? 0 : association.hex_volume[side.hex];
   return volume ? Owner{3, volume} : Owner{};
 }
@@ -23,9 +22,7 @@ Owner owner_of_face(const Association& association, const Faces& faces, Index fa
 Owner owner_of_edge(const Association& association, const Mesh& mesh, const Edges& edges, const Faces& faces,
                     Index edge) {
   const Edge& nodes = edges.nodes[edge];
-  const auto on_curve = std::ranges::lower_bound(association.curve_edges, nodes);
-  if (on_curve != association.curve_edges.end() && *on_curve == nodes)
-    return {1, association.edge_curve[on_curve - association.curve_edges.begin()]};
+  if (const int curve = value_of(association.curve_edges, association.edge_curve, nodes)) return {1, curve};
   for (const Index node : nodes)
     if (owner_of_node(association, node).dim == 3) return association.node_owner[node];
   for (std::size_t i = 0; i < association.surface_faces.size(); ++i) {
@@ -76,7 +73,7 @@ OffModel off_model_at(const Mesh& mesh, const Association& association, const Mo
       id.push_back(association.node_owner[n].id);
       points.push_back(mesh.points[n]);
     }
-    // From the stored parameters, as projections without are slow; but those may be wrong: a far node is asked again.
+    // Seeded by the stored parameters, which is fast; they may be wrong, so far nodes are projected again without.
     std::vector<Parameters> seeds;
     if (association.node_parameters.size() == association.node_owner.size())
       for (const Index n : nodes[dim]) seeds.push_back(association.node_parameters[n]);

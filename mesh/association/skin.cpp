@@ -1,4 +1,4 @@
-// Surface meshes cut out of a mesh, and batches of projections: the ground that association stands on.
+// Surface meshes cut out of a mesh, and batches of projections, which association is built on.
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist::detail {
@@ -232,7 +233,7 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
       boxes.back().max.array() += reach;
     }
   if (boxes.empty()) return {};
-  // Asking the model is dear and most nodes are in no box.
+  // Asking the model is expensive, and most nodes are in no box.
   std::vector<char> near(mesh.points.size(), 0);
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     for (Index n = begin; n < end; ++n) {
@@ -254,8 +255,7 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
   std::vector<Index> walls;
   for (const Candidate& candidate : candidates)
     if (candidate.fits) walls.push_back(skin.faces[candidate.quad]);
-  std::ranges::sort(walls);
-  walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
+  sort_unique(walls);
   return walls;
 }
 

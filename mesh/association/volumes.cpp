@@ -1,10 +1,12 @@
-// Hexes to volumes: the mesh falls into parts at the faces that lie on surfaces; the surfaces around a part say which
+// Hexes to volumes: faces that lie on surfaces divide the mesh into parts; the surfaces around a part tell which
 // volume it is.
 #include <algorithm>
 #include <numeric>
 #include <string>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/association/association_internal.h"
 
@@ -32,7 +34,7 @@ std::vector<Index> parts(const Mesh& mesh, const Faces& faces, std::span<const I
   return part;
 }
 
-/// Where the surfaces leave a choice (two volumes that have all the surfaces of a part): three hexes are asked.
+/// Where the surfaces leave a choice (two volumes with all the surfaces of a part), three hexes decide.
 int volume_by_containment(const ModelFacts& facts, const Mesh& mesh, std::span<const Index> part, Index wanted,
                           std::span<const int> among) {
   std::vector<Index> hexes;
@@ -48,9 +50,7 @@ int volume_by_containment(const ModelFacts& facts, const Mesh& mesh, std::span<c
 }
 
 std::string volume_names(std::span<const int> ids) {
-  std::string text = ids.size() == 1 ? "volume" : "volumes";
-  for (std::size_t i = 0; i < ids.size(); ++i) text += (i ? " and " : " ") + std::to_string(ids[i]);
-  return text;
+  return (ids.size() == 1 ? "volume " : "volumes ") + joined(ids, " and ");
 }
 
 }  // namespace
@@ -79,8 +79,7 @@ std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces
         continue;
       }
       if (volumes == here) continue;
-      std::vector<int> common;
-      std::ranges::set_intersection(volumes, here, std::back_inserter(common));
+      std::vector<int> common = intersection(volumes, here);
       if (common.empty()) {
         bool shared = false;
         for (const auto& both : facts.surface_volumes)

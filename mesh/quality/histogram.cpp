@@ -1,23 +1,17 @@
 #include "hextwist/mesh/quality/histogram.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <vector>
+
+#include "hextwist/base/text.h"
 
 namespace hextwist {
 namespace {
 
 constexpr std::int64_t longest_bar = 50;
-
-std::string short_number(double value) {
-  std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
-}
 
 std::string right(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;

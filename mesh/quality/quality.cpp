@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/quality/quality_internal.h"
 
 namespace hextwist {
@@ -20,7 +20,7 @@ struct Entry {
   const Kernel* kernel;
 };
 constexpr double none = std::numeric_limits<double>::infinity();
-/// A new metric is a kernel in quality_*.cpp, a line here and one in the enum, in the same order.
+/// A new metric is a kernel in one of the files here, a line here and one in the enum, in the same order.
 constexpr Entry table[] = {
     {Metric::shape, "shape", false, 1, &shape_kernel},
     {Metric::scaled_jacobian, "scaled Jacobian", false, 1, &scaled_jacobian_kernel},
@@ -76,7 +76,7 @@ std::vector<std::string> words(std::string_view text) {
     if (c == ' ' || c == '_' || c == '-') {
       if (!list.back().empty()) list.emplace_back();
     } else {
-      list.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      list.back() += lower_case(c);
     }
   if (list.back().empty()) list.pop_back();
   return list;
@@ -211,6 +211,19 @@ double min_corner_jacobian(const Mesh& mesh, Index hex) {
 }
 std::vector<double> min_corner_jacobian(const Mesh& mesh) {
   return evaluate(corner_jacobian_kernel, mesh, 1);
+}
+
+std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
+  std::vector<Index> result =
+      indices_where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
+  for (Index& h : result) h += first;
+  return result;
+}
+std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Index> result = indices_where(static_cast<Index>(hexes.size()),
+                                            [&](Index i) { return !(min_corner_jacobian(mesh, hexes[i]) > 0); });
+  for (Index& i : result) i = hexes[i];
+  return result;
 }
 
 }  // namespace hextwist

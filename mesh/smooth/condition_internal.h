@@ -1,4 +1,4 @@
-// Condition number of the corner matrices around one node; a patch in the sense of smooth_sweep_internal.h.
+// Condition number of the corner matrices around one node; a patch in the sense of sweep_internal.h.
 #pragma once
 
 #include <array>

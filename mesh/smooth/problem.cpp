@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
 
@@ -138,48 +137,6 @@ SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& associati
     problem.first_ring.push_back(static_cast<Index>(problem.rings.size()));
   }
   return problem;
-}
-
-std::vector<Index> inverted(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<std::uint8_t> bad(hexes.size());
-  parallel_ranges(static_cast<Index>(hexes.size()), [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) bad[i] = !(min_corner_jacobian(mesh, hexes[i]) > 0);
-  });
-  std::vector<Index> result;
-  for (std::size_t i = 0; i < hexes.size(); ++i)
-    if (bad[i]) result.push_back(hexes[i]);
-  return result;
-}
-
-std::vector<Index> hex_band(const Mesh& mesh, std::span<const Index> hexes, int layers) {
-  std::vector<std::uint8_t> in(mesh.hexes.size(), 0), reached(mesh.points.size(), 0);
-  for (const Index h : hexes) in[h] = 1;
-  for (int layer = 0; layer < layers; ++layer) {
-    for (Index h = 0; h < mesh.n_hexes(); ++h)
-      if (in[h])
-        for (const Index node : mesh.hexes[h]) reached[node] = 1;
-    for (Index h = 0; h < mesh.n_hexes(); ++h)
-      in[h] = in[h] || std::ranges::any_of(mesh.hexes[h], [&](Index node) { return reached[node]; });
-  }
-  std::vector<Index> result;
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    if (in[h]) result.push_back(h);
-  return result;
-}
-
-std::vector<Index> nodes_inside(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<std::uint8_t> in(mesh.hexes.size(), 0), outside(mesh.points.size(), 1);
-  for (const Index h : hexes) {
-    in[h] = 1;
-    for (const Index node : mesh.hexes[h]) outside[node] = 0;
-  }
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    if (!in[h])
-      for (const Index node : mesh.hexes[h]) outside[node] = 1;
-  std::vector<Index> result;
-  for (Index node = 0; node < mesh.n_nodes(); ++node)
-    if (!outside[node]) result.push_back(node);
-  return result;
 }
 
 }  // namespace hextwist

@@ -72,7 +72,4 @@ double average_distortion(const Mesh& mesh, std::span<const Index> hexes);
 /// stop. Hexes that were not inverted before are not after.
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep);
 
-/// Hexes with a corner determinant that is not positive, ascending.
-std::vector<Index> inverted(const Mesh& mesh, std::span<const Index> hexes);
-
 }  // namespace hextwist

@@ -1,11 +1,12 @@
 #include "hextwist/mesh/smooth/smooth.h"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <iterator>
 
+#include "hextwist/base/text.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/problem_internal.h"
 
 namespace hextwist {
@@ -55,7 +56,7 @@ class Smoother {
     record("start");
     if (report_.inverted_before > 0 || options_.scheme == SmoothScheme::untangle) {
       untangle(state_, options_.iterations, [this](const SweepCount& count) { return end_sweep("untangle", count); });
-      report_.not_repaired = inverted(state_.mesh, state_.problem.hexes);
+      report_.not_repaired = inverted_hexes(state_.mesh, state_.problem.hexes);
       report_.converged = report_.not_repaired.empty();
     }
     std::ranges::fill(state_.awake, 1);
@@ -194,7 +195,7 @@ class Smoother {
 std::string lower_words(std::string_view text) {
   std::string result;
   for (const char c : text)
-    if (c != ' ' && c != '_' && c != '-') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c != ' ' && c != '_' && c != '-') result += lower_case(c);
   return result;
 }
 
@@ -224,14 +225,14 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   SmoothState state{problem, mesh, association, model, std::vector<std::uint8_t>(problem.nodes.size(), 1)};
   report.n_nodes = problem.n_nodes();
   report.shape_before = report.shape_after = shape_summary(mesh, problem.hexes);
-  if (report.shape_before.min == 0) report.not_repaired = inverted(mesh, problem.hexes);
+  if (report.shape_before.min == 0) report.not_repaired = inverted_hexes(mesh, problem.hexes);
   report.inverted_before = static_cast<Index>(report.not_repaired.size());
   if (problem.n_nodes() > 0) {
     const std::vector<Vec3> points = mesh.points;
     const std::vector<Parameters> parameters = association.node_parameters;
     Smoother(state, options, progress, report).run();
     report.shape_after = shape_summary(mesh, problem.hexes);
-    // Sweeps keep clear of the limit by more than rounding; were that ever not enough, the promise would still hold.
+    // Sweeps keep clear of the limit by more than rounding; should that ever not be enough, the guarantee still holds.
     if (report.shape_after.min < report.shape_before.min) {
       mesh.points = points;
       association.node_parameters = parameters;

@@ -90,10 +90,4 @@ using SmoothProgress = std::function<bool(const char* stage, double fraction)>;
 SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, const SmoothOptions& options = {},
                     const SmoothProgress& progress = {});
 
-/// The hexes and `layers` layers of hexes around them (each layer: all that share a node with what is there).
-/// hexes in any order; ascending result.
-std::vector<Index> hex_band(const Mesh& mesh, std::span<const Index> hexes, int layers);
-/// Nodes of these hexes that belong to no other hex: moving them changes nothing outside. Ascending.
-std::vector<Index> nodes_inside(const Mesh& mesh, std::span<const Index> hexes);
-
 }  // namespace hextwist

@@ -40,7 +40,7 @@ Tangents tangents(SmoothState& state, Index slot);
 /// Newton's step within them.
 Vec3 tangent_step(const Tangents& tangents, const Local& local);
 
-/// Where a sliding node ends up when it goes by `step`; false when the projection leads elsewhere.
+/// Where a sliding node arrives after `step`; false when the projection leads elsewhere.
 bool slide(const SmoothState& state, Index slot, const Vec3& step, Projection& result);
 
 /// Moves the node and wakes it and its neighbours.

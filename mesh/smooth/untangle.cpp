@@ -4,13 +4,14 @@
 // With N = |A|^2 and D = det A at a corner, both divided by powers of the size wished there (so that D = 1, N = 3 is a
 // cube of that size), and chi(D) = (D + sqrt(D^2 + eps^2)) / 2, which is positive whatever D is:
 //   energy = (N / 3)^(3/2) / chi(D) + (D^2 + 1) / (2 chi(D)).
-// The first term is the distortion of mesh/smooth_patch_internal.h for D > 0, the second holds sizes. eps falls, as
+// The first term is the distortion of smooth_patch_internal.h for D > 0, the second holds sizes. eps falls, as
 // the smallest D rises, by the rule of that paper; when it reaches zero only uninverted corners have finite energy.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/sweep_internal.h"
 
 namespace hextwist {
@@ -85,8 +86,8 @@ class UntanglePatch {
   std::size_t n_ = 0;
 };
 
-/// Wished determinant per hex: volumes, averaged over neighbours some times, so that those of inverted hexes come from
-/// around them. The sum stays the volume there is.
+/// Wished determinant per hex: volumes, averaged over neighbours a few times, so that those of inverted hexes come from
+/// their surroundings. The sum stays the total volume.
 std::vector<double> wished_sizes(const Mesh& mesh, const SmoothProblem& problem) {
   std::vector<double> size(mesh.hexes.size(), 1), node_sum(mesh.points.size(), 0), node_count(mesh.points.size(), 0);
   double total = 0, positive = 0;
@@ -157,7 +158,7 @@ void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::v
                std::span<const Index> inverted_before) {
   for (;;) {
     bool any = false;
-    for (const Index h : inverted(state.mesh, state.problem.hexes)) {
+    for (const Index h : inverted_hexes(state.mesh, state.problem.hexes)) {
       if (std::ranges::binary_search(inverted_before, h)) continue;
       for (const Index node : state.mesh.hexes[h])
         if (state.problem.slot[node] >= 0 && state.mesh.points[node] != points[node]) {
@@ -174,7 +175,7 @@ void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::v
 
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep) {
   const SmoothProblem& problem = state.problem;
-  const std::vector<Index> inverted_before = inverted(state.mesh, problem.hexes);
+  const std::vector<Index> inverted_before = inverted_hexes(state.mesh, problem.hexes);
   if (inverted_before.empty()) return;
   const std::vector<Vec3> points = state.mesh.points;
   const std::vector<Parameters> parameters = state.association.node_parameters;
@@ -186,7 +187,7 @@ void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const
   target.eps = 2 * std::sqrt(1e-4 + before.least * before.least);
   before = level(state.mesh, problem.hexes, target);
   for (int i = 0; i < max_sweeps; ++i) {
-    const std::vector<Index> bad = inverted(state.mesh, problem.hexes);
+    const std::vector<Index> bad = inverted_hexes(state.mesh, problem.hexes);
     if (bad.empty()) return;
     for (const Index h : bad)
       for (const Index node : state.mesh.hexes[h])

@@ -1,11 +1,12 @@
 // Nodes of the skin that lie on skin quads of other hexes. A tree of boxes over the skin nodes finds the few that come
 // near a quad, however unevenly they are spread; Newton's method on the bilinear quad decides.
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "hextwist/base/box_tree.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/validate/validate_internal.h"
@@ -16,60 +17,6 @@ namespace {
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
-
-/// Halves its points along the longest side of their box, again and again.
-class PointTree {
- public:
-  PointTree(std::span<const Vec3> points, std::vector<Index> members) : points_(points), members_(std::move(members)) {
-    std::size_t n_boxes = 1;
-    for (std::size_t n = members_.size(); n > leaf; n = (n + 1) / 2) n_boxes = 2 * n_boxes + 1;
-    boxes_.resize(n_boxes);
-    build(0, 0, members_.size());
-  }
-  /// Calls found(point) for all points in boxes that overlap() accepts.
-  template <class Overlap, class Found>
-  void visit(const Overlap& overlap, const Found& found) const {
-    visit(0, 0, members_.size(), overlap, found);
-  }
-
- private:
-  static constexpr std::size_t leaf = 8;
-
-  void build(std::size_t box, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) boxes_[box].add(points_[members_[i]]);
-    if (end - begin <= leaf) return;
-    int axis = 0;
-    (boxes_[box].max - boxes_[box].min).maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
-                     [&](Index a, Index b) {
-                       return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
-                     });
-    const auto low = [&] { build(2 * box + 1, begin, middle); };
-    const auto high = [&] { build(2 * box + 2, middle, end); };
-    if (end - begin > 4096) {
-      tbb::parallel_invoke(low, high);
-    } else {
-      low();
-      high();
-    }
-  }
-  template <class Overlap, class Found>
-  void visit(std::size_t box, std::size_t begin, std::size_t end, const Overlap& overlap, const Found& found) const {
-    if (begin == end || !overlap(boxes_[box])) return;
-    if (end - begin <= leaf) {
-      for (std::size_t i = begin; i < end; ++i) found(members_[i]);
-      return;
-    }
-    const std::size_t middle = begin + (end - begin) / 2;
-    visit(2 * box + 1, begin, middle, overlap, found);
-    visit(2 * box + 2, middle, end, overlap, found);
-  }
-
-  std::span<const Vec3> points_;
-  std::vector<Index> members_;
-  std::vector<Box> boxes_;  ///< children of box i: 2 i + 1, 2 i + 2
-};
 
 /// A bilinear quad, with what is needed to tell quickly that something is far from it.
 struct Patch {
@@ -160,10 +107,10 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
         on_skin[node] = 1;
         box.add(mesh.points[node]);
       }
-  std::vector<Index> members;
-  for (Index node = 0; node < mesh.n_nodes(); ++node)
-    if (on_skin[node]) members.push_back(node);
-  const PointTree tree(mesh.points, std::move(members));
+  const std::vector<Index> nodes = indices_where(mesh.n_nodes(), [&](Index node) { return on_skin[node] != 0; });
+  std::vector<Box> boxes(nodes.size());
+  parallel_each(nodes.size(), [&](std::size_t i) { boxes[i] = {mesh.points[nodes[i]], mesh.points[nodes[i]]}; });
+  const BoxTree tree(boxes);
   const double size = box.diagonal();
 
   constexpr Index chunk_size = 256;
@@ -177,7 +124,8 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
       const auto patch = make_patch(corners, size);
       if (!patch) continue;
       tree.visit([&](const Box& b) { return overlap(*patch, b); },
-                 [&](Index node) {
+                 [&](std::int32_t i) {
+                   const Index node = nodes[i];
                    if (std::ranges::count(hex, node)) return;
                    const int where = place(*patch, mesh.points[node]);
                    if (where == off) return;
@@ -196,8 +144,7 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
   for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
   if (found.empty()) return found;
 
-  std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   std::vector<Index> part = singletons(mesh.n_nodes());
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
     for (Index h = begin; h < end; ++h)

@@ -70,7 +70,7 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
     if (p.allFinite()) box.add(p);
   const double size = box.diagonal();
   if (!(tolerance >= 0) || !std::isfinite(size)) return {};
-  // Coordinates know their place to about 1e-16 of the size: a smaller tolerance means equal, and cells must be fewer
+  // Coordinates are exact to about 1e-16 of the size: a smaller tolerance means equal, and cells must be fewer
   // than an integer can count.
   tolerance = std::max(tolerance, 1e-16 * size);
   const Cells cells = {box.min - Vec3::Constant(0.3 * tolerance), tolerance > 0 ? tolerance : 1};
@@ -97,7 +97,7 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
   parallel_ranges(static_cast<Index>(entries.size()), [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Entry& e = entries[i];
-      // Points at exactly one place hang on the first of them, which alone looks further.
+      // Points at exactly the same place are joined to the first of them, which alone looks further.
       if (i > 0 && entries[i - 1].hash == e.hash && same_place(entries[i - 1], e)) {
         join(parent, entries[i - 1].point, e.point);
         continue;

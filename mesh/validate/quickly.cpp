@@ -1,5 +1,5 @@
-// The question that a refinement asks at its end: is this mesh in order? The faces of a range of nodes at a time are
-// looked at and forgotten; only those with nothing behind are kept.
+// The check at the end of a refinement: is this mesh in order? Faces are examined for one range of nodes at a time and
+// then dropped; only those with nothing behind are kept.
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>

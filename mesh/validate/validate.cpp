@@ -10,6 +10,8 @@
 #include <tuple>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
@@ -82,13 +84,8 @@ struct Part {
   }
 };
 
-std::vector<Index> sorted_unique(std::vector<Index> list) {
-  std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-  return list;
-}
 std::vector<Index> sorted_nodes(const Quad& quad) {
-  return sorted_unique({quad.begin(), quad.end()});
+  return sorted_unique(std::vector(quad.begin(), quad.end()));
 }
 
 std::vector<Index> find_bad_indices(const Mesh& mesh, Report& report) {
@@ -159,7 +156,8 @@ std::vector<Index> find_duplicate_hexes(const Part& part, const CompressedRows& 
     group.insert(group.begin(), part.original_of(first));
     const Hex& hex = mesh.hexes[first];
     const std::string text = report.hexes(group) + " are on the same eight nodes";
-    report.add(ViolationKind::duplicate_hex, std::move(group), sorted_unique({hex.begin(), hex.end()}), text);
+    report.add(ViolationKind::duplicate_hex, std::move(group), sorted_unique(std::vector(hex.begin(), hex.end())),
+               text);
   }
   return copies;
 }
@@ -190,9 +188,7 @@ std::vector<Index> hexes_at(const CompressedRows& corners, Index node) {
   return hexes;
 }
 std::vector<Index> hexes_at(const CompressedRows& corners, const Edge& edge) {
-  std::vector<Index> hexes;
-  std::ranges::set_intersection(hexes_at(corners, edge[0]), hexes_at(corners, edge[1]), std::back_inserter(hexes));
-  return hexes;
+  return intersection(hexes_at(corners, edge[0]), hexes_at(corners, edge[1]));
 }
 
 void find_hanging_nodes(const Part& part, const CompressedRows& corners, std::span<const Side> skin, Report& report) {
@@ -249,7 +245,7 @@ void find_folded_faces(const Part& part, const Faces& faces, Report& report) {
   };
   std::vector<Folded> found;
   const auto pair = [&](Side a, Side b, bool twisted) {
-    found.push_back({sorted_unique({part.original_of(a.hex), part.original_of(b.hex)}),
+    found.push_back({sorted_unique(std::vector{part.original_of(a.hex), part.original_of(b.hex)}),
                      sorted_nodes(face_nodes(mesh.hexes[a.hex], a.face)), twisted});
   };
   // Turning alike is in order when one of the two is mirrored: that one is inverted.
@@ -351,12 +347,10 @@ void find_inverted(const Part& part, const std::vector<char>& not_finite, Report
          return !(jacobians[i] > 0) &&
                 std::ranges::none_of(mesh.hexes[i], [&](Index node) { return not_finite[node]; });
        })) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.6g", jacobians[h]);
     const Index original = part.original_of(h);
     report.add(ViolationKind::inverted, {original}, {},
                report.hexes({original}) + (jacobians[h] == 0 ? " is flat" : " is inverted") +
-                   ": its smallest corner Jacobian is " + number);
+                   ": its smallest corner Jacobian is " + short_number(jacobians[h], 6));
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
-#include "hextwist/base/union_find.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/sheets.h"
+#include "hextwist/refine/marks.h"
 
 namespace hextwist {
 namespace {
@@ -54,34 +56,22 @@ std::vector<Index> hexes_at_target(const Mesh& mesh, const CombinationTarget& ta
 std::vector<Edge> target_edges(const CombinationTarget& target) {
   std::vector<Edge> result = target.edges;
   for (const Quad& quad : target.faces) std::ranges::copy(edges_of(quad), std::back_inserter(result));
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 
 std::vector<std::uint16_t> combination_codes(const Mesh& mesh, const CombinationTarget& target,
                                              std::span<const Edge> uncut) {
-  std::vector<std::uint16_t> codes(mesh.hexes.size(), 0);
   const std::vector<Index> region = hexes_at_target(mesh, target, uncut);
-  if (region.empty()) return codes;
-
-  // Sheets, as far as they lie in these hexes.
+  if (region.empty()) return std::vector<std::uint16_t>(mesh.hexes.size(), 0);
   const Edges all = edges(mesh);
-  std::vector<Index> sheet = singletons(static_cast<Index>(all.nodes.size()));
-  for (const Index h : region)
-    for (int e = 0; e < n_hex_edges; ++e) join(sheet, all.of_hex[h][e & ~3], all.of_hex[h][e]);
-  std::vector<std::uint8_t> in_region(all.nodes.size(), 0), is_cut_sheet(all.nodes.size(), 0);
+  std::vector<std::uint8_t> in_region(all.nodes.size(), 0);
   for (const Index h : region)
     for (const Index edge : all.of_hex[h]) in_region[edge] = 1;
+  std::vector<Index> seeds;
   for (const Edge& edge : uncut)
-    if (const Index i = find_edge(all, edge[0], edge[1]); i >= 0 && in_region[i]) is_cut_sheet[find_root(sheet, i)] = 1;
-  for (std::size_t h = 0; h < codes.size(); ++h)
-    for (int e = 0; e < n_hex_edges; ++e) {
-      const Index edge = all.of_hex[h][e];
-      if (in_region[edge] && is_cut_sheet[find_root(sheet, edge)])
-        codes[h] = static_cast<std::uint16_t>(codes[h] | 1 << e);
-    }
-  return codes;
+    if (const Index i = find_edge(all, edge[0], edge[1]); i >= 0 && in_region[i]) seeds.push_back(i);
+  return trisect_codes(all, in_sheets_of(all, region, seeds));
 }
 
 }  // namespace hextwist

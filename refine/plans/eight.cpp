@@ -5,8 +5,10 @@
 #include <numeric>
 #include <optional>
 
-#include "hextwist/base/union_find.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/plans/eight_internal.h"
@@ -47,8 +49,7 @@ struct Surroundings {
     for (const Index n : nodes)
       for (const Index h : around[n])
         if (!target[h]) result.push_back(h);
-    std::ranges::sort(result);
-    result.erase(std::ranges::unique(result).begin(), result.end());
+    sort_unique(result);
     return result;
   }
   int mask(const Hex& hex, int pass) const {
@@ -62,10 +63,7 @@ struct Surroundings {
 RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
   RegionMesh region;
   region.hexes = std::move(hexes);
-  for (const Index h : region.hexes)
-    region.nodes.insert(region.nodes.end(), all.mesh.hexes[h].begin(), all.mesh.hexes[h].end());
-  std::ranges::sort(region.nodes);
-  region.nodes.erase(std::ranges::unique(region.nodes).begin(), region.nodes.end());
+  region.nodes = nodes_of_hexes(all.mesh, region.hexes);
   for (std::size_t i = 0; i < region.nodes.size(); ++i) all.local[region.nodes[i]] = static_cast<Index>(i);
   region.mesh.points.resize(region.nodes.size(), Vec3::Zero());
   for (const Index h : region.hexes) {
@@ -132,8 +130,7 @@ bool close_outside(Surroundings& all, int pass, std::vector<Index> hexes, std::s
       for (int c = 0; c < n_hex_corners; ++c)
         if ((closed ^ mask) >> c & 1) added.push_back(hex[c]);
     }
-    std::ranges::sort(added);
-    added.erase(std::ranges::unique(added).begin(), added.end());
+    sort_unique(added);
     for (const Index n : added) all.marks[n] |= 1U << pass;
     added_nodes.insert(added_nodes.end(), added.begin(), added.end());
     if (added_nodes.size() > limit) return false;
@@ -191,8 +188,7 @@ std::vector<std::pair<Index, Index>> crossing_outside(const Surroundings& all, c
         for (const Index b : of_axis[(axis + 1) % 3])
           if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 
@@ -232,8 +228,7 @@ std::optional<std::vector<Index>> mark_region(Surroundings& all, const RegionMes
                            : "a hex between its sides would have no template");
     found.n_added_nodes += static_cast<Index>(added.size());
   }
-  std::ranges::sort(touched);
-  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+  sort_unique(touched);
   if (!Group{}.takes(all, all.outside(touched))) return fail("edges beside it would be cut more than three times");
   return touched;
 }
@@ -282,23 +277,6 @@ std::optional<std::vector<Index>> halve(Surroundings& all, const RegionMesh& reg
 }
 
 }  // namespace
-
-std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<Index> parent = singletons(mesh.n_nodes());
-  for (const Index h : hexes)
-    for (int c = 1; c < n_hex_corners; ++c) join(parent, mesh.hexes[h][0], mesh.hexes[h][c]);
-  std::vector<std::vector<Index>> result;
-  std::vector<Index> number(mesh.points.size(), -1);
-  for (const Index h : hexes) {
-    Index& region = number[find_root(parent, mesh.hexes[h][0])];
-    if (region < 0) {
-      region = static_cast<Index>(result.size());
-      result.emplace_back();
-    }
-    result[region].push_back(h);
-  }
-  return result;
-}
 
 EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets) {
   EightPlan plan;
@@ -354,23 +332,13 @@ std::vector<std::uint16_t> thirds_codes(const Mesh& mesh, std::span<const Index>
                                         std::span<const std::uint8_t> marked) {
   if (thirds.empty()) return trisect_codes(mesh.hexes, marked);
   const Edges all = edges(mesh);
-  const auto n = static_cast<Index>(all.nodes.size());
-  std::vector<Index> sheet = singletons(n);
-  for (const Index h : region)
-    for (int e = 0; e < n_hex_edges; ++e) join(sheet, all.of_hex[h][e & ~3], all.of_hex[h][e]);
-  std::vector<std::uint8_t> is_third(n, 0), cut(n, 0);
-  for (const auto& [a, b] : thirds) is_third[find_root(sheet, find_edge(all, a, b))] = 1;
+  std::vector<Index> seeds;
+  for (const auto& [a, b] : thirds) seeds.push_back(find_edge(all, a, b));
+  std::vector<std::uint8_t> cut = in_sheets_of(all, region, seeds);
   parallel_each(cut.size(), [&](std::size_t e) {
-    const auto [a, b] = all.nodes[e];
-    cut[e] = (marked[a] && marked[b]) || is_third[find_root(sheet, static_cast<Index>(e))];
+    if (marked[all.nodes[e][0]] && marked[all.nodes[e][1]]) cut[e] = 1;
   });
-  std::vector<std::uint16_t> codes(mesh.hexes.size());
-  parallel_each(codes.size(), [&](std::size_t h) {
-    int code = 0;
-    for (int e = 0; e < n_hex_edges; ++e) code |= cut[all.of_hex[h][e]] << e;
-    codes[h] = static_cast<std::uint16_t>(code);
-  });
-  return codes;
+  return trisect_codes(all, cut);
 }
 
 }  // namespace hextwist

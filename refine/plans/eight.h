@@ -4,7 +4,7 @@
 // direction every second plane of nodes is enclosed. Where sheets diverge or cross (figure 12) there are no three
 // directions. What must hold is less, though: a set of nodes is wanted for each pass such that each hex of the region
 // has four marked nodes on one face, or all, or none, and each edge of the region has exactly one marked end in
-// exactly one pass. So sheets are what is decided about, those of the region by itself:
+// exactly one pass. So the decision is about sheets, those of the region by itself:
 //
 //  1. sheets that cross each other go into different passes, parallel neighbours into the same one where they can: this
 //     gives three passes in a structured region and some more where sheets diverge (three at an interior edge with
@@ -47,7 +47,7 @@ struct EightRegion {
   Index n_in_three = 0;         ///< those cut in three: self-crossing, or one too many around a ring
   Index n_exact = 0;            ///< hexes that no such sheet runs through: these get exactly eight children
   int n_passes = 0;
-  Index n_added_nodes = 0;  ///< marks outside for want of a template, all passes together
+  Index n_added_nodes = 0;  ///< marks outside where a template is missing, all passes together
 };
 
 struct EightPlan {
@@ -62,12 +62,9 @@ struct EightPlan {
   std::vector<Index> trisected;
 };
 
-/// The regions of these hexes (ascending): connected by common nodes. By lowest hex, each ascending.
-std::vector<std::vector<Index>> connected_regions(const Mesh& mesh, std::span<const Index> hexes);
-
 /// Decides how the hexes (ascending) are refined. Depends on the mesh alone, and only on its connectivity.
 ///
-/// Guarantees: when the passes are done in this order with carried_marks() in between, every hex has an enclosing
+/// Guarantees: when the passes are done in this order with carry_marks() in between, every hex has an enclosing
 /// template in each of them; hexes of trisected regions are not touched by any.
 EightPlan plan_eight(const Mesh& mesh, std::span<const Index> targets);
 

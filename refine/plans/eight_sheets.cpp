@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/refine/plans/eight_internal.h"
 
@@ -23,8 +24,7 @@ CompressedRows crossings(const RegionMesh& region, const std::vector<std::pair<I
       for (int b = 0; b < 3; ++b)
         if (a != b)
           pairs.emplace_back(sheet_of(region.sheets, region.edges, h, a), sheet_of(region.sheets, region.edges, h, b));
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  sort_unique(pairs);
   CompressedRows result;
   result.first.assign(region.sheets.size() + 1, 0);
   for (const auto& [sheet, other] : pairs) {
@@ -163,8 +163,7 @@ std::vector<std::vector<Index>> odd_loops(const RegionMesh& region, const NodeTr
         crossed.push_back(region.sheets.of_edge[tree.parent_edge[node]]);
     for (const Index s : crossed) odd[s] ^= 1;
     auto& loop = loops.emplace_back();
-    std::ranges::sort(crossed);
-    crossed.erase(std::ranges::unique(crossed).begin(), crossed.end());
+    sort_unique(crossed);
     for (const Index s : crossed) {
       if (odd[s]) loop.push_back(s);
       odd[s] = 0;

@@ -42,7 +42,7 @@ std::vector<Index> hexes_without_template(std::span<const Hex> hexes, std::span<
   return found;
 }
 
-/// For each marked node the lowest of those that it hangs together with along edges with marked ends.
+/// For each marked node the lowest node of its component, connected by edges with both ends marked.
 std::vector<Index> marked_components(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
   std::vector<Index> root = singletons(static_cast<Index>(marked.size()));
   for (const Hex& hex : hexes) {

@@ -28,8 +28,8 @@ std::shared_ptr<const SplitTable> enclose_table(EncloseAt at);
 std::shared_ptr<const SplitTable> enclose_table(double from_marked);
 
 /// Corners that make a box (1, 2, 4 or all 8), or none. When a hex is split by one such marking, carried marks of
-/// another make such markings again on all its children (a test tries all), which is what plan_eight() stands on. It is
-/// not so for the complements, 6 or 7 corners.
+/// another make such markings again on all its children (a test tries all), which plan_eight() relies on. This
+/// does not hold for the complements, 6 or 7 corners.
 bool is_box_marking(int corner_mask);
 
 /// A marking of the corners that has a template: a box, or all but a box.
@@ -47,8 +47,8 @@ Index close_enclosure(std::span<const Hex> hexes, std::span<std::uint8_t> marked
 Index close_enclosure_nearby(const Mesh& mesh, std::span<std::uint8_t> marked, Index limit);
 
 /// The part of a marking to enclose first: all of it where every hex has a template. Elsewhere (where curves meet, say:
-/// three or four marked corners of a hex that are no face) the nodes in which most of its marked edges meet; of things
-/// that do not hang together the one with the lowest node. Once these are enclosed the rest is in different hexes, and
+/// three or four marked corners of a hex that are no face) the nodes in which most of its marked edges meet; of
+/// disconnected pieces the one with the lowest node. Once these are enclosed the rest is in different hexes, and
 /// can follow. Nothing marked is enclosed twice, nothing else is enclosed at all, and an edge between two parts gets a
 /// node from each side. Never empty unless `marked` is; the result depends on the mesh alone.
 std::vector<std::uint8_t> enclosable_part(std::span<const Hex> hexes, std::span<const std::uint8_t> marked);

@@ -1,7 +1,7 @@
 // Optimises where the new nodes of the enclosing templates lie, once and for all, and prints what the engine includes:
 //
-//   optimize_enclosing third > refine/enclose_places_third.inc
-//   optimize_enclosing half  > refine/enclose_places_half.inc
+//   optimize_enclosing third > refine/templates/enclose_places_third.inc
+//   optimize_enclosing half  > refine/templates/enclose_places_half.inc
 //
 // The templates are judged by what they are for: refinements of grids of unit cubes before any smoothing. For "third"
 // the whole combination, trisecting included, of a node, an edge, a face, a path that turns, a whole side, and two and
@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/plans/combine.h"
@@ -108,8 +109,7 @@ std::vector<Case> cases() {
   for (Case& one : all) {
     for (const Edge& edge : target_edges(one.target))
       one.target.nodes.insert(one.target.nodes.end(), edge.begin(), edge.end());
-    std::ranges::sort(one.target.nodes);
-    one.target.nodes.erase(std::ranges::unique(one.target.nodes).begin(), one.target.nodes.end());
+    sort_unique(one.target.nodes);
     std::ranges::sort(one.target.edges);
   }
   return all;

@@ -1,7 +1,7 @@
 // Optimises where the nodes inside the trisecting templates lie, once and for all, and prints the table that the engine
 // includes (trisect_places.inc):
 //
-//   optimize_templates > refine/trisect_places.inc
+//   optimize_templates > refine/templates/trisect_places.inc
 //
 // For each orbit of corner markings: a random search with a fixed seed (evolution strategy of one parent and one child)
 // that minimises the sum over the children of q^-p, p rising, q the smaller of shape and scaled Jacobian in the unit

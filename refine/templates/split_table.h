@@ -3,7 +3,7 @@
 // A pass gives every hex a code (0: left alone). The code fixes a code for each of its edges and faces, and a hex
 // agrees with its neighbours when they come to the same codes for what they share. Since all that lies on an edge or
 // face depends on that edge's or face's code alone, each hex can then be replaced without looking at any other
-// (DESIGN: "the key fact"). There is one table per kind of pass; split() is the same for all.
+// (docs/design.md). There is one table per kind of pass; split() is the same for all.
 #pragma once
 
 #include <array>

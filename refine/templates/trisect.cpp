@@ -11,7 +11,7 @@ namespace hextwist {
 namespace {
 
 /// Optimised places of the nodes inside the hex, in the order in which trisect_cube() makes them.
-/// Printed by optimize_templates (refine/optimize_templates.cpp).
+/// Printed by optimize_templates (optimize_trisecting.cpp).
 struct InsidePlaces {
   int edge_mask;  // canonical
   std::vector<Vec3> at;

@@ -53,8 +53,7 @@ void do_check(Execution& run) {
     const auto& rows = run.record.violations;
     for (std::size_t i = 0; i < std::min(rows.size(), max_lines); ++i) run.say("violation: " + rows[i].text);
     if (rows.size() > max_lines) run.say("... and " + std::to_string(run.record.n_violations - max_lines) + " more");
-    throw Error(counted(run.record.n_violations, "violation", "violations") +
-                ", the first: " + run.record.violations.front().text);
+    throw Error(counted(run.record.n_violations, "violation") + ", the first: " + run.record.violations.front().text);
   }
   run.say("no violations");
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/io/file.h"
 #include "hextwist/mesh/corners.h"
@@ -136,8 +137,7 @@ class Painter {
       facet(side.hex, side.face);
     }
     std::vector<Index> hexes = drawn_;
-    std::ranges::sort(hexes);
-    hexes.erase(std::ranges::unique(hexes).begin(), hexes.end());
+    sort_unique(hexes);
     by_quality(hexes);
   }
 

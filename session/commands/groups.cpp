@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/session/session_internal.h"
 
 namespace hextwist {
@@ -59,17 +60,11 @@ void do_named_group(Execution& run) {
   for (int kind = 0; kind < n_entity_kinds; ++kind) {
     Members& own = group.members[kind];
     Members& said = given[kind];
-    std::ranges::sort(said);
-    said.erase(std::ranges::unique(said).begin(), said.end());
+    sort_unique(said);
     if (command.has("equals")) own.clear();
-    Members result;
-    if (command.has("remove"))
-      std::ranges::set_difference(own, said, std::back_inserter(result));
-    else if (command.has("xor"))
-      std::ranges::set_symmetric_difference(own, said, std::back_inserter(result));
-    else
-      std::ranges::set_union(own, said, std::back_inserter(result));
-    own = std::move(result);
+    own = command.has("remove") ? difference(own, said)
+          : command.has("xor")  ? union_of(difference(own, said), difference(said, own))
+                                : union_of(own, said);
   }
   run.say("group " + std::to_string(group.id) + " '" + printable(group.name) + "': " + members_text(selector, group));
   run.state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
 #include "hextwist/base/interrupt.h"
+#include "hextwist/base/text.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/session_internal.h"
 
@@ -34,8 +35,7 @@ std::string_view extensions_of(std::string_view word, bool writing) {
 /// The format goes by the extension; a word that says otherwise is a mistake worth pointing out.
 void check_extension(const Execution& run, const Item& word, const Item& file, bool writing) {
   const std::string_view known = extensions_of(word.name, writing);
-  std::string extension = std::filesystem::path(file.text).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(file.text);
   if (known.empty()) return;
   const std::string padded = std::string(known) + " ";
   if (!extension.empty() && padded.find(extension + " ") != std::string::npos) return;
@@ -45,12 +45,8 @@ void check_extension(const Execution& run, const Item& word, const Item& file, b
 
 /// Pieces of a mesh that share no node.
 int n_pieces(const Mesh& mesh) {
-  std::vector<Index> parent = singletons(mesh.n_nodes());
-  for (const Hex& hex : mesh.hexes)
-    for (const Index node : hex) join(parent, hex[0], node);
-  std::set<Index> roots;
-  for (const Hex& hex : mesh.hexes) roots.insert(find_root(parent, hex[0]));
-  return static_cast<int>(roots.size());
+  const std::vector<Index> all = indices_where(mesh.n_hexes(), [](Index) { return true; });
+  return static_cast<int>(connected_regions(mesh, all).size());
 }
 
 /// Pieces of a model whose volumes share no surface, curve or vertex.
@@ -156,16 +152,15 @@ void load_mesh(Execution& run, Mesh mesh, const Association* tags, const std::st
       record_violations(run.record, mesh, inverted.empty() || tangled ? violations : validate(mesh));
   if (!wrong.empty() && !(tangled && state.untangle)) throw Error(what + ": " + wrong);
   if (!run.record.warnings.empty())
-    run.note(what + ": " + counted(static_cast<std::int64_t>(run.record.warnings.size()), "warning", "warnings") +
+    run.note(what + ": " + counted(static_cast<std::int64_t>(run.record.warnings.size()), "warning") +
              ", the first: " + run.record.warnings.front().text);
 
   std::shared_ptr<const Model> model = state.has_cad ? state.meshed->model : nullptr;
   if (model && !state.glued && state.glue == Glue::automatic && !state.cad_file.empty() && model->count(3) > 1) {
     const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
     if (in_mesh < in_model) {
-      run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" +
-               counted(in_mesh, "piece", "pieces") + " of mesh, " + std::to_string(in_model) +
-               " of CAD): reading it again with touching solids glued");
+      run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" + counted(in_mesh, "piece") +
+               " of mesh, " + std::to_string(in_model) + " of CAD): reading it again with touching solids glued");
       model = read_model(run, state.cad_file, true);
       state.glued = true;
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/session_internal.h"
@@ -11,14 +12,8 @@
 namespace hextwist {
 namespace {
 
-std::string joined(const auto& ids) {
-  std::string result;
-  for (const auto id : ids) result += (result.empty() ? "" : " ") + std::to_string(id);
-  return result.empty() ? "none" : result;
-}
-
-std::string point_text(const Vec3& p) {
-  return "(" + short_number(p.x()) + ", " + short_number(p.y()) + ", " + short_number(p.z()) + ")";
+std::string ids_text(const auto& ids) {
+  return ids.empty() ? "none" : joined(ids);
 }
 
 class Lister {
@@ -48,7 +43,7 @@ class Lister {
   std::string node_ids_text(std::span<const Index> nodes) const {
     std::vector<std::int64_t> ids;
     for (const Index node : nodes) ids.push_back(node_id(mesh(), node));
-    return joined(ids);
+    return ids_text(ids);
   }
 
   /// How many mesh entities of the same dimension lie on a CAD entity.
@@ -77,10 +72,10 @@ class Lister {
     if (owner.dim == 1 && model().range(owner.id).period > 0) result += ", closed";
     if (owner.dim > 0)
       result += ", " + std::string(plural(static_cast<EntityKind>(static_cast<int>(kind) - 1))) + " " +
-                joined(model().adjacent(owner, owner.dim - 1));
+                ids_text(model().adjacent(owner, owner.dim - 1));
     if (owner.dim < 3)
       result += ", in " + std::string(plural(static_cast<EntityKind>(static_cast<int>(kind) + 1))) + " " +
-                joined(model().adjacent(owner, owner.dim + 1));
+                ids_text(model().adjacent(owner, owner.dim + 1));
     if (!association().empty()) result += ", " + counted(n_owned(owner), static_cast<EntityKind>(owner.dim));
     return result;
   }
@@ -108,7 +103,7 @@ class Lister {
         for (const Block& block : mesh().blocks)
           if (std::ranges::binary_search(block.hexes, i)) blocks.push_back(block.id);
         return "nodes " + node_ids_text(mesh().hexes[i]) + ", in volume " +
-               std::to_string(association().hex_volume.at(i)) + (blocks.empty() ? "" : ", block " + joined(blocks)) +
+               std::to_string(association().hex_volume.at(i)) + (blocks.empty() ? "" : ", block " + ids_text(blocks)) +
                ", volume " + short_number(volume(mesh(), i)) + ", shape " +
                short_number(quality(Metric::shape, mesh(), i)) + ", scaled Jacobian " +
                short_number(quality(Metric::scaled_jacobian, mesh(), i));
@@ -123,7 +118,7 @@ class Lister {
       case EntityKind::nodeset:
         return counted(static_cast<std::int64_t>(mesh().node_sets[i].nodes.size()), EntityKind::node);
       case EntityKind::sideset:
-        return counted(static_cast<std::int64_t>(mesh().side_sets[i].sides.size()), "side", "sides");
+        return counted(static_cast<std::int64_t>(mesh().side_sets[i].sides.size()), "side");
       case EntityKind::group:
         return members_text(selector_, selector_.groups[i]);
       default:
@@ -158,7 +153,7 @@ void list_model(Execution& run) {
   run.say("mesh: " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
           ", volume " + short_number(state.mesh_state.volume) + ", " + counted(n(mesh.blocks), EntityKind::block) +
           ", " + counted(n(mesh.node_sets), EntityKind::nodeset) + ", " +
-          counted(n(mesh.side_sets), EntityKind::sideset) + ", " + counted(n(mesh.fields), "field", "fields"));
+          counted(n(mesh.side_sets), EntityKind::sideset) + ", " + counted(n(mesh.fields), "field"));
   run.say("shape: smallest " + short_number(state.mesh_state.shape.min) + " (hex " +
           std::to_string(state.mesh_state.shape.min_hex) + "), average " +
           short_number(state.mesh_state.shape.average));

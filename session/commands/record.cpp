@@ -12,7 +12,7 @@ void do_record(Execution& run) {
   std::shared_ptr<Recording>& recording = run.core.recording;
   if (run.command.has("stop")) {
     if (!recording) throw error_at(run.command.statement, run.command.items.at(1).token, "nothing is being recorded");
-    run.say(recording->file.string() + ": " + counted(recording->n_commands, "command", "commands") + " recorded");
+    run.say(recording->file.string() + ": " + counted(recording->n_commands, "command") + " recorded");
     recording = nullptr;
     return;
   }

@@ -61,12 +61,11 @@ SizesRow sizes_row(const Mesh& mesh, const SizeReport& sizes) {
 }
 
 std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
-  std::string text = "actual / wished size of " +
-                     counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
-                     counted(sizes.n_passes, "pass", "passes") + ": " + short_number(100 * sizes.met()) +
-                     "% within a factor of sqrt(3), " + std::to_string(sizes.n_coarser) + " coarser, " +
-                     std::to_string(sizes.n_finer) + " finer (" + std::to_string(sizes.n_much_finer) +
-                     " by more than 3)\n" + histogram(sizes.ratio);
+  std::string text =
+      "actual / wished size of " + counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
+      counted(sizes.n_passes, "pass") + ": " + short_number(100 * sizes.met()) + "% within a factor of sqrt(3), " +
+      std::to_string(sizes.n_coarser) + " coarser, " + std::to_string(sizes.n_finer) + " finer (" +
+      std::to_string(sizes.n_much_finer) + " by more than 3)\n" + histogram(sizes.ratio);
   if (text.ends_with('\n')) text.pop_back();
   if (!sizes.unmet.empty())
     text += "\n" + counted(static_cast<std::int64_t>(sizes.unmet.size()), EntityKind::hex) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/session/session_internal.h"
 
@@ -40,7 +41,7 @@ std::string members_text(EntityKind kind, std::size_t n) {
   const auto count = static_cast<std::int64_t>(n);
   return kind == EntityKind::block     ? counted(count, EntityKind::hex)
          : kind == EntityKind::nodeset ? counted(count, EntityKind::node)
-                                       : counted(count, "side", "sides");
+                                       : counted(count, "side");
 }
 
 /// The side of a face that a side set takes: that of the hex in the volume with the lower id, which the normal of a
@@ -95,17 +96,14 @@ auto all_members(const Execution& run, EntityKind kind, const Groups& groups) {
                      "there is nothing for a " + std::string(name(kind)) + " there");
     result.insert(result.end(), given.begin(), given.end());
   }
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
-  return result;
+  return sorted_unique(std::move(result));
 }
 
 template <class Group, class Items>
 void note_overlaps(const Execution& run, const std::vector<Group>& groups, Items items, const Group& changed) {
   for (const Group& other : groups) {
     if (other.id == changed.id) continue;
-    std::vector<Index> common;
-    std::ranges::set_intersection(other.*items, changed.*items, std::back_inserter(common));
+    const std::vector<Index> common = intersection(other.*items, changed.*items);
     if (!common.empty())
       run.note(counted(static_cast<std::int64_t>(common.size()), EntityKind::hex) + " of block " +
                std::to_string(changed.id) + (common.size() == 1 ? " is" : " are") + " in block " +
@@ -128,12 +126,7 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
     }
     auto& own = (*group).*items;
     const std::size_t before = own.size();
-    std::remove_reference_t<decltype(own)> result;
-    if (remove)
-      std::ranges::set_difference(own, given, std::back_inserter(result));
-    else
-      std::ranges::set_union(own, given, std::back_inserter(result));
-    own = std::move(result);
+    own = remove ? difference(own, given) : union_of(own, given);
     if (const Item* text = command.find("text")) group->name = text->text;
     const std::size_t after = own.size();
     const std::string line = named + ": " + members_text(kind, before) + " -> " + std::to_string(after);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/session_internal.h"
 
@@ -94,7 +95,7 @@ void do_smooth(Execution& run) {
   take_meshed(state, std::move(meshed));
   const QualityRow &was = before.shape, &is = state.mesh_state.shape;
   std::string line = text_of(command.statement) + ": " + counted(n_nodes, EntityKind::node) + ", " +
-                     counted(sweeps, "sweep", "sweeps") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
+                     counted(sweeps, "sweep") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
                      arrow(was.average, is.average);
   if (state.off_cad.node >= 0)
     line += ", nodes at most " + short_number(state.off_cad.max) + " off " + (state.has_cad ? "the CAD" : "the skin");
@@ -120,11 +121,7 @@ void do_scheme(Execution& run) {
 void do_node(Execution& run) {
   const std::vector<Index> nodes = run.chosen(*run.command.find("range"));
   const std::vector<Index> old = run.state.fixed_nodes ? *run.state.fixed_nodes : std::vector<Index>();
-  std::vector<Index> fixed;
-  if (run.command.has("fixed"))
-    std::ranges::set_union(old, nodes, std::back_inserter(fixed));
-  else
-    std::ranges::set_difference(old, nodes, std::back_inserter(fixed));
+  std::vector<Index> fixed = run.command.has("fixed") ? union_of(old, nodes) : difference(old, nodes);
   run.say(counted(static_cast<std::int64_t>(nodes.size()), EntityKind::node) +
           (run.command.has("fixed") ? " fixed" : " free") + "; " + std::to_string(fixed.size()) + " of " +
           std::to_string(run.state.meshed->mesh.n_nodes()) + " are fixed now");

@@ -16,9 +16,8 @@ std::size_t n_steps(const Execution& run, const std::vector<Step>& steps, const 
   const Item* said = run.command.find("steps");
   if (!said) return 1;
   if (said->number > static_cast<double>(steps.size()))
-    throw error_at(
-        run.command.statement, said->token,
-        "only " + counted(static_cast<std::int64_t>(steps.size()), "command", "commands") + " can be " + verb + "ne");
+    throw error_at(run.command.statement, said->token,
+                   "only " + counted(static_cast<std::int64_t>(steps.size()), "command") + " can be " + verb + "ne");
   return static_cast<std::size_t>(said->number);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/session_internal.h"
@@ -50,8 +52,7 @@ std::vector<Index> inverted_among(const std::vector<Violation>& violations) {
     if (violation.kind != ViolationKind::inverted) return {};
     result.insert(result.end(), violation.hexes.begin(), violation.hexes.end());
   }
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 
@@ -59,7 +60,7 @@ bool untangle_mesh(const Execution& run, Mesh& mesh, Association& association, c
                    const std::vector<Index>& inverted, bool boundary) {
   std::vector<Index> all(mesh.hexes.size());
   for (Index h = 0; h < mesh.n_hexes(); ++h) all[h] = h;
-  return untangle(run, mesh, association, model, hex_band(mesh, inverted, band_layers), boundary) ||
+  return untangle(run, mesh, association, model, with_layers(mesh, inverted, band_layers), boundary) ||
          untangle(run, mesh, association, model, all, boundary);
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 
+#include "hextwist/base/text.h"
 #include "hextwist/session/view/picture.h"
 
 namespace hextwist {
@@ -197,9 +198,7 @@ std::string hex_text(const Colour& colour) {
   return text.data();
 }
 std::string number(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
+  return short_number(value, 9);
 }
 std::string triple(const Vec3& v) {
   return "[" + number(v.x()) + "," + number(v.y()) + "," + number(v.z()) + "]";

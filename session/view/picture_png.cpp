@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/session/view/picture.h"
 
 namespace hextwist {
@@ -188,14 +189,14 @@ class Labels {
         pixels_[static_cast<std::size_t>(y) * width_ + x] = colour;
   }
   void number(int x, int y, int size, double value) {
-    std::array<char, 32> buffer;
-    std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
-    for (const char* c = buffer.data(); *c; ++c, x += 4 * size)
+    for (const char c : short_number(value, 3)) {
       for (const Glyph& glyph : glyphs)
-        if (glyph.character == *c)
+        if (glyph.character == c)
           for (int row = 0; row < 5; ++row)
             for (int column = 0; column < 3; ++column)
               if (glyph.rows[row] >> (2 - column) & 1) box(x + column * size, y + row * size, size, size, {60, 60, 60});
+      x += 4 * size;
+    }
   }
 
  private:

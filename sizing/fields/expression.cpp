@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/sizing/fields/size_field.h"
 
 namespace hextwist {
@@ -64,13 +65,8 @@ class Expression final : public SizeField {
 
  private:
   [[noreturn]] void refuse(const Vec3& p, double value) const {
-    const auto text = [](double number) {
-      std::array<char, 32> buffer;
-      std::snprintf(buffer.data(), buffer.size(), "%.6g", number);
-      return std::string(buffer.data());
-    };
-    throw Error("sizing function \"" + text_ + "\" is " + text(value) + " at (" + text(p.x()) + ", " + text(p.y()) +
-                ", " + text(p.z()) + "): sizes must be positive");
+    throw Error("sizing function \"" + text_ + "\" is " + short_number(value, 6) + " at " + point_text(p, 6) +
+                ": sizes must be positive");
   }
 
   std::string text_;

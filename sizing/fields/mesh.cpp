@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/locate.h"
 #include "hextwist/sizing/fields/gradation.h"

@@ -50,7 +50,7 @@ SizeFieldPtr field_size(std::shared_ptr<const Mesh> mesh, const std::string& fie
 
 /// So many elements per radian at curved entities (curves and surfaces): the radius of curvature divided by that
 /// number, growing from there by growth - 1 per unit of distance. No wish where nothing is curved. Of the skin of a
-/// mesh the curvature is estimated (geom/facet_curvature_internal.h). Throws Error for a model that knows no curvature
+/// mesh the curvature is estimated (geom/facet/curvature_internal.h). Throws Error for a model that knows no curvature
 /// and when none of the entities is curved.
 SizeFieldPtr curvature_size(std::shared_ptr<const Model> model, std::span<const Owner> entities,
                             double elements_per_radian, double growth);

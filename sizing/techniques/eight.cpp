@@ -1,6 +1,9 @@
 // One into eight: parallel hex sheet operations on whole hexes and layers of them, and what is decided for each region.
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
@@ -11,10 +14,6 @@ namespace hextwist {
 namespace {
 
 constexpr std::size_t max_told_regions = 10;
-
-std::string counted(Index n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : what.ends_with('x') ? "es" : "s");
-}
 
 std::string describe(const EightRegion& region, const Mesh& mesh) {
   std::string line = counted(region.n_hexes, "hex") + " around hex " + std::to_string(hex_id(mesh, region.first_hex));
@@ -97,8 +96,7 @@ std::optional<Cut> EightRound::next(State& state) {
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
   mark_nodes(mesh.hexes, plan_.trisected, marked);
   if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-  std::vector<Index> halved;
-  std::ranges::set_difference(targets_, plan_.trisected, std::back_inserter(halved));
+  const std::vector<Index> halved = difference(targets_, plan_.trisected);
   Cut cut{trisect_table(), thirds_codes(mesh, halved, plan_.thirds, marked)};
   plan_.trisected.clear();
   plan_.thirds.clear();

@@ -1,6 +1,7 @@
 // Parallel hex sheet operations and the combination: around nodes, edges and faces.
 #include <algorithm>
 
+#include "hextwist/base/text.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
@@ -39,9 +40,8 @@ class Enclose : public Technique {
 }  // namespace
 
 void tell(const Enclosed& done, State& state) {
-  const auto nodes = [](Index n) { return std::to_string(n) + (n == 1 ? " node" : " nodes"); };
-  if (done.n_first > 0) state.note(nodes(done.n_first) + " where targets meet enclosed before the others");
-  if (done.n_added > 0) state.note(nodes(done.n_added) + " beside the target enclosed with it");
+  if (done.n_first > 0) state.note(counted(done.n_first, "node") + " where targets meet enclosed before the others");
+  if (done.n_added > 0) state.note(counted(done.n_added, "node") + " beside the target enclosed with it");
 }
 
 std::optional<Cut> EncloseRound::next(State& state, Enclosed& done, bool cuts_again) {
@@ -65,9 +65,7 @@ std::optional<Cut> EncloseRound::next(State& state, Enclosed& done, bool cuts_ag
 void EncloseRound::follow(const Lineage& lineage, const Mesh& after) {
   target_ = carried_target(target_, lineage, after);
   if (has_trisected_) return;
-  std::erase_if(uncut_, [&](const Edge& edge) {
-    return std::ranges::binary_search(lineage.edges, edge, {}, [](const CutEdge& cut) { return Edge{cut.a, cut.b}; });
-  });
+  std::erase_if(uncut_, [&](const Edge& edge) { return find_cut_edge(lineage, edge) != nullptr; });
 }
 
 std::unique_ptr<Technique> enclose_technique(State& state, Approach approach) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 

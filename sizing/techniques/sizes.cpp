@@ -6,7 +6,9 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/factors.h"
@@ -110,8 +112,7 @@ std::vector<Index> target_nodes_too_far_apart(const Mesh& mesh, const SizeField&
     }
   std::vector<Index> nodes;
   for (const Edge& edge : longer) nodes.insert(nodes.end(), edge.begin(), edge.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  sort_unique(nodes);
   std::vector<Vec3> points;
   for (const Index n : nodes) points.push_back(mesh.points[n]);
   const std::vector<std::uint8_t> on_it = target.on_it(points);
@@ -222,8 +223,7 @@ std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_l
   std::ranges::sort(wanted);
   if (wanted.empty()) return {};
   plan = plan_eight(mesh, wanted);
-  std::vector<Index> halved;
-  std::ranges::set_difference(wanted, plan.trisected, std::back_inserter(halved));
+  std::vector<Index> halved = difference(wanted, plan.trisected);
   plan.trisected.clear();
   return halved;
 }

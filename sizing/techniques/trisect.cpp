@@ -1,5 +1,6 @@
 // Single hex sheet operations: whole hexes and layers of them, and all of a model at once.
 #include "hextwist/refine/templates/trisect.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/uniform.h"
 #include "hextwist/sizing/levels.h"

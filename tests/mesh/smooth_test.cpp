@@ -1,6 +1,8 @@
 // Smoothing keeps its promises, whatever it is given.
 #include <tbb/global_control.h>
 
+#include "hextwist/mesh/neighbourhood.h"
+
 #include "smooth_fixtures.h"
 #include "support/checkers.h"
 
@@ -96,7 +98,7 @@ TEST(Smooth, moves_only_what_it_may) {
     Mesh mesh = start;
     SmoothOptions options;
     options.scheme = scheme;
-    options.nodes = nodes_inside(start, hex_band(start, std::vector<Index>{86}, 1));
+    options.nodes = nodes_inside(start, with_layers(start, std::vector<Index>{86}, 1));
     ASSERT_EQ(options.nodes->size(), 8u);
     options.fixed = {options.nodes->front()};
     const SmoothReport report = smooth_inside(mesh, options);
@@ -224,7 +226,7 @@ TEST(HexBand, grows_layer_by_layer) {
   const std::vector<Index> middle = {3 + 7 * (3 + 7 * 3)};
   for (int layers = 0; layers <= 4; ++layers) {
     const int side = std::min(7, 1 + 2 * layers);
-    const auto band = hex_band(mesh, middle, layers);
+    const auto band = with_layers(mesh, middle, layers);
     EXPECT_EQ(band.size(), static_cast<std::size_t>(side * side * side));
     EXPECT_TRUE(std::ranges::is_sorted(band));
     const int inner = side == 7 ? 8 : side - 1;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <random>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/validate/validate.h"
@@ -130,8 +131,7 @@ Request random_request(const MeshedModel& meshed, std::mt19937& random) {
   }
   const bool is_cad = request.target.kind >= EntityKind::vertex;
   for (Index i = one_of(3); i >= 0 && n > 0; --i) request.target.ids.push_back(one_of(n) + is_cad);
-  std::ranges::sort(request.target.ids);
-  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
+  sort_unique(request.target.ids);
   const bool is_large =
       request.target.kind == EntityKind::surface || request.target.kind == EntityKind::volume;  // it takes long
   request.how = Cuts{1 + (!is_large && one_of(3) == 0)};
@@ -257,8 +257,7 @@ TEST(patch, it_grows_where_filling_goes_on_beyond_its_rings) {
     request.target.ids.push_back(i + 60 * 20);
     request.target.ids.push_back(20 + 60 * i);
   }
-  std::ranges::sort(request.target.ids);
-  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
+  sort_unique(request.target.ids);
   EXPECT_TRUE(expect_same_both_ways(meshed, measured(meshed), request));
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "hextwist/geom/analytic_model.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/templates/trisect.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/enclose.h"
@@ -32,8 +33,7 @@ struct Picker {
   }
   /// Growth of the grid; checks the mesh on the way.
   Index growth() {
-    std::ranges::sort(target.nodes);
-    target.nodes.erase(std::ranges::unique(target.nodes).begin(), target.nodes.end());
+    sort_unique(target.nodes);
     std::ranges::sort(target.edges);
     const Mesh mesh = test::grid(a, b, c);
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/trisect.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/corners.h"
 #include "session/session_fixture.h"
@@ -26,8 +27,7 @@ std::vector<Index> nodes_of(const Mesh& mesh, const SideSet& set) {
   std::vector<Index> result;
   for (const auto [hex, face] : set.sides)
     for (const Index node : face_nodes(mesh.hexes[hex], face)) result.push_back(node);
-  std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  sort_unique(result);
   return result;
 }
 

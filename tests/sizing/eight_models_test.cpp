@@ -4,6 +4,7 @@
 #include <numeric>
 #include <random>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/patch/refine.h"
@@ -75,8 +76,7 @@ std::vector<Index> some_hexes(const Mesh& mesh, std::mt19937& random) {
   const auto first = static_cast<Index>(random() % n);
   for (Index h = first; h < std::min(first + mesh.n_hexes() / 20 + 1, mesh.n_hexes()); ++h) hexes.push_back(h);
   for (int i = 0; i < 5; ++i) hexes.push_back(static_cast<Index>(random() % n));
-  std::ranges::sort(hexes);
-  hexes.erase(std::ranges::unique(hexes).begin(), hexes.end());
+  sort_unique(hexes);
   return hexes;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/geom/analytic_model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/patch/refine.h"
@@ -199,8 +200,7 @@ TEST(one_into_eight, a_structured_and_an_unstructured_region_in_one_request) {
   const MeshedModel input = on_own_skin(mesh);
   Request request{.target = {.kind = EntityKind::hex, .ids = {0, 1}}};
   for (int k = 0; k < 8; ++k) request.target.ids.push_back(4 + 9 * (4 + 9 * k));
-  std::ranges::sort(request.target.ids);
-  request.target.ids.erase(std::ranges::unique(request.target.ids).begin(), request.target.ids.end());
+  sort_unique(request.target.ids);
   const RefineResult result = checked(input, request);
   std::string notices;
   for (const std::string& line : result.report.notices) notices += line + "\n";
