@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/patch/refine.h"
+#include "support/analytic_model.h"
 #include "support/grids.h"
 
 namespace hextwist::test {

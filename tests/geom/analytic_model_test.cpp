@@ -1,4 +1,4 @@
-#include "hextwist/geom/analytic_model.h"
+#include "support/analytic_model.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <random>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/facet/curvature_internal.h"
 #include "hextwist/geom/occ/model.h"
+#include "support/analytic_model.h"
 #include "support/grids.h"
 #include "support/skins.h"
 

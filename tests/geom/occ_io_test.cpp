@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "geom/occ_shapes.h"
-#include "hextwist/geom/analytic_model.h"
+#include "support/analytic_model.h"
 #include "support/grids.h"
 
 namespace hextwist {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "hextwist/geom/analytic_model.h"
+#include "support/analytic_model.h"
 #include "support/model_checks.h"
 
 namespace hextwist {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/association/association.h"
+#include "support/analytic_model.h"
 #include "support/grids.h"
 
 namespace hextwist {

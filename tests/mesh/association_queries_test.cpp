@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/association/association.h"
+#include "support/analytic_model.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

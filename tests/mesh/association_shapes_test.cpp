@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/corners.h"
+#include "support/analytic_model.h"
 #include "support/association_checkers.h"
 #include "support/grids.h"
 

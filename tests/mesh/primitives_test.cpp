@@ -7,10 +7,10 @@
 #include <numbers>
 #include <set>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/topology.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/skins.h"
 

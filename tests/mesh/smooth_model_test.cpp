@@ -1,7 +1,7 @@
 // Nodes slide on curves and surfaces and stay on them.
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/association/association.h"
 #include "smooth_fixtures.h"
+#include "support/analytic_model.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/skins.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "hextwist/geom/analytic_model.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/patch/refine.h"
+#include "support/analytic_model.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/grids.h"

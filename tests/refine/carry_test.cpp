@@ -9,12 +9,12 @@
 #include <random>
 #include <set>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/refined.h"

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/sheets.h"
 #include "hextwist/patch/refine.h"
 #include "hextwist/patch/verify.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -9,9 +9,9 @@
 #include <random>
 
 #include "hextwist/base/sorted.h"
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/patch/refine.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

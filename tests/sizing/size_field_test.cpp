@@ -8,11 +8,11 @@
 #include <queue>
 #include <random>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/facet/model.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/sizing/fields/gradation.h"
 #include "hextwist/sizing/targets.h"
+#include "support/analytic_model.h"
 #include "support/grids.h"
 #include "support/meshed.h"
 

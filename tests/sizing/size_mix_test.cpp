@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/patch/refine.h"
 #include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/targets.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/sizing/fields/size_field.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "hextwist/geom/analytic_model.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
+#include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 
