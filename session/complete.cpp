@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "hextwist/command/reader.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/command/syntax.h"
+#include "hextwist/session/core.h"
 
 namespace hextwist {
 namespace {
