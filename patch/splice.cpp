@@ -122,15 +122,6 @@ Splice::Splice(const MeshedModel& whole, const PatchNumbers& numbers, const Mesh
                            after.edge_curve, [](const Edge& edge) { return std::optional(edge); });
 }
 
-std::int64_t Splice::new_node_id(const Mesh& before, Index node) const {
-  if (node < n_nodes_) return node_id(before, node);
-  return new_node_ids_.empty() ? std::int64_t{node} + 1 : new_node_ids_[node - n_nodes_];
-}
-
-std::int64_t Splice::new_hex_id(const Mesh& before, Index hex) const {
-  return hex < n_kept() ? hex_id(before, before_gaps(gone_, hex)) : new_hex_ids_[hex - n_kept()];
-}
-
 namespace {
 
 template <class T>

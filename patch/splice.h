@@ -49,9 +49,6 @@ class Splice {
   const std::vector<Index>& gone() const { return gone_; }
   const std::vector<Hex>& gone_hexes() const { return gone_hexes_; }
   const std::vector<Hex>& new_hexes() const { return new_hexes_; }
-  /// Ids that nodes and hexes of the changed mesh have; before: the mesh before.
-  std::int64_t new_node_id(const Mesh& before, Index node) const;
-  std::int64_t new_hex_id(const Mesh& before, Index hex) const;
 
   /// Room in all arrays, so that apply() throws nothing. forward: else back.
   void make_room(MeshedModel& whole, bool forward) const;

@@ -5,7 +5,8 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/command/syntax.h"
+#include "hextwist/session/core.h"
 
 namespace hextwist {
 namespace {

@@ -1,12 +1,12 @@
-#include "hextwist/session/history_internal.h"
+#include "hextwist/session/history.h"
 
-#include <algorithm>
 #include <utility>
-
-#include "hextwist/patch/extremes.h"
 
 namespace hextwist {
 namespace {
+
+// What a step and the difference of two meshes take when they hold nothing: about, and everywhere the same.
+constexpr std::size_t step_bytes = 408, delta_bytes = 760;
 
 std::size_t bytes_of_extremes(const std::shared_ptr<const Extremes>& extremes) {
   if (!extremes) return 0;
@@ -16,78 +16,69 @@ std::size_t bytes_of_extremes(const std::shared_ptr<const Extremes>& extremes) {
   return bytes;
 }
 
+struct ChangeBytes {
+  std::size_t operator()(const SameMesh&) const { return 0; }
+  std::size_t operator()(const WholeMesh& whole) const { return whole.bytes; }
+  std::size_t operator()(const ArraysChange& change) const { return change.arrays->bytes() + delta_bytes; }
+  std::size_t operator()(const SetsChange& change) const { return bytes_of(change.sets) + delta_bytes; }
+  std::size_t operator()(const SpliceChange& change) const { return change.splice->bytes(); }
+};
+
+struct Changed {
+  const MeshedModel& from;
+  MeshedModel operator()(const SameMesh&) const { return from; }
+  MeshedModel operator()(const WholeMesh& whole) const { return *whole.meshed; }
+  MeshedModel operator()(const ArraysChange& change) const { return change.arrays->apply(from); }
+  MeshedModel operator()(const SetsChange& change) const {
+    Mesh lists = sets_after(change.sets, from.mesh);
+    MeshedModel result = from;
+    swap_sets(result.mesh, lists);
+    return result;
+  }
+  MeshedModel operator()(const SpliceChange& change) const { return spliced(from, *change.splice, change.forward); }
+};
+
 }  // namespace
 
-Step::Step(std::string command, const ModelState& from, const ModelState& to)
-    : command_(std::move(command)), state_(to), bytes_(sizeof(Step) + command_.capacity()) {
-  state_.extremes = nullptr;  // not worth the memory
-  if (to.tags && from.tags != to.tags) bytes_ += bytes_of(*to.tags);
-  if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes_ += bytes_of(*to.fixed_nodes);
-  if (to.schemes && from.schemes != to.schemes) bytes_ += bytes_of(*to.schemes);
-  if (from.meshed == to.meshed) {
-    state_.meshed = nullptr;  // not kept alive by this
-    return;
-  }
-  const std::size_t whole = bytes_of(*to.meshed);
-  // A mesh that has nothing in common with the other is kept as it is rather than told piece by piece.
-  if (from.meshed->mesh.hexes.empty() || to.meshed->mesh.hexes.empty()) {
-    bytes_ += whole;
-    return;
-  }
-  MeshedDelta arrays = MeshedDelta::between(*from.meshed, *to.meshed);
-  const std::size_t parts = arrays.bytes() + sizeof(MeshedDelta);
-  if (parts > whole / 2) {
-    bytes_ += whole;
-    return;
-  }
-  arrays_ = std::make_shared<const MeshedDelta>(std::move(arrays));
-  state_.meshed = nullptr;
-  bytes_ += parts;
+MeshChange difference(const MeshedModel& from, const MeshedModel& to) {
+  const std::size_t whole = bytes_of(to);
+  if (from.mesh.hexes.empty() || to.mesh.hexes.empty()) return WholeMesh{whole};
+  auto arrays = std::make_unique<const MeshedDelta>(MeshedDelta::between(from, to));
+  if (arrays->bytes() + delta_bytes > whole / 2) return WholeMesh{whole};
+  return ArraysChange{std::move(arrays)};
 }
 
-Step::Step(std::string command, const ModelState& state, SetsDelta sets)
-    : command_(std::move(command)), state_(state), only_sets_(true), bytes_(sizeof(Step) + command_.capacity()) {
-  MeshedDelta arrays;
-  arrays.sets = std::move(sets);
-  arrays.model = state.meshed->model;
-  bytes_ += sizeof(MeshedDelta) + bytes_of(arrays.sets);  // extremes: those of the state beside it
-  arrays_ = std::make_shared<const MeshedDelta>(std::move(arrays));
-  state_.meshed = nullptr;
+MeshedModel changed(const MeshedModel& from, const MeshChange& change) {
+  return std::visit(Changed{from}, change);
 }
 
-Step::Step(std::string command, const ModelState& to, std::shared_ptr<const Splice> splice, bool forward)
-    : command_(std::move(command)),
-      state_(to),
-      splice_(std::move(splice)),
-      forward_(forward),
-      bytes_(sizeof(Step) + command_.capacity() + splice_->bytes()) {
-  if (to.tags) bytes_ += bytes_of(*to.tags);
-  extreme_bytes_ = bytes_of_extremes(state_.extremes);
-  bytes_ += extreme_bytes_;
-  state_.meshed = nullptr;
+void swap_sets(Mesh& mesh, Mesh& lists) noexcept {
+  mesh.blocks.swap(lists.blocks);
+  mesh.node_sets.swap(lists.node_sets);
+  mesh.side_sets.swap(lists.side_sets);
+}
+
+Step::Step(std::string said, const ModelState& from, const ModelState& to, MeshChange change)
+    : command(std::move(said)), state(to), mesh(std::move(change)) {
+  bytes = step_bytes + command.capacity() + std::visit(ChangeBytes(), mesh);
+  if (to.tags && from.tags != to.tags) bytes += bytes_of(*to.tags);
+  if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes += bytes_of(*to.fixed_nodes);
+  if (to.schemes && from.schemes != to.schemes) bytes += bytes_of(*to.schemes);
+  if (std::holds_alternative<WholeMesh>(mesh) || std::holds_alternative<ArraysChange>(mesh))
+    state.measured.extremes = nullptr;  // not worth the memory
+  else if (std::holds_alternative<SpliceChange>(mesh))
+    bytes += extreme_bytes = bytes_of_extremes(state.measured.extremes);
 }
 
 void Step::forget_extremes() noexcept {
-  bytes_ -= std::exchange(extreme_bytes_, 0);
-  state_.extremes = nullptr;
-}
-
-const SetsDelta& Step::sets() const {
-  return arrays_->sets;
-}
-
-ModelState Step::apply(const ModelState& from) const {
-  ModelState result = state_;
-  if (!result.meshed) result.meshed = from.meshed;
-  if (splice_) result.meshed = std::make_shared<MeshedModel>(spliced(*from.meshed, *splice_, forward_));
-  if (arrays_) result.meshed = std::make_shared<MeshedModel>(arrays_->apply(*from.meshed));
-  return result;
+  bytes -= std::exchange(extreme_bytes, 0);
+  state.measured.extremes = nullptr;
 }
 
 std::size_t History::bytes() const {
   std::size_t sum = 0;
   for (const auto* steps : {&undo, &redo})
-    for (const Step& step : *steps) sum += step.bytes();
+    for (const Step& step : *steps) sum += step.bytes;
   return sum;
 }
 
@@ -104,7 +95,7 @@ void History::drop_oldest() noexcept {
   std::size_t sum = bytes();
   for (auto* steps : {&redo, &undo}) {
     std::size_t n = 0;
-    while (n < steps->size() && sum > limit) sum -= (*steps)[n++].bytes();
+    while (n < steps->size() && sum > limit) sum -= (*steps)[n++].bytes;
     steps->erase(steps->begin(), steps->begin() + static_cast<std::ptrdiff_t>(n));
   }
 }

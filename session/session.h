@@ -149,7 +149,7 @@ class Session {
   /// Was `quit` run?
   bool finished() const;
 
-  struct Core;  ///< defined in session_internal.h
+  struct Core;  ///< defined in core.h
 
  private:
   std::unique_ptr<Core> core_;

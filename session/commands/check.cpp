@@ -2,7 +2,7 @@
 
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
@@ -21,17 +21,17 @@ std::string quality_text(const char* metric, const QualityRow& row) {
 
 void do_check(Execution& run) {
   const SessionState& state = run.state;
-  const auto& [mesh, model, association] = *state.meshed;
+  const auto& [mesh, model, association] = *run.meshed;
   if (mesh.n_hexes() == 0) throw Error("there is no mesh to check");
   run.stage("validate");
-  record_violations(run.record, mesh, validate(mesh));
+  record_violations(run.record(), mesh, validate(mesh));
   run.stage("check association");
   if (model) {
     for (const std::string& line : check_association(mesh, association, *model))
-      add_violation(run.record, "association", line);
+      add_violation(run.record(), "association", line);
     const OffModel off = off_model(mesh, association, *model);
     if (!(off.max_relative <= state.tolerance)) {  // NaN too
-      add_violation(run.record, "off cad",
+      add_violation(run.record(), "off cad",
                     "node " + std::to_string(node_id(mesh, off.node)) + " lies " + short_number(off.max) + " off " +
                         to_string(off.owner));
     }
@@ -41,19 +41,20 @@ void do_check(Execution& run) {
     if (off.node >= 0)
       run.say("nodes at most " + short_number(off.max) + " off the model (" + short_number(off.max_relative) +
               " of its size), worst: node " + std::to_string(node_id(mesh, off.node)) + " on " + to_string(off.owner));
-    run.say("volume: mesh " + short_number(state.mesh_state.volume) + ", model " + short_number(state.cad_volume) +
-            " (" + short_number(100 * (state.mesh_state.volume - state.cad_volume) / state.cad_volume) + "%)");
+    run.say("volume: mesh " + short_number(state.measured.volume) + ", model " + short_number(state.cad_volume) + " (" +
+            short_number(100 * (state.measured.volume - state.cad_volume) / state.cad_volume) + "%)");
   }
   run.say("mesh: " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node));
-  run.say(quality_text("shape", state.mesh_state.shape));
-  run.say(quality_text("scaled Jacobian", state.mesh_state.scaled_jacobian));
-  for (const ViolationRow& row : run.record.warnings) run.note(row.text);
-  if (run.record.n_violations > 0) {
+  run.say(quality_text("shape", quality_row(mesh, state.measured.shape)));
+  run.say(quality_text("scaled Jacobian", quality_row(mesh, state.measured.scaled_jacobian)));
+  for (const ViolationRow& row : run.record().warnings) run.note(row.text);
+  if (run.record().n_violations > 0) {
     constexpr std::size_t max_lines = 20;
-    const auto& rows = run.record.violations;
+    const auto& rows = run.record().violations;
     for (std::size_t i = 0; i < std::min(rows.size(), max_lines); ++i) run.say("violation: " + rows[i].text);
-    if (rows.size() > max_lines) run.say("... and " + std::to_string(run.record.n_violations - max_lines) + " more");
-    throw Error(counted(run.record.n_violations, "violation") + ", the first: " + run.record.violations.front().text);
+    if (rows.size() > max_lines) run.say("... and " + std::to_string(run.record().n_violations - max_lines) + " more");
+    throw Error(counted(run.record().n_violations, "violation") +
+                ", the first: " + run.record().violations.front().text);
   }
   run.say("no violations");
 }

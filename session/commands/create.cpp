@@ -1,6 +1,7 @@
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/primitives.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/load.h"
 
 namespace hextwist {
 namespace {
@@ -59,8 +60,7 @@ void do_create(Execution& run) {
   state.glued = false;
   state.cad_file.clear();
   state.tags = nullptr;
-  take_meshed(state, {{}, std::move(solid.cad.model), {}});
-  load_mesh(run, std::move(solid.mesh), nullptr, what.name);
+  load_mesh(run, std::move(solid.mesh), std::move(solid.cad.model), nullptr, what.name);
   say_mesh(run, what.name);
 }
 

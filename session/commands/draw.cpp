@@ -9,7 +9,7 @@
 #include "hextwist/io/file.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 #include "hextwist/session/view/picture.h"
 
 namespace hextwist {
@@ -194,7 +194,7 @@ class Painter {
 
 void do_draw(Execution& run) {
   const Command& command = run.command;
-  if (run.state.meshed->mesh.n_hexes() == 0)
+  if (run.meshed->mesh.n_hexes() == 0)
     throw error_at(command.statement, command.items.front().token, "there is no mesh to draw");
   const Item& file = *command.find("file");
   std::string extension = std::filesystem::path(file.text).extension().string();

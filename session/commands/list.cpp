@@ -7,7 +7,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
@@ -135,7 +135,7 @@ class Lister {
 
 void list_model(Execution& run) {
   const SessionState& state = run.state;
-  const auto& [mesh, model, association] = *state.meshed;
+  const auto& [mesh, model, association] = *run.meshed;
   if (!model && mesh.n_hexes() == 0) return run.say("nothing: neither CAD nor mesh was read");
   if (model) {
     std::string line = state.has_cad ? "CAD" : "skin of the mesh";
@@ -151,12 +151,12 @@ void list_model(Execution& run) {
   if (mesh.n_hexes() == 0) return run.say("mesh: none");
   const auto n = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };
   run.say("mesh: " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
-          ", volume " + short_number(state.mesh_state.volume) + ", " + counted(n(mesh.blocks), EntityKind::block) +
-          ", " + counted(n(mesh.node_sets), EntityKind::nodeset) + ", " +
-          counted(n(mesh.side_sets), EntityKind::sideset) + ", " + counted(n(mesh.fields), "field"));
-  run.say("shape: smallest " + short_number(state.mesh_state.shape.min) + " (hex " +
-          std::to_string(state.mesh_state.shape.min_hex) + "), average " +
-          short_number(state.mesh_state.shape.average));
+          ", volume " + short_number(state.measured.volume) + ", " + counted(n(mesh.blocks), EntityKind::block) + ", " +
+          counted(n(mesh.node_sets), EntityKind::nodeset) + ", " + counted(n(mesh.side_sets), EntityKind::sideset) +
+          ", " + counted(n(mesh.fields), "field"));
+  run.say("shape: smallest " + short_number(state.measured.shape.min) + " (hex " +
+          std::to_string(hex_id(mesh, state.measured.shape.min_hex)) + "), average " +
+          short_number(state.measured.shape.average));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
@@ -91,12 +91,12 @@ std::vector<Metric> metrics_said(const Command& command, std::string_view option
 
 void do_quality(Execution& run) {
   const Item& range = *run.command.find("range");
-  if (run.state.meshed->mesh.n_hexes() == 0)
+  if (run.meshed->mesh.n_hexes() == 0)
     throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh");
   const std::vector<Index> hexes = related(run.core.selector(), range.kind, run.chosen(range), EntityKind::hex);
   if (hexes.empty()) throw error_at(run.command.statement, range.range.token, "no hex lies there");
 
-  const Mesh& mesh = run.state.meshed->mesh;
+  const Mesh& mesh = run.meshed->mesh;
   run.say(formatted("%-16s %9s %9s %9s %9s %10s %9s %10s", "", "count", "average", "std. dev.", "min", "(hex)", "max",
                     "(hex)"));
   for (const Metric metric : metrics_said(run.command, "shape")) {

@@ -4,12 +4,12 @@
 #include <cstring>
 #include <filesystem>
 
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 
 void do_record(Execution& run) {
-  std::shared_ptr<Recording>& recording = run.core.recording;
+  std::unique_ptr<Recording>& recording = run.core.recording;
   if (run.command.has("stop")) {
     if (!recording) throw error_at(run.command.statement, run.command.items.at(1).token, "nothing is being recorded");
     run.say(recording->file.string() + ": " + counted(recording->n_commands, "command") + " recorded");
@@ -24,30 +24,12 @@ void do_record(Execution& run) {
   if (exists && !run.command.has("overwrite") && !run.command.has("append"))
     throw error_at(run.command.statement, file.token,
                    "this file exists: say 'overwrite', or 'append' to go on at its end");
-  auto next = std::make_shared<Recording>();
+  auto next = std::make_unique<Recording>();
   next->file = file.text;
   errno = 0;
   next->stream.open(next->file, run.command.has("append") ? std::ios::app : std::ios::trunc);
   if (!next->stream) throw Error(file.text + ": can't be written: " + std::strerror(errno ? errno : EIO));
   recording = std::move(next);
-}
-
-void keep_on_record(Session::Core& core, const Command& command) {
-  if (!core.recording) return;
-  // Of a journal played back its commands are recorded, each as it succeeds. 'quit' would end whoever plays this back.
-  for (const char* word : {"record", "playback", "quit", "exit"})
-    if (command.spec->name == word) return;
-  keep_on_record(core, command.statement);
-}
-
-void keep_on_record(Session::Core& core, const Statement& statement) {
-  if (!core.recording) return;
-  Recording& recording = *core.recording;
-  recording.stream << text_of(statement) << std::endl;
-  ++recording.n_commands;
-  if (recording.stream) return;
-  if (core.callbacks.notice) core.callbacks.notice(recording.file.string() + ": can't be written, recording has ended");
-  core.recording = nullptr;
 }
 
 }  // namespace hextwist

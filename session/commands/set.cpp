@@ -1,6 +1,6 @@
 #include <tbb/global_control.h>
 
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 

@@ -1,35 +1,15 @@
-// Blocks, node sets and side sets: block, nodeset, sideset, delete, reset.
+// block, nodeset, sideset.
 
 #include <algorithm>
 #include <iterator>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/sets.h"
 
 namespace hextwist {
 namespace {
-
-Mesh lists_of(const Mesh& mesh) {
-  Mesh lists;
-  lists.blocks = mesh.blocks;
-  lists.node_sets = mesh.node_sets;
-  lists.side_sets = mesh.side_sets;
-  return lists;
-}
-
-/// Calls f with the list of groups of a kind and their members (a pointer to member).
-template <class F>
-auto with_groups(Mesh& lists, EntityKind kind, F f) {
-  switch (kind) {
-    case EntityKind::block:
-      return f(lists.blocks, &Block::hexes);
-    case EntityKind::nodeset:
-      return f(lists.node_sets, &NodeSet::nodes);
-    default:
-      return f(lists.side_sets, &SideSet::sides);
-  }
-}
 
 EntityKind kind_of(const Command& command) {
   for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
@@ -141,10 +121,10 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
 
 }  // namespace
 
-void do_group(Execution& run) {
+void do_sets(Execution& run) {
   const Command& command = run.command;
   const EntityKind kind = kind_of(command);
-  const Mesh& mesh = run.state.meshed->mesh;
+  const Mesh& mesh = run.meshed->mesh;
   if (mesh.n_hexes() == 0) throw error_at(command.statement, command.items.front().token, "there is no mesh");
   if (const Item* type = command.find("type")) {
     if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
@@ -172,36 +152,6 @@ void do_group(Execution& run) {
   }
   run.change_sets(std::move(lists));
   run.say(line);
-}
-
-void do_delete(Execution& run) {
-  const Item& range = *run.command.find("range");
-  const std::vector<Index> positions = run.chosen(range);
-  if (range.kind == EntityKind::group) {
-    std::vector<Group> groups = *run.state.groups;
-    for (auto i = positions.rbegin(); i != positions.rend(); ++i) groups.erase(groups.begin() + *i);
-    run.state.groups = groups.empty() ? nullptr : std::make_shared<const std::vector<Group>>(std::move(groups));
-    return run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + " deleted");
-  }
-  Mesh lists = lists_of(run.state.meshed->mesh);
-  with_groups(lists, range.kind, [&](auto& groups, auto) {
-    for (auto i = positions.rbegin(); i != positions.rend(); ++i) groups.erase(groups.begin() + *i);
-  });
-  run.change_sets(std::move(lists));
-  run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + " deleted");
-}
-
-void do_reset(Execution& run) {
-  if (run.command.has("genesis")) return run.change_sets({});
-  for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
-    if (run.command.has(name(kind))) {
-      Mesh lists = lists_of(run.state.meshed->mesh);
-      with_groups(lists, kind, [](auto& groups, auto) { groups.clear(); });
-      return run.change_sets(std::move(lists));
-    }
-  static_cast<ModelState&>(run.state) = ModelState();
-  run.state.sizing.clear();
-  run.state.last_sizing.clear();
 }
 
 }  // namespace hextwist

@@ -1,9 +1,12 @@
 // Sizing functions by name: `sizing function ...`, `sizing field ...`.
 #include "hextwist/io/io.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
+
+/// How sizes grow from a source unless it is said, per unit of distance and plus one: the usual 1.5.
+constexpr double default_growth = 1.5;
 
 double growth_of(const Command& command) {
   const Item* growth = command.find("growth");
@@ -26,8 +29,9 @@ SizeFieldPtr from_field(const Execution& run) {
       auto mesh = std::make_shared<Mesh>(read_mesh(file->text).mesh);
       return field_size(std::move(mesh), field);
     }
-    if (run.state.meshed->mesh.hexes.empty()) throw Error("there is no mesh to take a field from");
-    return field_size(std::shared_ptr<const Mesh>(run.state.meshed, &run.state.meshed->mesh), field);
+    if (run.meshed->mesh.hexes.empty()) throw Error("there is no mesh to take a field from");
+    const std::shared_ptr<const MeshedModel> lent = run.meshed.lend();
+    return field_size(std::shared_ptr<const Mesh>(lent, &lent->mesh), field);
   } catch (const CommandError&) {
     throw;
   } catch (const Error& error) {
@@ -37,7 +41,7 @@ SizeFieldPtr from_field(const Execution& run) {
 
 SizeFieldPtr from_curvature(const Execution& run) {
   const Command& command = run.command;
-  const MeshedModel& meshed = *run.state.meshed;
+  const MeshedModel& meshed = *run.meshed;
   if (!meshed.model) throw Error("there is no CAD or mesh whose curvature could be asked for");
   std::vector<Owner> entities;
   if (const Item* range = command.find("range"))
@@ -53,7 +57,7 @@ SizeFieldPtr from_sources(const Execution& run) {
   const Item& range = *command.find("range");
   const EntityKind kind = range.kind;
   return growing_size(command.find("size")->number, growth_of(command),
-                      std::make_shared<TargetDistance>(*run.state.meshed, kind, targets_of(run, range)));
+                      std::make_shared<TargetDistance>(*run.meshed, kind, targets_of(run, range)));
 }
 
 SizeFieldPtr from_others(const Execution& run) {
@@ -78,7 +82,7 @@ SizeFieldPtr made(const Execution& run) {
   if (command.find("field")) return from_field(run);
   if (command.has("curvature")) return from_curvature(run);
   if (command.has("interval"))
-    return interval_size(*run.state.meshed, targets_of(run, *command.find("range")),
+    return interval_size(*run.meshed, targets_of(run, *command.find("range")),
                          static_cast<int>(command.find("n")->number), growth_of(command));
   if (command.has("linear")) return from_sources(run);
   if (command.has("minimum")) return from_others(run);

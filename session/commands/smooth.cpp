@@ -1,11 +1,11 @@
-// smooth, node ... position, and the schemes that CAD entities remember.
+// smooth, and the schemes that CAD entities remember.
 
 #include <algorithm>
-#include <iterator>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/smooth/smooth.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/load.h"
 
 namespace hextwist {
 namespace {
@@ -60,13 +60,13 @@ std::string arrow(double before, double after) {
 void do_smooth(Execution& run) {
   const Command& command = run.command;
   SessionState& state = run.state;
-  if (state.meshed->mesh.n_hexes() == 0)
+  if (run.meshed->mesh.n_hexes() == 0)
     throw error_at(command.statement, command.items.front().token, "there is no mesh to smooth");
   run.stage("select");
   const Item& range = *command.find("range");
   const auto targets = by_scheme(run, range.kind, run.chosen(range));
-  MeshedModel meshed = *state.meshed;
-  const MeshState before = state.mesh_state;
+  MeshedModel meshed = *run.meshed;
+  const Summary was = state.measured.shape;
   Index n_nodes = 0;
   int sweeps = 0;
   bool at_rest = true;
@@ -92,15 +92,14 @@ void do_smooth(Execution& run) {
     at_rest = at_rest && report.converged;
   }
   run.close_stage();
-  take_meshed(state, std::move(meshed));
-  const QualityRow &was = before.shape, &is = state.mesh_state.shape;
+  replace_and_measure(run, std::move(meshed));
+  const Summary& is = state.measured.shape;
   std::string line = text_of(command.statement) + ": " + counted(n_nodes, EntityKind::node) + ", " +
                      counted(sweeps, "sweep") + ", smallest shape " + arrow(was.min, is.min) + ", average " +
                      arrow(was.average, is.average);
-  if (state.off_cad.node >= 0)
-    line += ", nodes at most " + short_number(state.off_cad.max) + " off " + (state.has_cad ? "the CAD" : "the skin");
+  line += off_text(", ", state.measured.off_cad, state.has_cad);
   if (sweeps > 0 && !at_rest) line += "; more sweeps could still improve it";
-  run.say(line + ", " + short_number(run.record.seconds.back().seconds) + " s");
+  run.say(line + ", " + short_number(run.record().seconds.back().seconds) + " s");
 }
 
 void do_scheme(Execution& run) {
@@ -116,16 +115,6 @@ void do_scheme(Execution& run) {
   }
   run.state.schemes = std::make_shared<const std::vector<std::pair<Owner, SmoothScheme>>>(std::move(schemes));
   run.say(counted(static_cast<std::int64_t>(positions.size()), range.kind) + ": 'smooth' uses " + name(scheme));
-}
-
-void do_node(Execution& run) {
-  const std::vector<Index> nodes = run.chosen(*run.command.find("range"));
-  const std::vector<Index> old = run.state.fixed_nodes ? *run.state.fixed_nodes : std::vector<Index>();
-  std::vector<Index> fixed = run.command.has("fixed") ? union_of(old, nodes) : difference(old, nodes);
-  run.say(counted(static_cast<std::int64_t>(nodes.size()), EntityKind::node) +
-          (run.command.has("fixed") ? " fixed" : " free") + "; " + std::to_string(fixed.size()) + " of " +
-          std::to_string(run.state.meshed->mesh.n_nodes()) + " are fixed now");
-  run.state.fixed_nodes = fixed.empty() ? nullptr : std::make_shared<const std::vector<Index>>(std::move(fixed));
 }
 
 }  // namespace hextwist

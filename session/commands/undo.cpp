@@ -1,9 +1,10 @@
-// undo, redo, and what they stand on. What a step holds is decided in undo.cpp.
+// undo, redo, and `list undo`.
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
@@ -21,76 +22,96 @@ std::size_t n_steps(const Execution& run, const std::vector<Step>& steps, const 
   return static_cast<std::size_t>(said->number);
 }
 
-std::string mesh_text(const ModelState& state) {
-  const MeshState& mesh = state.mesh_state;
-  if (mesh.hexes == 0) return "no mesh";
-  return counted(mesh.hexes, EntityKind::hex) + ", " + counted(mesh.nodes, EntityKind::node) + ", smallest shape " +
-         short_number(state.mesh_state.shape.min);
+std::string mesh_text(const Mesh& mesh, const ModelState& state) {
+  if (mesh.n_hexes() == 0) return "no mesh";
+  return counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
+         ", smallest shape " + short_number(state.measured.shape.min);
 }
 
-/// travel() through small refinements alone, in place.
-void travel_splices(Execution& run, std::vector<Step>& from, std::vector<Step>& to, std::size_t n, const char* done) {
-  ModelState state = run.state;
-  std::vector<SpliceStep> splices;
+bool is_splice(const Step& step) {
+  return std::holds_alternative<SpliceChange>(step.mesh);
+}
+bool is_of_sets(const Step& step) {
+  return std::holds_alternative<SetsChange>(step.mesh);
+}
+
+/// The way through n steps from the end of a list: those that lead back, and where it ends.
+struct Way {
   std::vector<Step> back;
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Step& step = from[from.size() - 1 - i];
-    splices.push_back({step.splice(), step.forward()});
-    back.emplace_back(step.command(), state, step.splice(), !step.forward());
-    lines.push_back(std::string(done) + " '" + step.command() + "'");
-    state = step.state();
+  std::vector<std::pair<std::size_t, MeshHolder*>> whole;  // of those that lead back; theirs when all is said
+  MeshHolder* mesh;
+  ModelState state;
+};
+
+/// Small refinements and changes of sets: each changes the mesh of the session.
+void go_in_place(Execution& run, std::span<Step> steps, Way& way) {
+  for (Step& step : steps | std::views::reverse) {
+    if (const auto* splice = std::get_if<SpliceChange>(&step.mesh))
+      run.splice(*splice);
+    else
+      run.change_sets(sets_after(std::get<SetsChange>(step.mesh).sets, run.meshed->mesh));
+    way.back.emplace_back(step.command, step.state, way.state, std::move(*run.back));
+    if (is_splice(step)) way.state = step.state;  // that of sets is the same
   }
-  lines.back() += ": " + mesh_text(state);
-  to.reserve(to.size() + n);
-  run.splice(splices, std::move(state), lines);
-  // Nothing below throws.
-  std::ranges::move(back, std::back_inserter(to));
-  from.resize(from.size() - n);
+}
+
+/// Any: through meshes that are made one from the other.
+void go_by_copies(Execution& run, std::span<Step> steps, const char* verb, Way& way, MeshHolder& made) {
+  for (Step& step : steps | std::views::reverse) {
+    run.stage(verb);
+    MeshHolder next_made, *next = &next_made;
+    MeshChange back;
+    if (auto* whole = std::get_if<WholeMesh>(&step.mesh))
+      next = &whole->meshed;
+    else if (std::holds_alternative<SameMesh>(step.mesh))
+      next = way.mesh;
+    else
+      next_made = MeshHolder(changed(**way.mesh, step.mesh));
+    if (const auto* splice = std::get_if<SpliceChange>(&step.mesh))
+      back = SpliceChange{splice->splice, !splice->forward};
+    else if (next != way.mesh)
+      back = difference(**next, **way.mesh);
+    if (auto* whole = std::get_if<WholeMesh>(&back); whole && way.mesh == &made)
+      whole->meshed = std::move(made);
+    else if (whole)
+      way.whole.emplace_back(way.back.size(), way.mesh);
+    way.back.emplace_back(step.command, step.state, way.state, std::move(back));
+    if (next == &next_made) {
+      made = std::move(next_made);
+      next = &made;
+    }
+    way.mesh = next;
+    way.state = step.state;
+  }
 }
 
 /// Takes steps from the end of one list and puts those that lead back onto the other.
 void travel(Execution& run, std::vector<Step>& from, std::vector<Step>& to, const char* verb, const char* done) {
   run.is_history = true;
   const std::size_t n = n_steps(run, from, verb);
-  if (n == 1 && from.back().only_sets()) {
-    // Blocks and sets alone are exchanged in place, as they were changed.
-    to.reserve(to.size() + 1);
-    const std::string line = std::string(done) + " '" + from.back().command() + "'";
-    run.change_sets(sets_after(from.back().sets(), run.state.meshed->mesh));
-    run.step->swap_command(from.back());
-    to.push_back(std::move(*run.step));
-    run.step.reset();
-    from.pop_back();
-    return run.say(line);
-  }
-  const std::span<const Step> taken = std::span(from).last(n);
-  if (std::ranges::all_of(taken, [](const Step& step) { return step.splice() != nullptr; }))
-    return travel_splices(run, from, to, n, done);
-  ModelState state = run.state;
-  std::vector<Step> back;
-  for (std::size_t i = 0; i < n; ++i) {
-    run.stage(verb);
-    const Step& step = from[from.size() - 1 - i];
-    ModelState next = step.apply(state);
-    if (step.splice())
-      back.emplace_back(step.command(), state, step.splice(), !step.forward());
-    else
-      back.emplace_back(step.command(), next, state);
-    state = std::move(next);
+  const std::span<Step> steps = std::span(from).last(n);
+  MeshHolder made;
+  Way way{.back = {}, .whole = {}, .mesh = &run.core.meshed, .state = run.state};
+  way.back.reserve(n);
+  const bool only_sets = n == 1 && is_of_sets(steps[0]);
+  if (only_sets || std::ranges::all_of(steps, is_splice)) {
+    if (!only_sets) run.stage("splice");
+    go_in_place(run, steps, way);
+  } else {
+    go_by_copies(run, steps, verb, way, made);
   }
   to.reserve(to.size() + n);
-  std::vector<std::string> lines;
-  for (const Step& step : back) lines.push_back(std::string(done) + " '" + step.command() + "'");
+  run.close_stage();
+  for (std::size_t i = 0; i < n; ++i)
+    run.say(std::string(done) + " '" + way.back[i].command + "'" +
+            (i + 1 < n || only_sets ? "" : ": " + mesh_text((*way.mesh)->mesh, way.state)));
   // Nothing below throws.
-  std::ranges::move(back, std::back_inserter(to));
-  from.resize(from.size() - n);
-  static_cast<ModelState&>(run.state) = std::move(state);
-  lines.back() += ": " + mesh_text(run.state);
-  for (const std::string& line : lines) run.say(line);
+  for (const auto& [i, mesh] : way.whole) std::get<WholeMesh>(way.back[i].mesh).meshed = std::move(*mesh);
+  if (way.mesh != &run.core.meshed) run.core.exchange_mesh(std::move(*way.mesh));
+  static_cast<ModelState&>(run.state) = std::move(way.state);
+  std::ranges::move(way.back, std::back_inserter(to));
+  from.erase(from.end() - static_cast<std::ptrdiff_t>(n), from.end());
 }
-
-}  // namespace
 
 std::string bytes_text(std::size_t bytes) {
   if (bytes < 1000) return std::to_string(bytes) + " bytes";
@@ -100,30 +121,7 @@ std::string bytes_text(std::size_t bytes) {
                        : short_number(value / 1e9) + " GB";
 }
 
-void add_step(Session::Core& core, Step step) noexcept {
-  if (core.history.on) core.history.add(std::move(step));
-}
-
-void remember(Session::Core& core, const std::string& command, const ModelState& before) {
-  const ModelState& now = core.state;
-  if (!core.history.on) return;
-  if (now.meshed == before.meshed && now.fixed_nodes == before.fixed_nodes && now.schemes == before.schemes &&
-      now.groups == before.groups)
-    return;
-  core.history.undo.reserve(core.history.undo.size() + 1);
-  add_step(core, Step(command, now, before));
-}
-
-void Execution::change_sets(Mesh lists) {
-  // Somebody outside may look at the mesh: then a copy changes.
-  if (core.lent_mesh()) state.meshed = std::make_shared<MeshedModel>(*state.meshed);
-  // Built as const by nobody: see take_meshed() and accept_refined().
-  Mesh& mesh = const_cast<Mesh&>(state.meshed->mesh);
-  step.emplace(text_of(command.statement), state, sets_delta(lists, mesh));
-  mesh.blocks.swap(lists.blocks);
-  mesh.node_sets.swap(lists.node_sets);
-  mesh.side_sets.swap(lists.side_sets);
-}
+}  // namespace
 
 void switch_undo(Execution& run, bool on) {
   History& history = run.core.history;
@@ -152,8 +150,8 @@ void list_undo(Execution& run) {
     // The one that comes next first.
     for (std::size_t i = 0; i < steps->size(); ++i) {
       const Step& step = (*steps)[steps->size() - 1 - i];
-      run.say(std::string(verb) + " " + std::to_string(i + 1) + ": " + step.command() + " (" +
-              bytes_text(step.bytes()) + ")");
+      run.say(std::string(verb) + " " + std::to_string(i + 1) + ": " + step.command + " (" + bytes_text(step.bytes) +
+              ")");
     }
   }
   run.say("together " + bytes_text(history.bytes()) + ", at most " + bytes_text(history.limit) + " are kept");

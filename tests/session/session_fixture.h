@@ -28,11 +28,12 @@ struct Fixture {
   std::vector<std::string> output, notices, errors;
   bool go_on = true;
 
-  Fixture() {
-    session.set_callbacks({.output = [this](const std::string& line) { output.push_back(line); },
-                           .notice = [this](const std::string& line) { notices.push_back(line); },
-                           .error = [this](const CommandError& error) { errors.emplace_back(error.what()); },
-                           .progress = [this](const char*, double) { return go_on; }});
+  Fixture() { session.set_callbacks(callbacks()); }
+  SessionCallbacks callbacks() {
+    return {.output = [this](const std::string& line) { output.push_back(line); },
+            .notice = [this](const std::string& line) { notices.push_back(line); },
+            .error = [this](const CommandError& error) { errors.emplace_back(error.what()); },
+            .progress = [this](const char*, double) { return go_on; }};
   }
 
   std::string error(std::string_view text) {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "hextwist/session/history_internal.h"
+#include "hextwist/session/history.h"
 #include "session/session_fixture.h"
 #include "support/checkers.h"
 

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "hextwist/base/sorted.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
@@ -48,7 +48,7 @@ std::string members_text(const Selector& selector, const Group& group) {
   return result.empty() ? "empty" : result;
 }
 
-void do_named_group(Execution& run) {
+void do_group(Execution& run) {
   const Command& command = run.command;
   std::vector<Group> groups = run.state.groups ? *run.state.groups : std::vector<Group>();
   const Selector selector = run.core.selector();
@@ -68,18 +68,6 @@ void do_named_group(Execution& run) {
   }
   run.say("group " + std::to_string(group.id) + " '" + printable(group.name) + "': " + members_text(selector, group));
   run.state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
-}
-
-void forget_members(ModelState& state, bool also_cad) {
-  if (!state.groups || also_cad) {
-    state.groups = nullptr;
-    return;
-  }
-  std::vector<Group> groups = *state.groups;
-  for (Group& group : groups)
-    for (int k = 0; k < n_entity_kinds; ++k)
-      if (!is_cad(static_cast<EntityKind>(k))) group.members[k].clear();
-  state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
 }
 
 }  // namespace hextwist

@@ -1,12 +1,10 @@
-// A mesh that comes in with inverted hexes.
-
 #include <algorithm>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "hextwist/session/session_internal.h"
+#include "hextwist/session/untangle.h"
 
 namespace hextwist {
 namespace {
@@ -16,7 +14,7 @@ constexpr int sweeps_after = 10;  // so that hexes are not only just right
 constexpr int max_sweeps = 300;
 
 /// True when no hex is inverted any more.
-bool untangle(const Execution& run, Mesh& mesh, Association& association, const Model* model,
+bool untangle(const Transaction& run, Mesh& mesh, Association& association, const Model* model,
               const std::vector<Index>& around, bool boundary) {
   SmoothOptions options;
   options.scheme = SmoothScheme::untangle;
@@ -56,7 +54,7 @@ std::vector<Index> inverted_among(const std::vector<Violation>& violations) {
   return result;
 }
 
-bool untangle_mesh(const Execution& run, Mesh& mesh, Association& association, const Model* model,
+bool untangle_mesh(const Transaction& run, Mesh& mesh, Association& association, const Model* model,
                    const std::vector<Index>& inverted, bool boundary) {
   std::vector<Index> all(mesh.hexes.size());
   for (Index h = 0; h < mesh.n_hexes(); ++h) all[h] = h;

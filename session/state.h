@@ -1,4 +1,4 @@
-// What a session holds.
+// What a session holds beside its mesh.
 #pragma once
 
 #include <filesystem>
@@ -10,24 +10,21 @@
 
 #include "hextwist/command/group.h"
 #include "hextwist/mesh/smooth/smooth.h"
-#include "hextwist/session/session.h"
+#include "hextwist/patch/verify.h"
 #include "hextwist/sizing/fields/size_field.h"
 
 namespace hextwist {
 
 enum class Glue { automatic, on, off };
 
-/// Mesh and model: what commands change and `undo` brings back. The heavy parts are shared and never changed in place
-/// but as the last thing that a command does (Execution::change_sets, Execution::splice).
+/// What is known of mesh and model, and is brought back with them by `undo`. Cheap to copy: the heavy parts are shared
+/// and never change.
 struct ModelState {
-  std::shared_ptr<const MeshedModel> meshed = std::make_shared<MeshedModel>();
   std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
   std::filesystem::path cad_file;           ///< empty: the model did not come from a file
   bool has_cad = false;                     ///< false: no model, or the skin of the mesh
   bool glued = false;
-  MeshState mesh_state;
-  OffModel off_cad;
-  std::shared_ptr<const Extremes> extremes;  ///< of the mesh; null: not known
+  Measured measured;
   double cad_volume = 0;
   /// Nodes that smoothing leaves where they are, ascending; null: none.
   std::shared_ptr<const std::vector<Index>> fixed_nodes;
@@ -36,7 +33,7 @@ struct ModelState {
   std::shared_ptr<const std::vector<Group>> groups;  ///< by ascending id; null: none
 };
 
-/// Everything that a command may change; copied before each, so that a failure can put it back.
+/// All but the mesh that a command may change; copied before each, so that a failure can put it back.
 struct SessionState : ModelState {
   /// Sizing functions by name, and the one that was defined last.
   struct NamedSize {

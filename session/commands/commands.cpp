@@ -1,0 +1,48 @@
+#include "hextwist/session/commands/commands.h"
+
+#include <map>
+
+namespace hextwist {
+namespace {
+
+using Function = void (*)(Execution&);
+
+Function function_of(std::string_view command) {
+  static const std::map<std::string_view, Function> functions = {
+      {"block", do_sets},    {"check", do_check},       {"create", do_create},   {"curve", do_scheme},
+      {"delete", do_delete}, {"draw", do_draw},         {"exit", do_quit},       {"export", do_export},
+      {"group", do_group},   {"help", do_help},         {"import", do_import},   {"list", do_list},
+      {"node", do_node},     {"nodeset", do_sets},      {"quality", do_quality}, {"quit", do_quit},
+      {"record", do_record}, {"playback", do_playback}, {"redo", do_redo},       {"refine", do_refine},
+      {"reset", do_reset},   {"set", do_set},           {"sideset", do_sets},    {"smooth", do_smooth},
+      {"sizing", do_sizing}, {"surface", do_scheme},    {"undo", do_undo},       {"volume", do_scheme},
+  };
+  return functions.at(command);
+}
+
+}  // namespace
+
+void execute(Execution& run) {
+  const std::string_view name = run.command.spec->name;
+  run.record().command = text_of(run.command.statement);
+  run.is_playback = name == "playback";
+  // Of a journal played back its commands are recorded, each as it succeeds. 'quit' would end whoever plays this back.
+  run.is_journaled = !run.is_playback && name != "record" && name != "quit" && name != "exit";
+  function_of(name)(run);
+}
+
+std::vector<Index> Execution::chosen(const Item& range) const {
+  std::vector<std::string> notices;
+  std::vector<Index> result = select(core.selector(), command.statement, range.kind, range.range, notices);
+  for (const std::string& line : notices) note(line);
+  if (result.empty())
+    throw error_at(command.statement, range.range.token, "this names no " + std::string(name(range.kind)));
+  return result;
+}
+
+void note_ignored(const Execution& run, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (run.command.has(word)) run.note("'" + std::string(word) + "' changes nothing here");
+}
+
+}  // namespace hextwist

@@ -1,0 +1,65 @@
+// The functions behind the commands, and what they share.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hextwist/command/syntax.h"
+#include "hextwist/session/transaction.h"
+
+namespace hextwist {
+
+/// One command on its way: where its function finds and leaves things.
+struct Execution : Transaction {
+  Execution(Session::Core& session, const Command& said)
+      : Transaction(session, text_of(said.statement), &said.statement), command(said) {}
+
+  const Command& command;
+
+  /// Positions chosen by the command's range. Throws when there are none.
+  std::vector<Index> chosen(const Item& range) const;
+};
+
+/// Does what the command says, by one of these. Each throws Error when it can't do what was asked.
+void execute(Execution& run);
+void do_check(Execution& run);
+void do_create(Execution& run);
+void do_delete(Execution& run);
+void do_draw(Execution& run);
+void do_export(Execution& run);
+void do_group(Execution& run);
+void do_help(Execution& run);
+void do_import(Execution& run);
+void do_list(Execution& run);
+void do_node(Execution& run);
+void do_playback(Execution& run);
+void do_quality(Execution& run);
+void do_quit(Execution& run);
+void do_record(Execution& run);
+void do_redo(Execution& run);
+void do_refine(Execution& run);
+void do_reset(Execution& run);
+void do_scheme(Execution& run);
+void do_set(Execution& run);
+void do_sets(Execution& run);
+void do_sizing(Execution& run);
+void do_smooth(Execution& run);
+void do_undo(Execution& run);
+
+/// Says that words were understood and change nothing here.
+void note_ignored(const Execution& run, std::initializer_list<const char*> words);
+/// group.cpp: "2 curves, 1 surface"
+std::string members_text(const Selector& selector, const Group& group);
+/// quality.cpp: the metrics that were said in the option which begins with that word (Item::option); shape where none
+/// was.
+std::vector<Metric> metrics_said(const Command& command, std::string_view option);
+/// sizing.cpp: a sizing function typed as an expression, where the error points into it. One by name.
+SizeFieldPtr typed_size(const Command& command, const Item& expression);
+SizeFieldPtr named_size(const Execution& run, const Item& name);
+/// undo.cpp: `list undo`. Switching undo off forgets all steps.
+void list_undo(Execution& run);
+void switch_undo(Execution& run, bool on);
+
+}  // namespace hextwist

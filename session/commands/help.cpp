@@ -1,0 +1,17 @@
+#include "hextwist/session/commands/commands.h"
+
+namespace hextwist {
+
+void do_help(Execution& run) {
+  const Item* command = run.command.find("command");
+  std::string text;
+  try {
+    text = command ? help(command->text) : help();
+  } catch (const Error& error) {
+    throw error_at(run.command.statement, command->token, error.what());
+  }
+  while (text.ends_with('\n')) text.pop_back();
+  run.say(text);
+}
+
+}  // namespace hextwist

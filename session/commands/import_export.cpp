@@ -1,0 +1,122 @@
+// Everything that brings a mesh or a model into a session from a file, or out of it.
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "hextwist/io/io.h"
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/load.h"
+#include "hextwist/sizing/stages.h"
+
+namespace hextwist {
+namespace {
+
+/// Extensions that belong to a format's word; empty: any.
+std::string_view extensions_of(std::string_view word, bool writing) {
+  if (word == "exodus") return ".e .exo .g .gen";
+  if (word == "genesis") return ".g .gen .e .exo";
+  if (word == "gmsh") return ".msh";
+  if (word == "vtk") return writing ? ".vtu" : ".vtk .vtu";
+  if (word == "abaqus") return ".inp";
+  if (word == "medit") return ".mesh";
+  if (word == "step") return ".step .stp";
+  if (word == "brep") return ".brep";
+  if (word == "iges") return ".iges .igs";
+  return "";
+}
+
+/// The format goes by the extension; a word that says otherwise is a mistake worth pointing out.
+void check_extension(const Execution& run, const Item& word, const Item& file, bool writing) {
+  const std::string_view known = extensions_of(word.name, writing);
+  const std::string extension = lower_extension(file.text);
+  if (known.empty()) return;
+  const std::string padded = std::string(known) + " ";
+  if (!extension.empty() && padded.find(extension + " ") != std::string::npos) return;
+  throw error_at(run.command.statement, file.token,
+                 word.name + " files end in " + std::string(known) + " here, not in '" + printable(extension) + "'");
+}
+
+/// Only all blocks can be read or written.
+void check_blocks(const Execution& run) {
+  const Item* blocks = run.command.find("blocks");
+  if (!blocks) return;
+  const auto& [items, filters, token] = blocks->range;
+  if (items.size() != 1 || items[0].kind != RangeItem::Kind::all || !filters.empty())
+    throw error_at(run.command.statement, token, "all blocks are read and written together: say 'all'");
+}
+
+std::string model_text(const Model& model) {
+  std::string line;
+  for (int dim = 3; dim >= 0; --dim)
+    line += (dim == 3 ? "" : ", ") +
+            counted(model.count(dim), static_cast<EntityKind>(static_cast<int>(EntityKind::vertex) + dim));
+  return line;
+}
+
+void import_mesh(Execution& run, const std::filesystem::path& file) {
+  run.stage("read mesh");
+  MeshFile read = read_mesh(file);
+  for (const std::string& line : read.notices) run.note(line);
+  load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
+  run.state.tags = std::make_shared<const Association>(std::move(read.tags));
+  say_mesh(run, file.string());
+}
+
+void import_cad(Execution& run, const std::filesystem::path& file) {
+  SessionState& state = run.state;
+  state.glued = state.glue == Glue::on;
+  auto model = read_model(run, file, state.glued);
+  state.has_cad = true;
+  state.cad_file = file;
+  const std::string line = file.string() + ": " + model_text(*model);
+  if (run.meshed->mesh.n_hexes() == 0) {
+    replace_and_measure(run, {{}, std::move(model), {}});
+    return run.say(line);
+  }
+  try {
+    load_mesh(run, run.meshed->mesh, std::move(model), state.tags.get(), "the mesh");
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + " ('reset' drops the mesh before other CAD is read)");
+  }
+  run.say(line);
+  say_mesh(run, "the mesh on it");
+}
+
+}  // namespace
+
+void do_import(Execution& run) {
+  check_blocks(run);
+  note_ignored(run, {"heal", "noheal", "no_heal", "no_geom", "attributes_on", "attributes_off", "separate_bodies"});
+  const double feature_angle = run.state.feature_angle;
+  // Between the faces there, not by how much they turn.
+  if (const Item* angle = run.command.find("angle")) run.state.feature_angle = 180 - angle->number;
+  const Item& word = run.command.items.at(1);
+  const Item& file = *run.command.find("file");
+  check_extension(run, word, file, false);
+  constexpr std::array<std::string_view, 4> cad = {"geometry", "step", "brep", "iges"};
+  const bool is_cad = std::ranges::find(cad, word.name) != cad.end();
+  forget_members(run.state, is_cad || !run.state.has_cad);
+  if (is_cad)
+    import_cad(run, file.text);
+  else
+    import_mesh(run, file.text);
+  run.state.feature_angle = feature_angle;
+}
+
+void do_export(Execution& run) {
+  check_blocks(run);
+  const Item& word = run.command.items.at(1);
+  const Item& file = *run.command.find("file");
+  check_extension(run, word, file, true);
+  const MeshedModel& meshed = *run.meshed;
+  if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
+  run.stage("write");
+  write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association,
+             {.overwrite = run.command.has("overwrite")});
+  run.say(file.text + ": " + counted(meshed.mesh.n_hexes(), EntityKind::hex) + " written");
+}
+
+}  // namespace hextwist

@@ -1,0 +1,20 @@
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/sets.h"
+
+namespace hextwist {
+
+void do_reset(Execution& run) {
+  if (run.command.has("genesis")) return run.change_sets({});
+  for (const EntityKind kind : {EntityKind::block, EntityKind::nodeset, EntityKind::sideset})
+    if (run.command.has(name(kind))) {
+      Mesh lists = lists_of(run.meshed->mesh);
+      with_groups(lists, kind, [](auto& groups, auto) { groups.clear(); });
+      return run.change_sets(std::move(lists));
+    }
+  static_cast<ModelState&>(run.state) = ModelState();
+  run.replace({});
+  run.state.sizing.clear();
+  run.state.last_sizing.clear();
+}
+
+}  // namespace hextwist

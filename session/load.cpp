@@ -1,0 +1,197 @@
+#include "hextwist/session/load.h"
+
+#include <algorithm>
+#include <set>
+
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/union_find.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/validate/validate.h"
+#include "hextwist/session/untangle.h"
+#include "hextwist/sizing/stages.h"
+
+namespace hextwist {
+namespace {
+
+/// Pieces of a mesh that share no node.
+int n_pieces(const Mesh& mesh) {
+  const std::vector<Index> all = indices_where(mesh.n_hexes(), [](Index) { return true; });
+  return static_cast<int>(connected_regions(mesh, all).size());
+}
+
+/// Pieces of a model whose volumes share no surface, curve or vertex.
+int n_pieces(const Model& model) {
+  std::vector<Index> parent = singletons(model.count(3) + 1);
+  for (int dim = 0; dim < 3; ++dim)
+    for (int id = 1; id <= model.count(dim); ++id) {
+      const std::vector<int> volumes = model.adjacent({dim, id}, 3);
+      for (const int volume : volumes) join(parent, volumes.front(), volume);
+    }
+  std::set<Index> roots;
+  for (int id = 1; id <= model.count(3); ++id) roots.insert(find_root(parent, id));
+  return static_cast<int>(roots.size());
+}
+
+/// On the model, or on its own skin where that is null.
+MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
+  const Interruptible interruptible([&] {
+    const auto& progress = run.core.callbacks.progress;
+    if (progress && !progress("associate", 0)) throw Cancelled();
+  });
+  if (!model) {
+    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
+    return {std::move(mesh), std::move(result.model), std::move(result.association)};
+  }
+  const Association* usable = tags && !tags->empty() ? tags : nullptr;
+  AssociateResult result = associate(mesh, *model, usable, {.relative_tolerance = run.state.tolerance});
+  for (const std::string& line : result.notices) run.note(line);
+  return {std::move(mesh), std::move(model), std::move(result.association)};
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue) {
+  run.stage("read CAD");
+  CadImport read = read_cad(file, {.glue = glue});
+  for (const std::string& line : read.notices) run.note(line);
+  return read.model;
+}
+
+void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
+               const std::string& what) {
+  SessionState& state = run.state;
+  run.stage("check mesh");
+  if (mesh.n_hexes() == 0) throw Error(what + ": there are no hexes");
+  const std::vector<Violation> violations = [&] {
+    // Indices first: nothing else may be asked of a mesh that names nodes it does not have.
+    const bool sound = std::ranges::all_of(mesh.hexes, [&](const Hex& hex) {
+      return std::ranges::all_of(hex, [&](Index node) { return node >= 0 && node < mesh.n_nodes(); });
+    });
+    if (sound) {
+      const OrientationRepair repair = repair_orientation(mesh);
+      if (!repair.notice.empty()) run.note(what + ": " + repair.notice);
+    }
+    return validate(mesh);
+  }();
+  const std::vector<Index> inverted = inverted_among(violations);
+  const std::vector<Vec3> points_before = inverted.empty() ? std::vector<Vec3>() : mesh.points;
+  bool tangled = !inverted.empty();
+  if (tangled && state.untangle) {
+    run.stage("untangle");
+    Association nobody;
+    tangled = !untangle_mesh(run, mesh, nobody, nullptr, inverted, false);
+  }
+  const std::string wrong =
+      record_violations(run.record(), mesh, inverted.empty() || tangled ? violations : validate(mesh));
+  if (!wrong.empty() && !(tangled && state.untangle)) throw Error(what + ": " + wrong);
+  if (!run.record().warnings.empty())
+    run.note(what + ": " + counted(static_cast<std::int64_t>(run.record().warnings.size()), "warning") +
+             ", the first: " + run.record().warnings.front().text);
+
+  if (model && !state.glued && state.glue == Glue::automatic && !state.cad_file.empty() && model->count(3) > 1) {
+    const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
+    if (in_mesh < in_model) {
+      run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" + counted(in_mesh, "piece") +
+               " of mesh, " + std::to_string(in_model) + " of CAD): reading it again with touching solids glued");
+      model = read_model(run, state.cad_file, true);
+      state.glued = true;
+    }
+  }
+  run.stage("associate");
+  MeshedModel result;
+  try {
+    result = associated(run, std::move(mesh), std::move(model), tags);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    if (!tangled) throw;
+    throw Error(what + ": " + wrong + "; untangling did not help (" + error.what() + ")");
+  }
+  if (tangled) {
+    // Nodes inside volumes were not enough: those on curves and surfaces slide too, now that these are known.
+    run.stage("untangle");
+    if (!untangle_mesh(run, result.mesh, result.association, result.model.get(), inverted, true))
+      throw Error(what + ": " + wrong + "; untangling did not help");
+    const std::string left = record_violations(run.record(), result.mesh, validate(result.mesh));
+    if (!left.empty()) throw Error(what + ": " + left + " (after untangling)");
+  }
+  if (!inverted.empty()) run.note(what + ": " + untangled_text(result.mesh, points_before, inverted));
+  replace_and_measure(run, std::move(result));
+}
+
+void load_meshed(Transaction& run, MeshedModel meshed) {
+  run.stage("check mesh");
+  const std::vector<Violation> violations = validate(meshed.mesh);
+  std::string wrong = record_violations(run.record(), meshed.mesh, violations);
+  if (const auto inverted = inverted_among(violations); !inverted.empty() && run.state.untangle) {
+    run.stage("untangle");
+    const std::vector<Vec3> before = meshed.mesh.points;
+    record_violations(run.record(), meshed.mesh, {});
+    if (untangle_mesh(run, meshed.mesh, meshed.association, meshed.model.get(), inverted, true)) {
+      wrong = record_violations(run.record(), meshed.mesh, validate(meshed.mesh));
+      run.note(untangled_text(meshed.mesh, before, inverted));
+    } else {
+      wrong += "; untangling did not help";
+    }
+  }
+  if (!wrong.empty()) throw Error(wrong);
+  if (const auto broken = check_association(meshed.mesh, meshed.association, *meshed.model); !broken.empty())
+    throw Error(broken.front());
+  replace_and_measure(run, std::move(meshed));
+}
+
+void replace_and_measure(Transaction& run, MeshedModel meshed) {
+  run.state.measured = meshed.mesh.n_hexes() > 0 ? measured(meshed) : Measured();
+  run.state.cad_volume = 0;
+  if (meshed.model)
+    for (int id = 1; id <= meshed.model->count(3); ++id) run.state.cad_volume += meshed.model->measure({3, id});
+  run.replace(std::move(meshed));
+}
+
+void take_measured(Transaction& run, const Report& report) {
+  run.state.measured = measured_after(report);
+  run.state.tags = nullptr;
+  if (report.off_nodes.empty()) return;
+  const auto worst = std::ranges::max_element(report.off_nodes, {}, &OffOwner::distance);
+  run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +
+           " could not be put where they belong; the worst is node " +
+           std::to_string(node_id(run.meshed->mesh, worst->node)) + ", " + short_number(worst->distance) + " from " +
+           to_string(worst->owner));
+}
+
+void accept_refined(Transaction& run, MeshedModel refined, const Report& report) {
+  const std::string wrong = record_violations(run.record(), refined.mesh, report.violations);
+  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
+  run.replace(std::move(refined));
+  take_measured(run, report);
+}
+
+void forget_members(ModelState& state, bool also_cad) {
+  if (!state.groups || also_cad) {
+    state.groups = nullptr;
+    return;
+  }
+  std::vector<Group> groups = *state.groups;
+  for (Group& group : groups)
+    for (int k = 0; k < n_entity_kinds; ++k)
+      if (!is_cad(static_cast<EntityKind>(k))) group.members[k].clear();
+  state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
+}
+
+void say_mesh(const Transaction& run, const std::string& what) {
+  const Mesh& mesh = run.meshed->mesh;
+  std::string line =
+      what + ": " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node);
+  if (!mesh.blocks.empty()) line += ", " + counted(static_cast<std::int64_t>(mesh.blocks.size()), EntityKind::block);
+  if (!mesh.node_sets.empty())
+    line += ", " + counted(static_cast<std::int64_t>(mesh.node_sets.size()), EntityKind::nodeset);
+  if (!mesh.side_sets.empty())
+    line += ", " + counted(static_cast<std::int64_t>(mesh.side_sets.size()), EntityKind::sideset);
+  const Summary& shape = run.state.measured.shape;
+  line += "; smallest shape " + short_number(shape.min) + " (hex " + std::to_string(hex_id(mesh, shape.min_hex)) + ")";
+  run.say(line + off_text("; ", run.state.measured.off_cad, run.state.has_cad));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,33 @@
+// How a mesh gets into a session.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hextwist/session/transaction.h"
+
+namespace hextwist {
+
+std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue);
+
+/// Repairs, checks and associates a mesh, and makes it that of the session. model: null, then its own skin. tags: what
+/// is known of the association; may be null. what: what messages call the mesh.
+void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
+               const std::string& what);
+/// The same for an association that is complete.
+void load_meshed(Transaction& run, MeshedModel meshed);
+/// Makes it the mesh of the session: checks nothing, measures everything that the records want.
+void replace_and_measure(Transaction& run, MeshedModel meshed);
+
+/// The result of a refinement becomes the mesh of the session, unless it is no good: then throws Error.
+void accept_refined(Transaction& run, MeshedModel refined, const Report& report);
+/// What the engine measured of a result that is the mesh of the session by now.
+void take_measured(Transaction& run, const Report& report);
+
+/// Takes members out of all groups that mean nothing for a new mesh, or drops the groups where the CAD is new too.
+void forget_members(ModelState& state, bool also_cad);
+
+/// The line that tells of a mesh that came in.
+void say_mesh(const Transaction& run, const std::string& what);
+
+}  // namespace hextwist
