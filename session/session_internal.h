@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hextwist/base/text.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/expression.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/command/syntax.h"
@@ -26,7 +27,7 @@ struct Recording {
   std::int64_t n_commands = 0;
 };
 
-struct Session::Core {
+struct [[gnu::visibility("hidden")]] Session::Core {
   SessionState state;
   SessionCallbacks callbacks;
   bool keep_going = false;

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "hextwist/mesh/quality/histogram.h"
-#include "hextwist/patch/refine.h"
+#include "hextwist/patch/refine_known.h"
 #include "hextwist/patch/verify.h"
 #include "hextwist/session/session_internal.h"
 #include "hextwist/sizing/targets.h"

@@ -1,6 +1,7 @@
 // Sizing functions by name: `sizing function ...`, `sizing field ...`.
 #include "hextwist/io/io.h"
 #include "hextwist/session/session_internal.h"
+#include "hextwist/sizing/fields/growing.h"
 
 namespace hextwist {
 namespace {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "hextwist/geom/analytic_model.h"
+#include "hextwist/sizing/levels.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"

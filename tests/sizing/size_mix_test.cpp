@@ -6,7 +6,7 @@
 
 #include "hextwist/geom/analytic_model.h"
 #include "hextwist/patch/refine.h"
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/targets.h"
 #include "support/checkers.h"
 #include "support/grids.h"
