@@ -48,10 +48,7 @@ void grow_large(std::vector<T>& list, std::size_t n) {
 template <class F>
 void fill_ranges(std::size_t n, F&& f) {
   constexpr std::size_t grain = 1 << 15;
-  if (n <= grain) return f(std::size_t{0}, n);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& range) { f(range.begin(), range.end()); },
-      tbb::static_partitioner());
+  detail::run_ranges<std::size_t>(n, grain, detail::Cut::one_stretch_each, f);
 }
 
 /// list.resize(n, value), written on all threads.

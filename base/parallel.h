@@ -1,11 +1,6 @@
 // Loops over index ranges on all threads, and the fixed chunks that make sums independent of their number.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -20,19 +15,30 @@
 namespace hextwist {
 
 /// Threads available to a loop: for deciding how to divide work. Results must not depend on it.
-inline int n_threads() {
-  const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(limit)));
+int n_threads();
+
+namespace detail {
+
+/// One loop for all bodies: oneTBB and the body are compiled once, and not each for the other. n <= grain: one piece,
+/// and no thread is asked.
+enum class Cut { as_needed, one_stretch_each };
+using RangeBody = void (*)(const void* context, std::size_t begin, std::size_t end);
+void run_ranges(std::size_t n, std::size_t grain, Cut cut, const void* context, RangeBody body);
+
+/// Calls f(begin, end), of type I.
+template <class I, class F>
+void run_ranges(std::size_t n, std::size_t grain, Cut cut, F& f) {
+  run_ranges(n, grain, cut, std::addressof(f), [](const void* context, std::size_t begin, std::size_t end) {
+    (*static_cast<F*>(const_cast<void*>(context)))(static_cast<I>(begin), static_cast<I>(end));
+  });
 }
+
+}  // namespace detail
 
 /// Calls f(begin, end) for pieces of 0..n, on all threads. What f writes must not depend on how the range is cut.
 template <class F>
 void parallel_ranges(Index n, F&& f, Index grain = 2048) {
-  if (n <= grain) {
-    if (n > 0) f(Index{0}, n);
-    return;
-  }
-  tbb::parallel_for(tbb::blocked_range<Index>(0, n, grain), [&](const auto& range) { f(range.begin(), range.end()); });
+  detail::run_ranges<Index>(static_cast<std::size_t>(n), static_cast<std::size_t>(grain), detail::Cut::as_needed, f);
 }
 
 /// Calls f(i) for every i in 0..n, on all threads. What f writes must not depend on the order.

@@ -6,7 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-namespace hextwist {
+#include "hextwist/base/export.h"
+
+namespace HEXTWIST_API hextwist {
 
 /// A point or vector in model units.
 using Vec3 = Eigen::Vector3d;

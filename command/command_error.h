@@ -4,9 +4,8 @@
 #include <string>
 
 #include "hextwist/base/types.h"
-#include "hextwist/command/token.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// what() is the message and, where a word is to blame, the line with a caret under that word:
 ///
@@ -28,14 +27,5 @@ class CommandError : public Error {
   std::string message_;
   int line_, column_;
 };
-
-/// The error for one token of a statement, caret included.
-CommandError error_at(const Statement& statement, const Token& token, const std::string& message);
-
-/// The error for a command that could not be done although every word was right: one line.
-CommandError error_in(const Statement& statement, const std::string& message);
-
-/// Text from users inside a message: control characters and broken UTF-8 become '?', long text is cut.
-std::string printable(std::string_view text, std::size_t max_bytes = 60);
 
 }  // namespace hextwist

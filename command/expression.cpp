@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "hextwist/base/text.h"
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/command/written.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hextwist/base/text.h"
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/select/range.h"
 #include "hextwist/command/token.h"
 

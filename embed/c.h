@@ -40,6 +40,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
 typedef struct hextwist_session hextwist_session;
 typedef struct hextwist_mesh hextwist_mesh;
@@ -194,6 +197,9 @@ hextwist_status hextwist_adapt_flags(hextwist_session* session, const uint8_t* f
 hextwist_status hextwist_adapt_sizes(hextwist_session* session, const double* sizes, int64_t n,
                                      const hextwist_adapt_options* options, int32_t** origin);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -18,7 +18,7 @@
 
 #include "hextwist/embed/gmsh_exchange.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Takes the mesh, runs the commands in a session and puts the mesh back. Throws Error (CommandError for a command);
 /// Gmsh's model is then as it was.

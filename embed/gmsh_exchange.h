@@ -9,7 +9,7 @@
 
 #include "hextwist/session/session.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// One entity with the part of the mesh that is classified on it, as gmsh::model::mesh::getNodes() (boundary left out,
 /// parametric coordinates asked for) and getElements() give them and addNodes() and addElements() take them.

@@ -17,7 +17,7 @@
 #include "hextwist/base/types.h"
 #include "hextwist/geom/owner.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Parameter interval of a curve; period 0 means not closed. For a closed curve last - first == period.
 struct CurveRange {

@@ -8,7 +8,7 @@
 
 #include "hextwist/base/types.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// One entity of the CAD: dim 0 vertex, 1 curve, 2 surface, 3 volume; id 1-based per dim.
 /// The default value means "no owner".

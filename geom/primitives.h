@@ -5,7 +5,7 @@
 
 #include "hextwist/geom/occ/model.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Sides along x, y and z.
 struct BrickShape {

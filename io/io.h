@@ -26,7 +26,7 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// What a mesh file says: the mesh, which entities its tags name as owners (partial, unchecked; empty() when the
 /// format has none), and remarks, one line each ("dropped 40 quads that are no side of a hex", ...).

@@ -10,7 +10,7 @@
 
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 inline constexpr int n_hex_corners = 8;
 inline constexpr int n_hex_edges = 12;

@@ -4,7 +4,9 @@
 #include <optional>
 #include <string_view>
 
-namespace hextwist {
+#include "hextwist/base/export.h"
+
+namespace HEXTWIST_API hextwist {
 
 enum class EntityKind { node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset, sheet, group };
 inline constexpr int n_entity_kinds = 13;

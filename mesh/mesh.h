@@ -9,7 +9,7 @@
 
 #include "hextwist/base/types.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Corner c lies at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube (see corners.h). Positive volume when that
 /// frame is right-handed.

@@ -7,7 +7,7 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
 struct MeshedModel {

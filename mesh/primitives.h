@@ -5,7 +5,7 @@
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Cells along x, y and z.
 struct BrickIntervals {

@@ -13,7 +13,7 @@
 
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 using Edge = std::array<Index, 2>;  ///< nodes, lower first
 using Quad = std::array<Index, 4>;  ///< nodes; bit frame or cycle, as the context says

@@ -5,6 +5,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/patch/refine.h"
 #include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/levels.h"
 
 namespace hextwist {
 namespace {

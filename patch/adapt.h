@@ -8,11 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "hextwist/sizing/levels.h"
 #include "hextwist/sizing/report.h"
 #include "hextwist/sizing/request.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 struct AdaptOptions {
   /// Cut more hexes than flagged, so that none has a neighbour (that shares a node) of a level more than one below its

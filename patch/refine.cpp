@@ -1,4 +1,4 @@
-#include "hextwist/patch/refine.h"
+#include "hextwist/patch/refine_known.h"
 
 #include "hextwist/base/memory.h"
 #include "hextwist/patch/patch_refine.h"

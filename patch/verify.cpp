@@ -12,7 +12,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/mesh/validate/validate_internal.h"
+#include "hextwist/mesh/validate/validate_parts.h"
 #include "hextwist/patch/verify_internal.h"
 
 namespace hextwist {

@@ -1,8 +1,5 @@
 #include "hextwist/refine/marks.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
@@ -39,9 +36,8 @@ const CornerTable& corner_table() {
 std::vector<std::uint16_t> trisect_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
   const CornerTable& table = corner_table();
   std::vector<std::uint16_t> codes(hexes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hexes.size(), 4096), [&](const auto& range) {
-    for (std::size_t h = range.begin(); h != range.end(); ++h) codes[h] = table.edges[corner_mask(hexes[h], marked)];
-  });
+  parallel_each(
+      hexes.size(), [&](std::size_t h) { codes[h] = table.edges[corner_mask(hexes[h], marked)]; }, 4096);
   return codes;
 }
 

@@ -1,8 +1,5 @@
 #include "hextwist/refine/place.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -192,12 +189,15 @@ std::vector<std::size_t> batch_starts(std::span<const Index> items, const NodesO
 
 void project_batch(Work& work, int surface, const Batch& batch) {
   std::vector<Projection> result(batch.nodes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), grain), [&](const auto& range) {
-    check_interrupt();
-    const std::size_t first = range.begin(), n = range.size();
-    work.model.project({2, surface}, std::span(batch.points).subspan(first, n),
-                       std::span(batch.seeds).subspan(first, n), std::span(result).subspan(first, n));
-  });
+  parallel_ranges(
+      static_cast<Index>(result.size()),
+      [&](Index begin, Index end) {
+        check_interrupt();
+        const auto first = static_cast<std::size_t>(begin), n = static_cast<std::size_t>(end - begin);
+        work.model.project({2, surface}, std::span(batch.points).subspan(first, n),
+                           std::span(batch.seeds).subspan(first, n), std::span(result).subspan(first, n));
+      },
+      grain);
   parallel_each(result.size(), [&](std::size_t i) {
     // A seeded search is local; one that went far may have found another sheet of the surface.
     if (!(result[i].distance < 0.1 * batch.reach[i])) {

@@ -22,13 +22,6 @@ namespace hextwist {
 void place(const Mesh& old_mesh, const Association& old_association, const Split& split, const Model& model, Mesh& mesh,
            Association& association);
 
-/// A node that is not where its owner is.
-struct OffOwner {
-  Index node = -1;
-  Owner owner;
-  double distance = 0;  ///< from the owner, model units
-};
-
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end

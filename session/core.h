@@ -13,7 +13,7 @@
 
 namespace hextwist {
 
-struct Session::Core {
+struct [[gnu::visibility("hidden")]] Session::Core {
   MeshHolder meshed;
   SessionState state;
   SessionCallbacks callbacks;

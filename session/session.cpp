@@ -1,3 +1,4 @@
+#include "hextwist/command/error_at.h"
 #include "hextwist/session/session.h"
 
 #include <algorithm>

@@ -24,7 +24,7 @@
 #include "hextwist/command/command_error.h"
 #include "hextwist/patch/adapt.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Quality of a mesh by one metric, hexes by the ids that users know; count 0 where there was no mesh.
 struct QualityRow {

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "hextwist/base/memory.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {

@@ -12,9 +12,8 @@
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/refine/lineage.h"
-#include "hextwist/refine/place.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 struct Extremes;
 

@@ -9,7 +9,7 @@
 #include "hextwist/mesh/entity.h"
 #include "hextwist/mesh/meshed_model.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 class SizeField;
 

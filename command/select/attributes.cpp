@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/mesh/corners.h"

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "hextwist/base/sorted.h"
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/reader.h"
 
 namespace hextwist {

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "hextwist/geom/occ/model.h"
-#include "hextwist/io/io.h"
-#include "hextwist/mesh/association/association.h"
-#include "hextwist/patch/refine.h"
+#include "hextwist/hextwist.h"
 
 int main(int argc, char** argv) try {
   if (argc < 5) {

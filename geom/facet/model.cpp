@@ -3,7 +3,6 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/geom/curvature.h"
 #include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/geom/facet/curvature_internal.h"
@@ -333,9 +333,10 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
     for (const int volume : {behind, front})
       if (volume) incidence_.add({3, volume}, {2, s + 1});
   }
-  tbb::parallel_for(std::size_t{0}, surfaces_.size(), [&](std::size_t s) {
+  const auto make_tree = [&](std::size_t s) {
     surfaces_[s].tree = std::make_unique<ItemTree<BilinearPatch>>(std::span<const BilinearPatch>(surfaces_[s].patches));
-  });
+  };
+  parallel_each(surfaces_.size(), make_tree, 1);
   incidence_.close();
 }
 
@@ -406,7 +407,7 @@ void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<c
   if (points.size() < worth_threads) {
     for (std::size_t i = 0; i < points.size(); ++i) one(i);
   } else {
-    tbb::parallel_for(std::size_t{0}, points.size(), one);
+    parallel_each(points.size(), one, 1);
   }
 }
 

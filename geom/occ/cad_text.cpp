@@ -16,7 +16,7 @@ bool is_digit(char c) {
 }
 
 std::string truncated(CadFormat format) {
-  return std::string("the ") + format_name(format) + " file is truncated: its end is missing";
+  return "the " + std::string(format_name(format)) + " file is truncated: its end is missing";
 }
 
 // Instances are "#12 = ...;"; anything else that starts with # and a digit refers to one. Strings and comments aside.

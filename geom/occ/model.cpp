@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "hextwist/base/parallel.h"
 #include "hextwist/geom/occ/model_internal.h"
 
 namespace hextwist::occ {
@@ -318,10 +316,16 @@ void OccModel::project(Owner owner, std::span<const Vec3> points, std::span<cons
   entity(owner);
   constexpr std::size_t grain = 512;
   if (points.size() <= grain) return project_some(owner, points, seeds, out);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& r) {
-    const auto part = [&](const auto& all) { return all.empty() ? all : all.subspan(r.begin(), r.size()); };
-    project_some(owner, part(points), part(seeds), part(out));
-  });
+  parallel_ranges(
+      static_cast<Index>(points.size()),
+      [&](Index begin, Index end) {
+        const auto part = [&](const auto& all) {
+          return all.empty() ? all
+                             : all.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+        };
+        project_some(owner, part(points), part(seeds), part(out));
+      },
+      grain);
 }
 
 bool OccModel::contains(int volume, const Vec3& p) const {

@@ -10,7 +10,7 @@
 
 class TopoDS_Shape;  // OpenCASCADE's; no header of its is reached from here
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 struct CadOptions {
   /// Make touching solids of an assembly share their common faces, edges and vertices (a STEP file with several

@@ -11,7 +11,7 @@
 #include "hextwist/geom/model.h"
 #include "hextwist/mesh/topology.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// Guarantees of a complete association (one made by associate() or carried through a refinement):
 ///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex have no owner;
@@ -105,6 +105,13 @@ struct OffModel {
   Owner owner;
 };
 OffModel off_model(const Mesh& mesh, const Association& association, const Model& model);
+
+/// A node that is not where its owner is.
+struct OffOwner {
+  Index node = -1;
+  Owner owner;
+  double distance = 0;  ///< from the owner, model units
+};
 
 /// Every broken promise of a complete association (see above), one line each.
 std::vector<std::string> check_association(const Mesh& mesh, const Association& association, const Model& model);

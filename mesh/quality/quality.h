@@ -52,7 +52,7 @@
 
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 enum class Metric {
   shape,

@@ -23,7 +23,7 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 enum class SmoothScheme {
   mean_ratio,        ///< shape; untangles first where that is needed

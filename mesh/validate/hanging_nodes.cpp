@@ -9,7 +9,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/validate/validate_internal.h"
+#include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
 namespace {

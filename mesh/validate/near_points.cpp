@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "hextwist/base/union_find.h"
-#include "hextwist/mesh/validate/validate_internal.h"
+#include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
 namespace {

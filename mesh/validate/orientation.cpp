@@ -6,7 +6,7 @@
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "hextwist/mesh/validate/validate_internal.h"
+#include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
 namespace {

@@ -16,7 +16,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/mesh/validate/validate_internal.h"
+#include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "hextwist/mesh/mesh.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// The later kinds are looked for among sound hexes only, those on eight different nodes that exist, each once; so one
 /// defect is not told several times over. Geometric kinds leave out nodes that are not finite.

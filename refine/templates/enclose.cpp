@@ -2,12 +2,10 @@
 // based on multiple twist plane insertion", section 5.
 #include "hextwist/refine/templates/enclose.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <stdexcept>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/cube_mesh.h"
 #include "hextwist/refine/templates/enclose_internal.h"
@@ -149,12 +147,13 @@ std::shared_ptr<const SplitTable> enclose_table(double from_marked) {
 
 std::vector<std::uint16_t> enclose_codes(std::span<const Hex> hexes, std::span<const std::uint8_t> marked) {
   std::vector<std::uint16_t> codes(hexes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hexes.size(), 4096), [&](const auto& range) {
-    for (std::size_t h = range.begin(); h != range.end(); ++h) {
-      const int mask = corner_mask(hexes[h], marked);
-      codes[h] = static_cast<std::uint16_t>(mask == 255 ? 0 : mask);
-    }
-  });
+  parallel_each(
+      hexes.size(),
+      [&](std::size_t h) {
+        const int mask = corner_mask(hexes[h], marked);
+        codes[h] = static_cast<std::uint16_t>(mask == 255 ? 0 : mask);
+      },
+      4096);
   return codes;
 }
 

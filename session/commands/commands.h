@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/syntax.h"
 #include "hextwist/session/transaction.h"
 

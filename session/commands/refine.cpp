@@ -3,7 +3,7 @@
 
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/patch/patch_refine.h"
-#include "hextwist/patch/refine.h"
+#include "hextwist/patch/refine_known.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
 #include "hextwist/sizing/targets.h"

@@ -1,6 +1,7 @@
 // Sizing functions by name: `sizing function ...`, `sizing field ...`.
 #include "hextwist/io/io.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/sizing/fields/growing.h"
 
 namespace hextwist {
 namespace {

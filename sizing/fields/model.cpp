@@ -6,7 +6,7 @@
 #include "hextwist/base/box_tree.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/geom/curvature.h"
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 
 namespace hextwist {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 
 namespace hextwist {
 namespace {

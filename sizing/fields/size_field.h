@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/base/types.h"
-#include "hextwist/sizing/target_distance.h"
+#include "hextwist/mesh/meshed_model.h"
 
-namespace hextwist {
+namespace HEXTWIST_API hextwist {
 
 /// A wished size at every point of space. Guarantees of every implementation: immutable, any number of threads may ask;
 /// sizes are positive, infinity where there is no wish. Throws Error where a size is not (an expression that is
@@ -29,10 +28,6 @@ using SizeFieldPtr = std::shared_ptr<const SizeField>;
 
 /// The same everywhere. Throws Error unless it is positive and finite.
 SizeFieldPtr constant_size(double size);
-
-/// size at the targets and growing by `growth` - 1 per unit of distance from them, so that neighbours grow by about the
-/// factor `growth`. Throws Error unless size > 0 and growth >= 1.
-SizeFieldPtr growing_size(double size, double growth, std::shared_ptr<const TargetDistance> from);
 
 /// What is wrong with the text of an expression, and where.
 struct SizeExpressionError : Error {

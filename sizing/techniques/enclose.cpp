@@ -1,5 +1,6 @@
 // Parallel hex sheet operations and the combination: around nodes, edges and faces.
 #include <algorithm>
+#include <utility>
 
 #include "hextwist/base/text.h"
 #include "hextwist/refine/templates/trisect.h"

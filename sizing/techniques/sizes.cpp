@@ -12,7 +12,7 @@
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/factors.h"
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/levels.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/target_distance.h"

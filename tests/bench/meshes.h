@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "hextwist/patch/refine.h"
+#include "hextwist/patch/refine_known.h"
 
 namespace hextwist::bench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "groups.h"
-#include "hextwist/patch/verify.h"
+#include "hextwist/patch/refine_known.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"

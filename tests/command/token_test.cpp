@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 
 namespace hextwist {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "hextwist/sizing/levels.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"

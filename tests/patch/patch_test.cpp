@@ -10,7 +10,7 @@
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/patch/neighbours.h"
 #include "hextwist/patch/patch_refine.h"
-#include "hextwist/patch/verify.h"
+#include "hextwist/patch/refine_known.h"
 #include "hextwist/sizing/plan.h"
 #include "support/grids.h"
 #include "support/meshed.h"

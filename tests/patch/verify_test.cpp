@@ -1,5 +1,5 @@
 // Verifying a small change where it is, against verifying everything.
-#include "hextwist/patch/refine.h"
+#include "hextwist/patch/refine_known.h"
 
 #include <gtest/gtest.h>
 

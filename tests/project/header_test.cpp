@@ -1,10 +1,11 @@
-// Public headers are complete, and their users need no OpenCASCADE or CGAL header anywhere near.
+// Public headers are complete, and their users need no header from inside, of OpenCASCADE or of CGAL anywhere near.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <mutex>
+#include <regex>
 #include <thread>
 
 #include "source_tree.h"
@@ -31,10 +32,14 @@ std::string offence(const std::vector<std::filesystem::path>& headers, const std
       const auto start = read.find_last_of(" \n", at) + 1;
       return "reaches " + read.substr(start, read.find_first_of(" \n", at) - start);
     }
+  const std::regex own(HEXTWIST_SOURCE_DIR "/include/hextwist/(\\S+)");
+  for (std::sregex_iterator at(read.begin(), read.end(), own), end; at != end; ++at)
+    if ((*at)[1] != "hextwist.h" && !std::ranges::count(public_headers(), source_folder() / (*at)[1].str()))
+      return "reaches what is not installed, " + (*at)[1].str();
   return "";
 }
 
-TEST(PublicHeader, reaches_no_OpenCASCADE_or_CGAL_header) {
+TEST(PublicHeader, reaches_no_header_from_inside_and_none_of_OpenCASCADE_or_CGAL) {
   const auto headers = public_headers();
   ASSERT_GT(headers.size(), 10u);
   const auto scratch = output_folder() / "all.d";
@@ -58,7 +63,28 @@ TEST(SlowPublicHeader, each_compiles_on_its_own) {
   work();
 }
 
-TEST(PublicHeader, checker_finds_a_header_that_reaches_OpenCASCADE_or_CGAL_or_is_incomplete) {
+TEST(PublicHeader, hextwist_h_brings_all_but_those_for_C_and_Gmsh) {
+  const std::string text = content(source_folder() / "include/hextwist/hextwist.h");
+  for (const auto& header : public_headers()) {
+    const std::string name = header.lexically_relative(source_folder()).string();
+    const bool brought = text.find("#include \"hextwist/" + name + "\"") != std::string::npos;
+    EXPECT_EQ(brought, !name.starts_with("embed/") && name != "base/export.h") << name;
+  }
+  EXPECT_EQ(offence({source_folder() / "include/hextwist/hextwist.h"}, output_folder() / "hextwist.d"), "");
+}
+
+TEST(PublicHeader, shows_what_it_declares_and_no_other_does) {
+  for (const auto& layer : layers)
+    for (const auto& header : files_below(layer, {".h"})) {
+      const std::string name = header.lexically_relative(source_folder()).string(), text = content(header);
+      if (name == "base/export.h" || name == "embed/c.h") continue;
+      const bool is_public = std::ranges::count(public_headers(), header);
+      EXPECT_EQ(text.find("namespace HEXTWIST_API hextwist {") != std::string::npos, is_public) << name;
+      EXPECT_EQ(text.find("namespace hextwist {") != std::string::npos && is_public, false) << name;
+    }
+}
+
+TEST(PublicHeader, checker_finds_a_header_that_reaches_inside_or_OpenCASCADE_or_CGAL_or_is_incomplete) {
   const auto folder = output_folder();
   const auto of = [&](const std::string& text) {
     const auto file = folder / "candidate.h";
@@ -67,6 +93,7 @@ TEST(PublicHeader, checker_finds_a_header_that_reaches_OpenCASCADE_or_CGAL_or_is
   };
   EXPECT_EQ(of("#include <vector>\nstd::vector<int> complete();\n"), "");
   EXPECT_NE(of("std::vector<int> incomplete();\n").find("does not compile"), std::string::npos);
+  EXPECT_NE(of("#include \"hextwist/base/memory.h\"\n").find("not installed"), std::string::npos);
   EXPECT_NE(of("#include <gp_Pnt.hxx>\n").find("does not compile"), std::string::npos);
   EXPECT_NE(of("#include <CGAL/version.h>\n").find("reaches /"), std::string::npos);
 }

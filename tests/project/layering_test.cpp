@@ -36,6 +36,8 @@ std::vector<std::string> include_offences(const std::filesystem::path& path, con
         complain("no such layer");
       else if (theirs > std::ranges::find(layers, layer))
         complain(layer + " includes a layer above it");
+      else if (*theirs != layer && included.filename().string().ends_with("_internal.h"))
+        complain("the inside of another layer");
     } else if (layer != "app" && included.extension() != ".inc") {  // generated tables beside their source
       complain("own headers are included as hextwist/<layer>/<file>.h");
     }
@@ -65,6 +67,8 @@ TEST(Layering, checker_finds_each_kind_of_offence) {
   EXPECT_EQ(n("mesh/a.cpp", "#include \"hextwist/refine/split.h\"\n"), 1u);
   EXPECT_EQ(n("mesh/a.cpp", "#include \"hextwist/nowhere/split.h\"\n"), 1u);
   EXPECT_EQ(n("mesh/a.cpp", "#include \"split.h\"\n"), 1u);
+  EXPECT_EQ(n("mesh/a.cpp", "#include \"hextwist/geom/occ/model_internal.h\"\n"), 1u);
+  EXPECT_EQ(n("geom/facet/a.cpp", "#include \"hextwist/geom/occ/model_internal.h\"\n"), 0u);
   EXPECT_EQ(n("mesh/a.cpp", "#include <hextwist/mesh/mesh.h>\n"), 1u);
   EXPECT_EQ(n("mesh/a.cpp", "#  include <gp_Pnt.hxx>\n"), 1u);
   EXPECT_EQ(n("geom/a.h", "#include <gp_Pnt.hxx>\n#include <CGAL/AABB_tree.h>\n"), 2u);

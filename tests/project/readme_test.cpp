@@ -112,16 +112,20 @@ TEST(Readme, table_of_files_says_what_is_read_and_written) {
   EXPECT_EQ(written, known(writable_extensions()));
 }
 
-TEST(Readme, links_lead_to_files_that_exist) {
-  for (const std::string document :
-       {"README.md", "CONTRIBUTING.md", "docs/design.md", "docs/embedding.md", "CHANGELOG.md"}) {
-    const auto file = source_folder() / document;
+TEST(Documents, links_lead_to_files_that_exist_and_so_do_sources_that_are_named) {
+  auto documents = files_below("docs", {".md"});
+  for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) documents.push_back(source_folder() / name);
+  std::string rooms = layers.front();
+  for (const auto& layer : layers) rooms += "|" + layer;
+  const std::regex source("(?:^|[\\s`(])((?:" + rooms + ")/[\\w/]+\\.(?:h|cpp|inc))\\b");
+  for (const auto& file : documents) {
     const std::string text = content(file);
+    for (std::sregex_iterator at(text.begin(), text.end(), source), end; at != end; ++at)
+      EXPECT_TRUE(std::filesystem::exists(source_folder() / (*at)[1].str())) << file << ": " << (*at)[1];
     for (std::size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
       const std::string link = text.substr(at + 2, text.find(')', at) - at - 2);
       if (link.starts_with("http") || link.starts_with("#")) continue;
-      EXPECT_TRUE(std::filesystem::exists(file.parent_path() / link.substr(0, link.find('#'))))
-          << document << ": " << link;
+      EXPECT_TRUE(std::filesystem::exists(file.parent_path() / link.substr(0, link.find('#')))) << file << ": " << link;
     }
   }
 }

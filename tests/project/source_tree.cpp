@@ -39,11 +39,8 @@ std::vector<std::string> lines(const std::string& text) {
 
 std::vector<std::filesystem::path> public_headers() {
   std::vector<std::filesystem::path> result;
-  for (const auto& layer : layers) {
-    if (layer == "app") continue;
-    for (const auto& header : files_below(layer, {".h"}))
-      if (!header.filename().string().ends_with("_internal.h")) result.push_back(header);
-  }
+  std::istringstream list(HEXTWIST_HEADERS);
+  for (std::string name; std::getline(list, name, ';');) result.push_back(source_folder() / name);
   return result;
 }
 

@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> files_below(const std::string& folder, const 
 std::string content(const std::filesystem::path& file);
 std::vector<std::string> lines(const std::string& text);
 
-/// Headers that are installed: all of the library's layers but *_internal.h.
+/// Headers that are installed (cmake/hextwist_headers.cmake), besides hextwist/hextwist.h.
 std::vector<std::filesystem::path> public_headers();
 
 /// A shell command's exit status and what it printed (standard output and error together).

@@ -7,6 +7,7 @@
 #include "hextwist/io/io.h"
 #include "hextwist/patch/adapt.h"
 #include "hextwist/session/session.h"
+#include "hextwist/sizing/levels.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 

@@ -1,5 +1,5 @@
 // Size fields against closed forms and brute force.
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 
 #include <gtest/gtest.h>
 

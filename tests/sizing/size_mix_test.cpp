@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hextwist/patch/refine.h"
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/targets.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"

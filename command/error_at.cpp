@@ -1,4 +1,4 @@
-#include "hextwist/command/command_error.h"
+#include "hextwist/command/error_at.h"
 
 #include <algorithm>
 

@@ -1,0 +1,9 @@
+/* What the shared library shows: the installed headers open their namespace as `namespace HEXTWIST_API hextwist {`, and
+ * everything declared there is seen from outside. All else is hidden. */
+#pragma once
+
+#ifdef __GNUC__
+#define HEXTWIST_API [[gnu::visibility("default")]]
+#else
+#define HEXTWIST_API
+#endif

@@ -1,0 +1,32 @@
+# The public face: what is installed, whose symbols a shared library shows, and what hextwist/hextwist.h brings (but for
+# embed, which is for C and for Gmsh). Closed under inclusion; tests hold all of that. Everything else is inside.
+set(HEXTWIST_HEADERS
+  base/export.h
+  base/types.h
+  geom/owner.h
+  geom/model.h
+  geom/occ/model.h
+  geom/primitives.h
+  mesh/mesh.h
+  mesh/corners.h
+  mesh/topology.h
+  mesh/entity.h
+  mesh/meshed_model.h
+  mesh/primitives.h
+  mesh/association/association.h
+  mesh/quality/quality.h
+  mesh/smooth/smooth.h
+  mesh/validate/validate.h
+  io/io.h
+  refine/lineage.h
+  sizing/request.h
+  sizing/report.h
+  sizing/fields/size_field.h
+  patch/refine.h
+  patch/adapt.h
+  command/command_error.h
+  session/session.h
+  embed/c.h
+  embed/gmsh_exchange.h
+  embed/gmsh.h
+)

@@ -1,0 +1,28 @@
+// The whole library, but for C and Gmsh (hextwist/embed/c.h, gmsh.h). examples/minimal shows the order in which a
+// refinement runs through it; session.h has it by commands.
+#pragma once
+
+#include "hextwist/base/types.h"
+#include "hextwist/command/command_error.h"
+#include "hextwist/geom/model.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/geom/owner.h"
+#include "hextwist/geom/primitives.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/entity.h"
+#include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/meshed_model.h"
+#include "hextwist/mesh/primitives.h"
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/mesh/topology.h"
+#include "hextwist/mesh/validate/validate.h"
+#include "hextwist/patch/adapt.h"
+#include "hextwist/patch/refine.h"
+#include "hextwist/refine/lineage.h"
+#include "hextwist/session/session.h"
+#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/report.h"
+#include "hextwist/sizing/request.h"
