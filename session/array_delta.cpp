@@ -10,10 +10,9 @@ auto comparing(ArraysDelta& delta) {
   return lists_apart(
       [&delta](const ArrayTag&, const auto& to, const auto& from) { delta.each.emplace_back(from, to); });
 }
-/// Makes arrays of others.
-auto applying(const ArraysDelta& delta) {
-  return lists_apart(
-      [each = delta.each.begin()](const ArrayTag&, auto& to, const auto& from) mutable { to = (each++)->apply(from); });
+/// Makes arrays of others, with one delta after the other.
+auto applying(const ArrayDelta*& next) {
+  return lists_apart([&next](const ArrayTag&, auto& to, const auto& from) { to = (next++)->apply(from); });
 }
 
 }  // namespace
@@ -41,7 +40,8 @@ SetsDelta sets_delta(const Mesh& from, const Mesh& to) {
 
 Mesh sets_after(const SetsDelta& delta, const Mesh& from) {
   Mesh result = delta.heads;
-  for_each_set(applying(delta), result, from);
+  const ArrayDelta* next = delta.each.data();
+  for_each_set(applying(next), result, from);
   return result;
 }
 
@@ -55,7 +55,8 @@ MeshedDelta MeshedDelta::between(const MeshedModel& from, const MeshedModel& to)
 
 MeshedModel MeshedDelta::apply(const MeshedModel& from) const {
   MeshedModel result{arrays.heads, model, {}};
-  for_each_array(applying(arrays), result, from);
+  const ArrayDelta* next = arrays.each.data();
+  for_each_array(applying(next), result, from);
   return result;
 }
 

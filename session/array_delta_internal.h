@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
 #include "hextwist/base/same_bits.h"
@@ -139,7 +138,6 @@ ArrayDelta::ArrayDelta(const std::vector<T>& from, const std::vector<T>& to) : s
 
 template <class T>
 std::vector<T> ArrayDelta::apply(const std::vector<T>& from) const {
-  static_assert(std::is_trivially_copyable_v<T>);
   if (same_) return from;
   std::size_t size = 0;
   for (const Piece& piece : pieces_) size += piece.n_fresh + piece.n_kept;

@@ -91,14 +91,14 @@ TEST(arrays, have_names_of_their_own) {
 }
 
 TEST(arrays, groups_that_another_mesh_does_not_have_are_empty_there) {
-  MeshedModel meshed = heated_brick(), other = heated_brick();
-  meshed.mesh.node_sets = {{7, "", {1, 2}}, {9, "", {3}}};
-  other.mesh.node_sets = {{9, "", {4, 5, 6}}};
-  const MeshedModel& constant = other;
+  Mesh mesh, other;
+  mesh.node_sets = {{7, "", {1, 2}}, {9, "", {3}}};
+  other.node_sets = {{9, "", {4, 5, 6}}};
+  const Mesh& constant = other;
   std::vector<std::pair<std::size_t, std::size_t>> sizes;
   for_each_set(
-      [&](const ArrayTag&, const auto& a, const auto& b) { sizes.emplace_back(a.items.size(), b.items.size()); },
-      meshed.mesh, constant.mesh);
+      [&](const ArrayTag&, const auto& a, const auto& b) { sizes.emplace_back(a.items.size(), b.items.size()); }, mesh,
+      constant);
   EXPECT_EQ(sizes, (std::vector<std::pair<std::size_t, std::size_t>>{{2, 0}, {1, 3}}));
 }
 

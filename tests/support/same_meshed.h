@@ -14,9 +14,9 @@ namespace hextwist::test {
 inline testing::AssertionResult same_bits(const MeshedModel& a, const MeshedModel& b) {
   std::string differ;
   const auto heads = [](const MeshedModel& of) {
-    Mesh heads;
-    copy_heads(of.mesh, heads);
-    return heads;
+    Mesh result;
+    copy_heads(of.mesh, result);
+    return result;
   };
   if (heads(a) != heads(b)) differ = "groups or fields";
   const auto compare = [&](const ArrayTag& tag, const auto& x, const auto& y) {
