@@ -35,10 +35,11 @@ struct ArrayTag {
   std::string_view field = {};   ///< of those arrays of which there are several: which
   int id = 0;                    ///< the same
 
+  bool is_one_of_several() const { return id > 0 || !field.empty(); }
   /// "points", "blocks/3", "node_fields/heat".
   std::string full_name() const {
-    const std::string which = id > 0 ? std::to_string(id) : std::string(field);
-    return std::string(name) + (which.empty() ? "" : "/" + which);
+    if (!is_one_of_several()) return std::string(name);
+    return std::string(name) + "/" + (id > 0 ? std::to_string(id) : std::string(field));
   }
 };
 

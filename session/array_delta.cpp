@@ -5,10 +5,14 @@
 namespace hextwist {
 namespace {
 
+constexpr std::size_t head_bytes = 128;  // what a group or field takes beside its items: about, and everywhere the same
+
 /// Compares arrays: those of `to` first, whose groups count.
 auto comparing(ArraysDelta& delta) {
-  return lists_apart(
-      [&delta](const ArrayTag&, const auto& to, const auto& from) { delta.each.emplace_back(from, to); });
+  return lists_apart([&delta](const ArrayTag& tag, const auto& to, const auto& from) {
+    const ArrayDelta& array = delta.each.emplace_back(from, to);
+    delta.bytes += array.bytes() + (tag.is_one_of_several() && !array.empty() ? head_bytes + tag.field.size() : 0);
+  });
 }
 /// Makes arrays of others, with one delta after the other.
 auto applying(const ArrayDelta*& next) {
@@ -16,19 +20,6 @@ auto applying(const ArrayDelta*& next) {
 }
 
 }  // namespace
-
-std::size_t bytes_of(const ArraysDelta& delta) {
-  std::size_t bytes = delta.each.capacity() * sizeof(ArrayDelta);
-  for (const ArrayDelta& array : delta.each) bytes += array.bytes();
-  const auto add = [&](const auto& heads) {
-    for (const auto& head : heads) bytes += sizeof head + head.name.size();
-  };
-  add(delta.heads.blocks);
-  add(delta.heads.node_sets);
-  add(delta.heads.side_sets);
-  add(delta.heads.fields);
-  return bytes;
-}
 
 SetsDelta sets_delta(const Mesh& from, const Mesh& to) {
   SetsDelta delta;
@@ -46,8 +37,7 @@ Mesh sets_after(const SetsDelta& delta, const Mesh& from) {
 }
 
 MeshedDelta MeshedDelta::between(const MeshedModel& from, const MeshedModel& to) {
-  MeshedDelta delta;
-  delta.model = to.model;
+  MeshedDelta delta{{}, to.model};
   copy_heads(to.mesh, delta.arrays.heads);
   for_each_array(comparing(delta.arrays), to, from);
   return delta;

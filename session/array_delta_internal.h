@@ -47,12 +47,15 @@ class ArrayDelta {
   std::vector<std::byte> fresh_;
 };
 
-/// Of all arrays of a mesh and its association, or some of them.
+/// Of some or all arrays of a mesh and its association.
 struct ArraysDelta {
   Mesh heads;                    ///< groups and fields of `to`, without members and values
   std::vector<ArrayDelta> each;  ///< in the order in which they are visited (mesh/arrays.h)
+  std::size_t bytes = 0;         ///< of memory held for what differs
 };
-std::size_t bytes_of(const ArraysDelta& delta);
+inline std::size_t bytes_of(const ArraysDelta& delta) {
+  return delta.bytes;
+}
 
 /// The groups of a mesh: their own arrays only.
 using SetsDelta = ArraysDelta;
@@ -63,13 +66,12 @@ Mesh sets_after(const SetsDelta& delta, const Mesh& from);
 /// Everything of a MeshedModel but its model, which is kept.
 struct MeshedDelta {
   ArraysDelta arrays;
-  SetsDelta sets;  ///< instead, where nothing else differs
   std::shared_ptr<const Model> model;
 
   static MeshedDelta between(const MeshedModel& from, const MeshedModel& to);
   /// Precondition: the `from` it was made with.
   MeshedModel apply(const MeshedModel& from) const;
-  std::size_t bytes() const { return bytes_of(arrays) + bytes_of(sets); }
+  std::size_t bytes() const { return arrays.bytes; }
 };
 
 /// Bytes in the arrays of a mesh and its association.
