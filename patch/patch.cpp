@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/arrays.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {
@@ -39,50 +40,47 @@ class NodeNumbers {
   std::vector<Index> before_;  // per word: how many stand in lower ones
 };
 
-/// Positions in `wanted` of the items that both lists have. Cheap where `wanted` is short.
-std::vector<Index> common(const std::vector<Index>& list, std::span<const Index> wanted) {
-  std::vector<Index> result;
+/// Calls use(place in the list, position in `wanted`) for the items that name one of these first. Cheap where `wanted`
+/// is short.
+template <class Item, class Use>
+void for_each_naming(const std::vector<Item>& list, std::span<const Index> wanted, const Use& use) {
+  const auto name = [](const Item& item) { return first_named(item); };
   auto at = list.begin();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    at = std::lower_bound(at, list.end(), wanted[i]);
-    if (at == list.end()) break;
-    if (*at == wanted[i]) result.push_back(static_cast<Index>(i));
-  }
-  return result;
-}
-
-/// Calls use(place in the list, the side with its hex as a position in `hexes`) for the sides of these hexes.
-template <class Use>
-void for_each_side(const std::vector<Side>& sides, std::span<const Index> hexes, const Use& use) {
-  auto at = sides.begin();
-  for (std::size_t i = 0; i < hexes.size(); ++i) {
-    at = std::lower_bound(at, sides.end(), Side{hexes[i], 0});
-    for (; at != sides.end() && at->hex == hexes[i]; ++at)
-      use(static_cast<std::size_t>(at - sides.begin()), Side{static_cast<Index>(i), at->face});
+    at = std::ranges::lower_bound(at, list.end(), wanted[i], {}, name);
+    if (at == list.end()) return;
+    for (; at != list.end() && first_named(*at) == wanted[i]; ++at)
+      use(static_cast<std::size_t>(at - list.begin()), static_cast<Index>(i));
   }
 }
 
-Association association_of(const Association& whole, const Patch& patch) {
-  Association part;
-  if (whole.empty()) return part;
-  part.node_owner = items_at(whole.node_owner, patch.nodes);
-  part.node_parameters = items_at(whole.node_parameters, patch.nodes);
-  part.hex_volume = items_at(whole.hex_volume, patch.hexes);
-  auto at = whole.curve_edges.begin();
-  for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
-    at = std::lower_bound(at, whole.curve_edges.end(), Edge{patch.nodes[i], 0});
-    for (; at != whole.curve_edges.end() && (*at)[0] == patch.nodes[i]; ++at)
-      if (const Index other = patch.local_node((*at)[1]); other >= 0) {
-        part.curve_edges.push_back({static_cast<Index>(i), other});
-        part.edge_curve.push_back(whole.edge_curve[static_cast<std::size_t>(at - whole.curve_edges.begin())]);
-      }
+/// Fills the arrays of a patch from those of the whole.
+struct CutOut {
+  const Patch& patch;
+  const NodeNumbers& number;
+
+  const std::vector<Index>& wanted(const ArrayTag& tag) const {
+    return tag.per == Per::node ? patch.nodes : patch.hexes;
   }
-  for_each_side(whole.surface_faces, patch.hexes, [&](std::size_t place, Side side) {
-    part.surface_faces.push_back(side);
-    part.face_surface.push_back(whole.face_surface[place]);
-  });
-  return part;
-}
+  template <class T>
+  void operator()(const ArrayTag& tag, const std::vector<T>& whole, std::vector<T>& part) const {
+    if (tag.fresh == Fresh::id || whole.empty()) return;
+    part = items_at(whole, wanted(tag), tag.width);
+    if constexpr (std::same_as<T, Hex>)
+      for (Hex& hex : part) rename(hex, [&](Index n) { return number[n]; });
+  }
+  template <IsList Whole, IsList Part>
+  void operator()(const ArrayTag& tag, const Whole& whole, const Part& part) const {
+    for_each_naming(whole.items, wanted(tag), [&](std::size_t place, Index i) {
+      auto item = whole.items[place];
+      first_named(item) = i;
+      if constexpr (std::same_as<decltype(item), Edge>)
+        if ((item[1] = patch.local_node(item[1])) < 0) return;
+      part.items.push_back(item);
+      if (whole.values) part.values->push_back((*whole.values)[place]);
+    });
+  }
+};
 
 }  // namespace
 
@@ -96,25 +94,9 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   patch.hexes = std::move(hexes);
   const NodeNumbers number(whole.mesh, patch.hexes);
   patch.nodes = number.nodes();
-  Mesh& mesh = patch.meshed.mesh;
-  mesh.points = items_at(whole.mesh.points, patch.nodes);
-  mesh.hexes = items_at(whole.mesh.hexes, patch.hexes);
-  for (Hex& hex : mesh.hexes)
-    for (Index& n : hex) n = number[n];
-  for (const Block& block : whole.mesh.blocks)
-    mesh.blocks.push_back({block.id, block.name, common(block.hexes, patch.hexes)});
-  for (const NodeSet& set : whole.mesh.node_sets)
-    mesh.node_sets.push_back({set.id, set.name, common(set.nodes, patch.nodes)});
-  for (const SideSet& set : whole.mesh.side_sets) {
-    SideSet& part = mesh.side_sets.emplace_back(SideSet{set.id, set.name, {}});
-    for_each_side(set.sides, patch.hexes, [&](std::size_t, Side side) { part.sides.push_back(side); });
-  }
-  for (const Field& field : whole.mesh.fields)
-    mesh.fields.push_back({field.name, field.on, field.components,
-                           items_at(field.values, field.on == Field::On::node ? patch.nodes : patch.hexes,
-                                    static_cast<std::size_t>(field.components))});
   patch.meshed.model = whole.model;
-  patch.meshed.association = association_of(whole.association, patch);
+  copy_heads(whole.mesh, patch.meshed.mesh);
+  for_each_array(CutOut{patch, number}, whole, patch.meshed);
   return patch;
 }
 

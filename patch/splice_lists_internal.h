@@ -5,35 +5,29 @@
 #include <cstring>
 
 #include "hextwist/base/sorted.h"
-#include "hextwist/patch/splice.h"
+#include "hextwist/mesh/arrays.h"
 
 namespace hextwist {
 
-/// Which items of a list of the patch go and come. before, after: the list in numbers of the whole; carried(item): what
-/// an item of `before` is called afterwards, or nothing when it is gone. Values: beside each item, or empty.
-template <class Item, class Carried>
-ListEdit<Item> list_edit(const std::vector<Item>& before, const std::vector<int>& before_values,
-                         const std::vector<Item>& after, const std::vector<int>& after_values, const Carried& carried) {
-  ListEdit<Item> edit;
-  std::size_t j = 0;
-  const auto comes = [&] {
-    edit.in.push_back(after[j]);
-    if (!after_values.empty()) edit.in_values.push_back(after_values[j]);
-    ++j;
+/// Which items of a list go and come. carried(item): what an item of `before` is called afterwards, or nothing when it
+/// is gone.
+template <IsList List, class Carried, IsList Found>
+void find_edit(const List& before, const List& after, const Carried& carried, const Found& out, const Found& in) {
+  const auto put = [](const List& from, std::size_t i, const Found& to) {
+    to.items.push_back(from.items[i]);
+    if (from.values) to.values->push_back((*from.values)[i]);
   };
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const std::optional<Item> wanted = carried(before[i]);
-    while (wanted && j < after.size() && after[j] < *wanted) comes();
-    if (wanted && j < after.size() && after[j] == *wanted &&
-        (before_values.empty() || before_values[i] == after_values[j])) {
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < before.items.size(); ++i) {
+    const auto wanted = carried(before.items[i]);
+    while (wanted && j < after.items.size() && after.items[j] < *wanted) put(after, j++, in);
+    if (wanted && j < after.items.size() && after.items[j] == *wanted &&
+        (!before.values || (*before.values)[i] == (*after.values)[j]))
       ++j;
-      continue;
-    }
-    edit.out.push_back(before[i]);
-    if (!before_values.empty()) edit.out_values.push_back(before_values[i]);
+    else
+      put(before, i, out);
   }
-  while (j < after.size()) comes();
-  return edit;
+  while (j < after.items.size()) put(after, j++, in);
 }
 
 /// Takes the items at these places (ascending) out of an array with `width` values for each.
@@ -67,34 +61,25 @@ void put_in(std::vector<T>& array, std::span<const Index> places, const std::vec
   }
 }
 
-inline Index& hex_of(Index& item) {
-  return item;
-}
-inline Index& hex_of(Side& item) {
-  return item.hex;
-}
-
 /// Renames the hexes of an ascending list none of which are gone.
 template <class Item>
 void rename_hexes(std::vector<Item>& list, std::span<const Index> gone, bool forward) {
   auto end = list.end();
   for (std::size_t i = gone.size(); i-- > 0;) {
     const Index boundary = forward ? gone[i] : gone[i] - static_cast<Index>(i);
-    const auto begin = std::partition_point(list.begin(), end, [&](Item item) { return hex_of(item) < boundary; });
+    const auto begin =
+        std::partition_point(list.begin(), end, [&](const Item& item) { return first_named(item) < boundary; });
     const Index shift = static_cast<Index>(i) + 1;
-    for (auto at = begin; at != end; ++at) hex_of(*at) += forward ? -shift : shift;
+    for (auto at = begin; at != end; ++at) first_named(*at) += forward ? -shift : shift;
     end = begin;
   }
 }
 
-/// Puts one list of an edit in place of the other. gone: null where the items are not named by hexes. The lists have
-/// room.
-template <class Item>
-void apply_edit(std::vector<Item>& list, std::vector<int>* values, const ListEdit<Item>& edit,
-                const std::vector<Index>* gone, bool forward) {
-  const std::vector<Item>& out = forward ? edit.out : edit.in;
-  const std::vector<Item>& in = forward ? edit.in : edit.out;
-  const std::vector<int>& in_values = forward ? edit.in_values : edit.out_values;
+/// Takes items out of a list and puts others in. gone: of the hexes that it names. The list has room.
+template <IsList List, IsList Edit>
+void apply_edit(const List& of, const Edit& out, const Edit& in, std::span<const Index> gone, bool forward) {
+  auto& list = of.items;
+  auto* const values = of.values;
   // Out, from the back: each run behind an item that goes moves down when all before it are known.
   auto to = list.begin(), from = list.begin();
   const auto move_until = [&](auto end) {
@@ -107,29 +92,28 @@ void apply_edit(std::vector<Item>& list, std::vector<int>* values, const ListEdi
     to += end - from;
     from = end;
   };
-  for (const Item& item : out) {
+  for (const auto& item : out.items) {
     move_until(std::lower_bound(from, list.end(), item));
     assert(from != list.end() && *from == item);
     ++from;
   }
   move_until(list.end());
   list.resize(static_cast<std::size_t>(to - list.begin()));
-  if constexpr (!std::is_same_v<Item, Edge>)
-    if (gone) rename_hexes(list, *gone, forward);
+  rename_hexes(list, gone, forward);
   // In, from the back.
-  std::size_t i = list.size(), end = list.size() + in.size();
+  std::size_t i = list.size(), end = list.size() + in.items.size();
   list.resize(end);
   if (values) values->resize(end);
-  for (std::size_t j = in.size(); j > 0;) {
+  for (std::size_t j = in.items.size(); j > 0;) {
     --end;
-    if (i > 0 && in[j - 1] < list[i - 1]) {
+    if (i > 0 && in.items[j - 1] < list[i - 1]) {
       --i;
       list[end] = list[i];
       if (values) (*values)[end] = (*values)[i];
     } else {
       --j;
-      list[end] = in[j];
-      if (values) (*values)[end] = in_values[j];
+      list[end] = in.items[j];
+      if (values) (*values)[end] = (*in.values)[j];
     }
   }
 }

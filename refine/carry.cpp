@@ -5,6 +5,7 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/arrays.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {
@@ -26,25 +27,10 @@ void count_on(std::vector<std::int64_t>& ids, std::size_t first, std::int64_t ne
 
 /// Old values, and room for those of the new nodes.
 template <class T>
-std::vector<T> of_old_nodes(const std::vector<T>& old, Index n_nodes) {
-  std::vector<T> values = copy_large(old, static_cast<std::size_t>(n_nodes));
-  resize_large(values, static_cast<std::size_t>(n_nodes));
+std::vector<T> of_old_nodes(const std::vector<T>& old, std::size_t n) {
+  std::vector<T> values = copy_large(old, n);
+  resize_large(values, n);
   return values;
-}
-
-/// Node ids stay with the nodes. Hex ids of hexes that were cut are gone for good.
-void carry_ids(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
-  if (!old_mesh.node_ids.empty()) {
-    mesh.node_ids = of_old_nodes(old_mesh.node_ids, split.n_nodes);
-    count_on(mesh.node_ids, old_mesh.node_ids.size(), old_mesh.node_ids.back() + 1);
-  }
-  if (split.lineage.hexes.empty()) {
-    mesh.hex_ids = old_mesh.hex_ids;
-    return;
-  }
-  resize_for_overwrite(mesh.hex_ids, mesh.hexes.size());
-  parallel_each(split.n_kept(), [&](std::size_t i) { mesh.hex_ids[i] = hex_id(old_mesh, split.lineage.parent[i]); });
-  count_on(mesh.hex_ids, split.n_kept(), hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1);
 }
 
 /// Calls use(new side) for the side itself or the sides of the children that make it up.
@@ -108,11 +94,6 @@ std::vector<Index> carried_hexes(const std::vector<Index>& old_hexes, const Spli
   return carried;
 }
 
-void carry_blocks(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
-  for (const Block& block : old_mesh.blocks)
-    mesh.blocks.push_back({block.id, block.name, carried_hexes(block.hexes, split)});
-}
-
 /// Sorts what begins with the sides of hexes that were not cut, in order.
 template <class List, class SideOf>
 void sort_sides(List& list, Index n_kept, const SideOf& side_of) {
@@ -122,54 +103,23 @@ void sort_sides(List& list, Index n_kept, const SideOf& side_of) {
   std::ranges::sort(kept_end, list.end(), {}, side_of);
 }
 
-void carry_side_sets(const Mesh& old_mesh, const Split& split, Mesh& mesh) {
-  for (const SideSet& set : old_mesh.side_sets) {
-    SideSet carried{set.id, set.name, {}};
-    for (const Side side : set.sides)
-      for_each_child_side(split, side, [&](Side child) { carried.sides.push_back(child); });
-    sort_sides(carried.sides, split.n_kept(), std::identity{});
-    mesh.side_sets.push_back(std::move(carried));
-  }
+std::vector<Side> carried_sides(const std::vector<Side>& old_sides, const Split& split) {
+  std::vector<Side> carried;
+  for (const Side side : old_sides) for_each_child_side(split, side, [&](Side child) { carried.push_back(child); });
+  sort_sides(carried, split.n_kept(), std::identity{});
+  return carried;
 }
 
-void carry_node_sets(const Mesh& old_mesh, const Lineage& lineage, Mesh& mesh) {
-  std::vector<std::uint8_t> member(mesh.points.size());
-  for (const NodeSet& set : old_mesh.node_sets) {
-    std::ranges::fill(member, 0);
-    for (const Index n : set.nodes) member[n] = 1;
-    for_each_new_node(old_mesh, lineage, [&](Index node, const Origin& origin) {
-      member[node] = std::ranges::all_of(origin.nodes(), [&](Index n) { return member[n] != 0; });
-    });
-    NodeSet carried{set.id, set.name, set.nodes};
-    for (Index n = lineage.n_old_nodes; n < mesh.n_nodes(); ++n)
-      if (member[n]) carried.nodes.push_back(n);
-    mesh.node_sets.push_back(std::move(carried));
-  }
-}
-
-void carry_fields(const Mesh& old_mesh, const Lineage& lineage, Mesh& mesh) {
-  for (const Field& field : old_mesh.fields) {
-    Field carried{field.name, field.on, field.components, {}};
-    const std::size_t width = field.components;
-    if (field.on == Field::On::node) {
-      carried.values = field.values;
-      carried.values.resize(mesh.points.size() * width);
-      for_each_new_node(old_mesh, lineage, [&](Index node, const Origin& origin) {
-        for (std::size_t c = 0; c < width; ++c) {
-          double sum = 0;
-          for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * field.values[origin.node[i] * width + c];
-          carried.values[node * width + c] = sum;
-        }
-      });
-    } else {
-      carried.values.resize(mesh.hexes.size() * width);
-      parallel_each(mesh.hexes.size(), [&](std::size_t h) {
-        std::copy_n(field.values.begin() + static_cast<std::ptrdiff_t>(lineage.parent[h] * width), width,
-                    carried.values.begin() + static_cast<std::ptrdiff_t>(h * width));
-      });
-    }
-    mesh.fields.push_back(std::move(carried));
-  }
+std::vector<Index> carried_nodes(const std::vector<Index>& old_nodes, const Mesh& old_mesh, const Split& split) {
+  std::vector<std::uint8_t> member(static_cast<std::size_t>(split.n_nodes));
+  for (const Index n : old_nodes) member[n] = 1;
+  for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
+    member[node] = std::ranges::all_of(origin.nodes(), [&](Index n) { return member[n] != 0; });
+  });
+  std::vector<Index> carried = old_nodes;
+  for (Index n = split.lineage.n_old_nodes; n < split.n_nodes; ++n)
+    if (member[n]) carried.push_back(n);
+  return carried;
 }
 
 /// Owners of the nodes on cut edges and faces: volume of their hex, unless the face or the edge is on the CAD.
@@ -261,38 +211,79 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
   }
 }
 
-Association carried_association(const Association& old, const Split& split, const Mesh& mesh) {
-  Association association;
-  if (old.empty()) return association;
-  association.node_owner = of_old_nodes(old.node_owner, split.n_nodes);
-  association.node_parameters = of_old_nodes(old.node_parameters, split.n_nodes);
-  resize_for_overwrite(association.hex_volume, split.lineage.parent.size());
-  parallel_each(split.lineage.parent.size(),
-                [&](std::size_t h) { association.hex_volume[h] = old.hex_volume[split.lineage.parent[h]]; });
-  carry_node_owners(old, split, association);
-  carry_curve_edges(old, split.lineage, association);
-  carry_surface_faces(old, split, mesh, association);
-  return association;
-}
+/// Makes the arrays of the refinement from the old ones.
+struct Carry {
+  const Mesh& old_mesh;
+  const Split& split;
+
+  template <class T>
+  void operator()(const ArrayTag& tag, const std::vector<T>& old, std::vector<T>& now) const {
+    if (tag.fresh == Fresh::own || (old.empty() && tag.fresh != Fresh::id)) return;
+    if constexpr (std::same_as<T, std::int64_t>)
+      if (tag.fresh == Fresh::id) return tag.per == Per::node ? node_ids(old, now) : hex_ids(old, now);
+    const std::size_t width = tag.width;
+    if (tag.per == Per::hex) {
+      const std::vector<Index>& parent = split.lineage.parent;
+      resize_for_overwrite(now, parent.size() * width);
+      return parallel_each(parent.size(), [&](std::size_t h) {
+        std::copy_n(old.data() + static_cast<std::size_t>(parent[h]) * width, width, now.data() + h * width);
+      });
+    }
+    now = of_old_nodes(old, static_cast<std::size_t>(split.n_nodes) * width);
+    if constexpr (std::same_as<T, double> || std::same_as<T, Vec3>)
+      if (tag.fresh == Fresh::inherited)
+        for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
+          for (std::size_t c = 0; c < width; ++c) {
+            T sum{};
+            if constexpr (std::same_as<T, Vec3>) sum.setZero();
+            for (int i = 0; i < origin.n; ++i)
+              sum += origin.weight[i] * old[static_cast<std::size_t>(origin.node[i]) * width + c];
+            now[static_cast<std::size_t>(node) * width + c] = sum;
+          }
+        });
+  }
+  void operator()(const ArrayTag& tag, const IsList auto& old, const IsList auto& now) const {
+    using Item = std::remove_cvref_t<decltype(old.items[0])>;
+    if (tag.fresh == Fresh::own) return;
+    if constexpr (std::same_as<Item, Side>)
+      now.items = carried_sides(old.items, split);
+    else if constexpr (std::same_as<Item, Index>)
+      now.items = tag.per == Per::hex ? carried_hexes(old.items, split) : carried_nodes(old.items, old_mesh, split);
+  }
+
+ private:
+  /// They stay with the nodes.
+  void node_ids(const std::vector<std::int64_t>& old, std::vector<std::int64_t>& now) const {
+    if (old.empty()) return;
+    now = of_old_nodes(old, static_cast<std::size_t>(split.n_nodes));
+    count_on(now, old.size(), old.back() + 1);
+  }
+  /// Those of hexes that were cut are gone for good.
+  void hex_ids(const std::vector<std::int64_t>& old, std::vector<std::int64_t>& now) const {
+    const std::vector<Index>& parent = split.lineage.parent;
+    if (split.lineage.hexes.empty()) {
+      now = old;
+      return;
+    }
+    resize_for_overwrite(now, parent.size());
+    parallel_each(split.n_kept(), [&](std::size_t i) { now[i] = hex_id(old_mesh, parent[i]); });
+    count_on(now, split.n_kept(), hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1);
+  }
+};
 
 }  // namespace
 
 Carried carry(const Mesh& old_mesh, const Association& old_association, Split& split) {
   Carried carried;
-  Mesh& mesh = carried.mesh;
-  mesh.hexes = std::move(split.hexes);
-  mesh.points = of_old_nodes(old_mesh.points, split.n_nodes);
-  carried.association = carried_association(old_association, split, mesh);
-  for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * old_mesh.points[origin.node[i]];
-    mesh.points[node] = sum;
-  });
-  carry_ids(old_mesh, split, mesh);
-  carry_blocks(old_mesh, split, mesh);
-  carry_side_sets(old_mesh, split, mesh);
-  carry_node_sets(old_mesh, split.lineage, mesh);
-  carry_fields(old_mesh, split.lineage, mesh);
+  carried.mesh.hexes = std::move(split.hexes);
+  copy_heads(old_mesh, carried.mesh);
+  const Carry carry_array{old_mesh, split};
+  for_each_array(carry_array, old_mesh, carried.mesh);
+  if (old_association.empty()) return carried;
+  for_each_array(carry_array, old_association, carried.association);
+  carry_node_owners(old_association, split, carried.association);
+  carry_curve_edges(old_association, split.lineage, carried.association);
+  carry_surface_faces(old_association, split, carried.mesh, carried.association);
   return carried;
 }
 

@@ -1,8 +1,8 @@
-#include "hextwist/command/error_at.h"
 #include "hextwist/session/session.h"
 
 #include <algorithm>
 
+#include "hextwist/command/error_at.h"
 #include "hextwist/command/syntax.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/run.h"

@@ -5,6 +5,7 @@
 #include "hextwist/embed/python/mesh_internal.h"
 #include "hextwist/embed/python/records_internal.h"
 #include "hextwist/embed/python/session_internal.h"
+#include "hextwist/mesh/arrays.h"
 #include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist::python {
@@ -26,14 +27,31 @@ py::dict groups(const Groups& list, F members) {
   return result;
 }
 
-py::dict fields(const py::object& self, Field::On on) {
+/// Calls use(tag, function that shows it) for every array of a mesh.
+template <class Use>
+void for_each_view(const py::object& self, const Use& use) {
+  const auto array = [&]<class T>(const ArrayTag& tag, const std::vector<T>& values) {
+    using S = std::conditional_t<std::is_same_v<T, std::int64_t>, T,
+                                 std::conditional_t<alignof(T) == alignof(double), double, std::int32_t>>;
+    use(tag, [&] {
+      const std::size_t width = sizeof(T) / sizeof(S) * tag.width;
+      return view(reinterpret_cast<const S*>(values.data()), values.size() / tag.width, width == 1 ? 0 : width, self);
+    });
+  };
+  for_each_array(lists_apart(array), of(self).meshed());
+}
+
+py::dict arrays(const py::object& self) {
   py::dict result;
-  for (const Field& field : of(self).mesh().fields) {
-    if (field.on != on) continue;
-    const auto width = static_cast<std::size_t>(field.components);
-    result[text(field.name)] =
-        view(field.values.data(), field.values.size() / width, field.components == 1 ? 0 : width, self);
-  }
+  for_each_view(self, [&](const ArrayTag& tag, const auto& shown) { result[text(tag.full_name())] = shown(); });
+  return result;
+}
+
+py::dict fields(const py::object& self, std::string_view kind) {
+  py::dict result;
+  for_each_view(self, [&](const ArrayTag& tag, const auto& shown) {
+    if (tag.name == kind) result[text(std::string(tag.field))] = shown();
+  });
   return result;
 }
 
@@ -90,19 +108,40 @@ void bind_mesh(py::module_& m) {
   py::class_<MeshView, View> mesh(m, "Mesh",
                                   "The mesh of a session at one moment, as read-only numpy arrays. It stays as it is "
                                   "whatever the session does; arrays keep it alive.");
+  // Arrays as the mesh has them, by their names in arrays.h.
+  for (const auto& [name, doc] :
+       {std::pair{"points", "(n_nodes, 3) float64, model units."},
+        std::pair{"bit_hexes",
+                  "(n_hexes, 8) int32: the same, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube."},
+        std::pair{
+            "node_owners",
+            "(n_nodes, 2) int32: dimension (0 vertex .. 3 volume, -1 nobody) and id of the CAD entity of each node."},
+        std::pair{"node_parameters", "(n_nodes, 2) float64: (u, v) on a surface, (t, nan) on a curve, else nan."},
+        std::pair{"hex_volumes", "(n_hexes,) int32: id of the volume of each hex."},
+        std::pair{"curve_edges", "(n, 2) int32: nodes of the mesh edges that lie on curves."},
+        std::pair{"edge_curves", "(n,) int32: curve of each row of curve_edges."},
+        std::pair{"surface_sides",
+                  "(n, 2) int32: the hex of each row of surface_quads, and which face of it (2 * axis + side, in "
+                  "bit_hexes)."},
+        std::pair{"quad_surfaces", "(n,) int32: surface of each row of surface_quads."}}) {
+    mesh.def_property_readonly(
+        name,
+        [name = name](const py::object& self) {
+          py::object result;
+          for_each_view(self, [&](const ArrayTag& tag, const auto& shown) {
+            if (tag.name == name) result = shown();
+          });
+          return result;
+        },
+        doc);
+  }
   const auto array = [&](const char* name, auto get, const char* doc) {
     mesh.def_property_readonly(
         name, [get](const py::object& self) { return get(of(self), self); }, doc);
   };
   array(
-      "points", [](const MeshView& v, const py::object& self) { return rows<double>(v.mesh().points, self); },
-      "(n_nodes, 3) float64, model units.");
-  array(
       "hexes", [](const MeshView& v, const py::object& self) { return rows<Index>(v.file_hexes(), self); },
       "(n_hexes, 8) int32: nodes, in the order of VTK, Exodus, Abaqus and Gmsh. Made when first asked for.");
-  array(
-      "bit_hexes", [](const MeshView& v, const py::object& self) { return rows<Index>(v.mesh().hexes, self); },
-      "(n_hexes, 8) int32: the same, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube.");
   array(
       "node_ids", [](const MeshView& v, const py::object& self) { return rows<std::int64_t>(v.node_ids(), self); },
       "(n_nodes,) int64: ids as commands know them, ascending.");
@@ -110,50 +149,9 @@ void bind_mesh(py::module_& m) {
       "hex_ids", [](const MeshView& v, const py::object& self) { return rows<std::int64_t>(v.hex_ids(), self); },
       "(n_hexes,) int64: ids as commands know them, ascending.");
   array(
-      "node_owners",
-      [](const MeshView& v, const py::object& self) {
-        return rows<std::int32_t>(v.meshed().association.node_owner, self);
-      },
-      "(n_nodes, 2) int32: dimension (0 vertex .. 3 volume, -1 nobody) and id of the CAD entity of each node.");
-  array(
-      "node_parameters",
-      [](const MeshView& v, const py::object& self) {
-        return rows<double>(v.meshed().association.node_parameters, self);
-      },
-      "(n_nodes, 2) float64: (u, v) on a surface, (t, nan) on a curve, else nan.");
-  array(
-      "hex_volumes",
-      [](const MeshView& v, const py::object& self) {
-        return rows<std::int32_t>(v.meshed().association.hex_volume, self);
-      },
-      "(n_hexes,) int32: id of the volume of each hex.");
-  array(
-      "curve_edges",
-      [](const MeshView& v, const py::object& self) { return rows<Index>(v.meshed().association.curve_edges, self); },
-      "(n, 2) int32: nodes of the mesh edges that lie on curves.");
-  array(
-      "edge_curves",
-      [](const MeshView& v, const py::object& self) {
-        return rows<std::int32_t>(v.meshed().association.edge_curve, self);
-      },
-      "(n,) int32: curve of each row of curve_edges.");
-  array(
       "surface_quads", [](const MeshView& v, const py::object& self) { return rows<Index>(v.surface_quads(), self); },
       "(n, 4) int32: nodes of the sides that lie on surfaces, counter-clockwise seen from outside of their hex; a "
       "side between two volumes once. Made when first asked for.");
-  array(
-      "surface_sides",
-      [](const MeshView& v, const py::object& self) {
-        return rows<std::int32_t>(v.meshed().association.surface_faces, self);
-      },
-      "(n, 2) int32: the hex of each row of surface_quads, and which face of it (2 * axis + side, in bit_hexes).");
-  array(
-      "quad_surfaces",
-      [](const MeshView& v, const py::object& self) {
-        return rows<std::int32_t>(v.meshed().association.face_surface, self);
-      },
-      "(n,) int32: surface of each row of surface_quads.");
-
   mesh.def_property_readonly("n_nodes", [](const MeshView& v) { return v.mesh().n_nodes(); })
       .def_property_readonly("n_hexes", [](const MeshView& v) { return v.mesh().n_hexes(); })
       .def_property_readonly(
@@ -177,11 +175,15 @@ void bind_mesh(py::module_& m) {
             return groups(list, [&](std::size_t i) { return rows<Index>(of(self).set_quads(i), self); });
           },
           "{id: Group} of sides, as quads.")
+      .def_property_readonly("arrays", &arrays,
+                             "{name: array} of all arrays as the mesh has them: those above that are not made when "
+                             "first asked for (ids are empty where they are 1, 2, ...), members as 'blocks/3', fields "
+                             "as 'node_fields/temperature'. np.savez(file, **mesh.arrays) keeps them.")
       .def_property_readonly(
-          "node_fields", [](const py::object& self) { return fields(self, Field::On::node); },
+          "node_fields", [](const py::object& self) { return fields(self, "node_fields"); },
           "{name: (n_nodes,) or (n_nodes, components) float64}.")
       .def_property_readonly(
-          "hex_fields", [](const py::object& self) { return fields(self, Field::On::hex); },
+          "hex_fields", [](const py::object& self) { return fields(self, "hex_fields"); },
           "{name: (n_hexes,) or (n_hexes, components) float64}.")
       .def(
           "quality",

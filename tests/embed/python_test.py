@@ -125,6 +125,12 @@ class Arrays(unittest.TestCase):
                 self.assertEqual(a[id].name, b[id].name)
                 self.assertTrue((a[id].members == b[id].members).all())
         self.assertTrue((same.node_fields["f"] == field).all())
+        self.assertTrue((same.arrays["node_fields/f"] == field).all())
+        for name in ("points", "bit_hexes", "node_owners", "edge_curves", "surface_sides", "quad_surfaces"):
+            self.assertIs(same.arrays[name].base, same)  # shown, not copied
+            self.assertTrue((same.arrays[name] == getattr(same, name)).all(), name)
+        self.assertEqual(sorted(name for name in same.arrays if name.startswith("blocks/")),
+                         sorted(f"blocks/{id}" for id in mesh.blocks))
         self.assertTrue((same.hex_fields["g"] == np.arange(mesh.n_hexes)).all())
         self.assertTrue(other.has_cad)
 

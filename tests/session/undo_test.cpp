@@ -168,7 +168,7 @@ TEST(ArrayDelta, makes_one_array_from_another) {
       if (random() % 8) to.push_back(random() % 16 ? x : x + 1);
     }
     for (std::size_t n = random() % 9; n > 3; --n) to.push_back(-1);
-    const ArrayDelta<Index> delta(from, to);
+    const ArrayDelta delta(from, to);
     EXPECT_EQ(delta.apply(from), to) << "seed " << seed;
     EXPECT_EQ(delta.empty(), from == to);
   }
@@ -178,7 +178,7 @@ TEST(ArrayDelta, is_small_for_what_refinement_and_smoothing_do) {
   std::vector<Index> from(10000);
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<Index>(i);
   const auto bytes = [&](const std::vector<Index>& to) {
-    const ArrayDelta<Index> there(from, to), back(to, from);
+    const ArrayDelta there(from, to), back(to, from);
     EXPECT_EQ(there.apply(from), to);
     EXPECT_EQ(back.apply(to), from);
     return std::max(there.bytes(), back.bytes());

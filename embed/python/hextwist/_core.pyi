@@ -38,6 +38,7 @@ class Mesh:
     surface_quads: NDArray[np.int32]  # (n, 4)
     surface_sides: NDArray[np.int32]  # (n, 2)
     quad_surfaces: NDArray[np.int32]  # (n,)
+    arrays: dict[str, NDArray[Any]]
     blocks: dict[int, Group]
     node_sets: dict[int, Group]
     side_sets: dict[int, Group]
