@@ -81,7 +81,7 @@ TEST(Layering, checker_finds_each_kind_of_offence) {
 
 TEST(Layering, every_source_is_listed_for_the_build) {
   // A test or source that is not listed is never compiled, and nobody notices.
-  for (const std::string folder : all_folders({"tests"}))
+  for (const std::string& folder : all_folders({"tests"}))
     for (const auto& file : files_below(folder, {".cpp"})) {
       auto list = file.parent_path();
       while (!std::filesystem::exists(list / "CMakeLists.txt")) list = list.parent_path();
@@ -93,7 +93,7 @@ TEST(Layering, every_source_is_listed_for_the_build) {
 }
 
 TEST(Layering, no_file_is_longer_than_600_lines) {
-  for (const std::string folder : all_folders({"tests", "models", "examples"}))
+  for (const std::string& folder : all_folders({"tests", "models", "examples"}))
     for (const auto& file : files_below(folder, {".h", ".c", ".cpp", ".py", ".sh", ".txt"}))
       EXPECT_LE(lines(content(file)).size(), 600u) << file;
 }

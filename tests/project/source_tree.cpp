@@ -40,7 +40,7 @@ std::vector<std::string> lines(const std::string& text) {
 std::vector<std::filesystem::path> public_headers() {
   std::vector<std::filesystem::path> result;
   std::istringstream list(HEXTWIST_HEADERS);
-  for (std::string name; std::getline(list, name, ';');) result.push_back(source_folder() / name);
+  for (std::string name; std::getline(list, name, ',');) result.push_back(source_folder() / name);
   return result;
 }
 

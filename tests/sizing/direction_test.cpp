@@ -7,7 +7,7 @@
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/sheets.h"
 #include "hextwist/patch/refine.h"
-#include "hextwist/patch/verify.h"
+#include "hextwist/patch/refine_known.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"

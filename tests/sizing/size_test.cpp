@@ -7,7 +7,7 @@
 
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
-#include "hextwist/sizing/fields/size_field.h"
+#include "hextwist/sizing/fields/growing.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
