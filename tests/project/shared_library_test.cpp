@@ -18,10 +18,12 @@ std::vector<std::string> words(const std::string& text) {
   return found;
 }
 
-/// Identifiers of the public headers.
+/// Identifiers of the public headers, comments apart.
 std::vector<std::string> public_words() {
+  static const std::regex comment("//[^\n]*");
   std::vector<std::string> all;
-  for (const auto& header : public_headers()) std::ranges::copy(words(content(header)), std::back_inserter(all));
+  for (const auto& header : public_headers())
+    std::ranges::copy(words(std::regex_replace(content(header), comment, "")), std::back_inserter(all));
   std::ranges::sort(all);
   return all;
 }
