@@ -51,8 +51,8 @@ struct Enclosed {
 };
 void tell(const Enclosed& done, State& state);
 
-/// One round around nodes, edges and faces: encloses all nodes, in parts where they can't be all at once, and then, at a
-/// third, trisects along the edges that this has not cut.
+/// One round around nodes, edges and faces: encloses all nodes, in parts where they can't be all at once, and then, at
+/// a third, trisects along the edges that this has not cut.
 class EncloseRound {
  public:
   EncloseRound(CombinationTarget target, EncloseAt at)
