@@ -76,9 +76,7 @@ Index n_forced(const CellMarks& marks, const CellMarks& wished) {
   const auto nothing = [](std::size_t) {};
   walk_along(
       marks, wished, [&](std::size_t i) { n += marks.corners[i] == all_corners; }, nothing,
-      [&](std::size_t i, std::size_t j) {
-        n += marks.corners[i] == all_corners && wished.corners[j] != all_corners;
-      });
+      [&](std::size_t i, std::size_t j) { n += marks.corners[i] == all_corners && wished.corners[j] != all_corners; });
   return n;
 }
 

@@ -2,8 +2,8 @@
 //
 // A regular cell of level 0 is a hex of the base mesh; one of level k is one of the 27 children of a regular cell of
 // level k - 1. Its number is 27 * (number of that parent) + its place among the 27, in the order of the trisecting
-// template: cells of a level are numbered as if all had been cut, in the order in which they stand in a mesh. (The scheme
-// of forests of octrees: Burstedde, Wilcox and Ghattas, p4est, 2011; here with 27 children.)
+// template: cells of a level are numbered as if all had been cut, in the order in which they stand in a mesh. (The
+// scheme of forests of octrees: Burstedde, Wilcox and Ghattas, p4est, 2011; here with 27 children.)
 //
 // All other hexes of a refined mesh are closure: pieces of a regular cell that was cut along a part of its edges.
 #pragma once

@@ -100,8 +100,8 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   const auto grown = std::make_shared<GrownForest>();
   grown->marks = wishes.size() > 1 ? graded(wishes, base.mesh.hexes, *step.forest.base_corners) : wishes;
   for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
-  LevelledMesh built = build_levels(base, grown->marks, before.stack,
-                                    {options.keep_meshes, options.fixed, options.progress});
+  LevelledMesh built =
+      build_levels(base, grown->marks, before.stack, {options.keep_meshes, options.fixed, options.progress});
   grown->stack = std::move(built.stack);
   grown->pieces = level_pieces(grown->stack, base.mesh.n_hexes());
 

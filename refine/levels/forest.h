@@ -37,14 +37,17 @@ struct Forest {
 Forest plant(std::shared_ptr<const MeshedModel> base);
 
 /// Wished marks after each hex of the forest's mesh has been asked to become finer (> 0) or coarser (< 0) by so many
-/// levels. levels: one per hex, in the order of the mesh handed out. The rules:
+/// levels. change: one per hex, in the order of the mesh handed out. The rules:
 ///  1. finer: the regular cell that the hex is, or is a piece of, becomes 27, and these 27 each, and so on;
-///  2. coarser: a wished cell is given up when no hex in it asks to stay finer than it: of pieces of one leaf the finest
+///  2. coarser: a wished cell is given up when no hex in it asks to stay finer than it: of pieces of one leaf the
+///  finest
 ///     wish counts. Cells that only gradation has cut go by themselves once nobody needs them.
 /// Throws Error when there is not one number per hex, or a cell would be cut more often than max_level().
-LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> levels);
+LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change);
 /// The same for a list of hexes, all by as many levels.
-LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int levels);
+LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change);
+/// The level that each hex is to have instead, whatever was wished before: the result depends on these alone.
+LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels);
 
 struct LevelOptions {
   std::vector<std::string> extensive;  ///< hex fields that are shared out and summed up instead of copied and averaged
@@ -56,15 +59,16 @@ struct LevelOptions {
 struct LevelStep {
   Forest forest;
   MeshedModel mesh;
-  LevelOrigin origin;                ///< per hex of mesh: hexes of the mesh before
-  std::vector<Index> old_node;       ///< per node of mesh: the same node before, -1
-  Index n_forced = 0;                ///< cells that are cut for the sake of gradation alone
-  std::vector<OffOwner> off_nodes;   ///< of mesh
+  LevelOrigin origin;               ///< per hex of mesh: hexes of the mesh before
+  std::vector<Index> old_node;      ///< per node of mesh: the same node before, -1
+  Index n_forced = 0;               ///< cells that are cut for the sake of gradation alone
+  std::vector<OffOwner> off_nodes;  ///< of mesh
 };
 
 /// The forest with other wishes, and its mesh. Guarantees:
 ///  1. nodes and hexes that are in both meshes keep their ids, and unless inverted children are repaired near them,
-///     their bits; hexes of the base that come back have their old ids. New ones get the next ids, in the order of levels;
+///     their bits; hexes of the base that come back have their old ids. New ones get the next ids, in the order of
+///     levels;
 ///  2. without wishes the base comes back, array for array (fields as they are carried up);
 ///  3. one level on a bare forest: as one trisecting pass, ids too;
 ///  4. the same for any number of threads; but for ids and order the same for any way to these wishes.

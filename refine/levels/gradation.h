@@ -1,8 +1,9 @@
 // Marks grown so that no piece of a closure is ever cut again.
 //
 // Rule: if every hex at a marked node of pass k + 1 is a regular cell of level k, then that pass cuts regular cells of
-// level k only, and quality does not depend on the number of levels. (Edges would do instead of nodes; nodes give convex
-// corners, usually fewer hexes and better shapes.) So pass k must cut whatever lies around the marks of pass k + 1.
+// level k only, and quality does not depend on the number of levels. (Edges would do instead of nodes; nodes give
+// convex corners, usually fewer hexes and better shapes.) So pass k must cut whatever lies around the marks of pass k
+// + 1.
 #pragma once
 
 #include "hextwist/mesh/topology.h"

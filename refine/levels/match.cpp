@@ -13,7 +13,8 @@
 namespace hextwist {
 namespace {
 
-/// Calls same(i, j) for equal keys of two lists of which the first, where it has keys, and the second ascend. has(i): false where i has none.
+/// Calls same(i, j) for equal keys of two lists of which the first, where it has keys, and the second ascend. has(i):
+/// false where i has none.
 template <class Has, class KeyNow, class KeyBefore, class Same>
 void merge_keys(std::size_t n_now, std::size_t n_before, const Has& has, const KeyNow& key_now,
                 const KeyBefore& key_before, const Same& same) {
@@ -64,30 +65,54 @@ void match_pass(const LevelPass& now, const LevelPass& before, std::vector<Index
       });
 }
 
-/// A leaf that the other mesh does not have, with its hexes (they follow each other).
-struct Leaf {
-  CellNumber begin, end;  // its cells of the finest level of both meshes
-  Index first, n;
+/// Cells of the finest level of two meshes that a cell of any level holds.
+class CellRanges {
+ public:
+  struct Range {
+    CellNumber begin, end;
+  };
+  explicit CellRanges(int finest) : weight_(static_cast<std::size_t>(finest) + 1, 1) {
+    for (std::size_t level = weight_.size() - 1; level-- > 0;) weight_[level] = weight_[level + 1] * n_cell_children;
+  }
+  Range operator()(const LevelPieces::Leaf& leaf) const {
+    const CellNumber weight = weight_[leaf.level];
+    return {leaf.cell * weight, (leaf.cell + 1) * weight};
+  }
+
+ private:
+  std::vector<CellNumber> weight_;
 };
 
-/// Leaves with a hex for which changed(hex), in the order of `begin`.
-template <class Changed>
-std::vector<Leaf> changed_leaves(const LevelPieces& pieces, int finest, const Changed& changed) {
-  std::vector<CellNumber> weight(static_cast<std::size_t>(finest) + 1, 1);  // of a cell of that level
-  for (std::size_t level = weight.size() - 1; level-- > 0;) weight[level] = weight[level + 1] * n_cell_children;
-  std::vector<Leaf> leaves;
-  for (int block = 0; block < pieces.n_levels(); ++block)
-    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
-      if (!changed(h)) continue;
-      const LevelPieces::Leaf of = pieces.leaf(block, h);
-      const CellNumber begin = of.cell * weight[of.level];
-      if (!leaves.empty() && leaves.back().begin == begin && leaves.back().first + leaves.back().n == h)
+/// A leaf of before that is no more, or is cut otherwise now; its hexes follow each other.
+struct GoneLeaf {
+  CellRanges::Range cells;
+  Index first, n;
+  Index row = -1;  // of LevelOrigin::several
+};
+
+std::vector<GoneLeaf> gone_leaves(const LevelPieces& before, const std::vector<std::uint8_t>& stays,
+                                  const CellRanges& range) {
+  std::vector<GoneLeaf> leaves;
+  for (int block = 0; block < before.n_levels(); ++block)
+    for (Index h = before.first[block]; h < before.first[block + 1]; ++h) {
+      if (stays[h]) continue;
+      const CellRanges::Range cells = range(before.leaf(block, h));
+      if (!leaves.empty() && leaves.back().cells.begin == cells.begin && leaves.back().first + leaves.back().n == h)
         ++leaves.back().n;
       else
-        leaves.push_back({begin, begin + weight[of.level], h, 1});
+        leaves.push_back({cells, h, 1});
     }
-  std::ranges::sort(leaves, {}, &Leaf::begin);
+  std::ranges::sort(leaves, {}, [](const GoneLeaf& leaf) { return leaf.cells.begin; });
   return leaves;
+}
+
+/// A row of all hexes of these leaves.
+Index add_row(std::span<const GoneLeaf> leaves, CompressedRows& rows) {
+  for (const GoneLeaf& leaf : leaves)
+    for (Index h = leaf.first; h < leaf.first + leaf.n; ++h) rows.items.push_back(h);
+  std::sort(rows.items.begin() + rows.first.back(), rows.items.end());
+  rows.first.push_back(static_cast<Index>(rows.items.size()));
+  return rows.size() - 1;
 }
 
 }  // namespace
@@ -119,31 +144,40 @@ LevelOrigin level_origin(const LevelPieces& now, const LevelPieces& before) {
         });
   }
 
-  // All else: leaves of one mesh that are cut, or cut otherwise, in the other. Both lists cover the same cells.
-  const int finest = std::max(now.n_levels(), before.n_levels());
-  const std::vector<Leaf> fresh = changed_leaves(now, finest, [&](Index h) { return origin.at[h] < 0; });
-  const std::vector<Leaf> gone = changed_leaves(before, finest, [&](Index h) { return !stays[h]; });
+  // All else is in leaves of one mesh that are cut, or cut otherwise, in the other: the larger of both decides.
+  const CellRanges range(std::max(now.n_levels(), before.n_levels()) - 1);
+  std::vector<GoneLeaf> gone = gone_leaves(before, stays, range);
   origin.several.first = {0};
-  std::size_t i = 0, j = 0;
-  while (i < fresh.size()) {
-    assert(j < gone.size() && fresh[i].begin == gone[j].begin);
-    const CellNumber end = std::max(fresh[i].end, gone[j].end);
-    const std::size_t first = j;
-    Index n_gone = 0;
-    for (; j < gone.size() && gone[j].begin < end; ++j) n_gone += gone[j].n;
-    const bool one = n_gone == 1;
-    if (!one) {
-      auto& items = origin.several.items;
-      for (std::size_t g = first; g < j; ++g)
-        for (Index h = gone[g].first; h < gone[g].first + gone[g].n; ++h) items.push_back(h);
-      std::sort(items.begin() + origin.several.first.back(), items.end());
-      origin.several.first.push_back(static_cast<Index>(items.size()));
-    }
-    for (; i < fresh.size() && fresh[i].begin < end; ++i)
-      for (Index h = fresh[i].first; h < fresh[i].first + fresh[i].n; ++h) {
-        origin.kind[h] = one ? HexOrigin::finer : HexOrigin::coarser;
-        origin.at[h] = one ? gone[first].first : origin.several.size() - 1;
+  for (int block = 0; block < now.n_levels(); ++block) {
+    std::array<std::size_t, 2> last{};  // whole cells and pieces of a block each ascend
+    Index row = -1;
+    CellNumber begin_of_row = -1;
+    for (Index h = now.first[block]; h < now.first[block + 1]; ++h) {
+      if (origin.at[h] >= 0) continue;
+      const LevelPieces::Leaf leaf = now.leaf(block, h);
+      const CellRanges::Range cells = range(leaf);
+      std::size_t& j = last[leaf.level == block];
+      while (j + 1 < gone.size() && gone[j + 1].cells.begin <= cells.begin) ++j;
+      GoneLeaf& over = gone[j];
+      assert(over.cells.begin <= cells.begin);
+      if (over.cells.end >= cells.end && over.n == 1) {
+        origin.kind[h] = HexOrigin::finer;
+        origin.at[h] = over.first;
+        continue;
       }
+      if (over.cells.end >= cells.end) {
+        if (over.row < 0) over.row = add_row({&over, 1}, origin.several);
+        row = over.row;
+        begin_of_row = -1;
+      } else if (begin_of_row != cells.begin) {
+        std::size_t end = j;
+        while (end < gone.size() && gone[end].cells.begin < cells.end) ++end;
+        row = add_row({&over, end - j}, origin.several);
+        begin_of_row = cells.begin;
+      }
+      origin.kind[h] = HexOrigin::coarser;
+      origin.at[h] = row;
+    }
   }
   return origin;
 }

@@ -6,8 +6,9 @@
 
 namespace hextwist {
 
-/// Per node of the mesh of `now`: the same node in that of `before`, -1 where it was not there. A node is the same when it
-/// lies at the same place of the same edge, of the same face with the same cuts, or of the same cell with the same cuts.
+/// Per node of the mesh of `now`: the same node in that of `before`, -1 where it was not there. A node is the same when
+/// it lies at the same place of the same edge, of the same face with the same cuts, or of the same cell with the same
+/// cuts.
 std::vector<Index> matching_nodes(const LevelStack& now, const LevelStack& before, Index n_base_nodes);
 
 /// How a hex came about in a step. The smallest cell that is a leaf before or after decides:

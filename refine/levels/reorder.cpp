@@ -25,7 +25,8 @@ struct Order {
     std::vector<T> result;
     resize_for_overwrite(result, old.size());
     parallel_each(from.size(), [&](std::size_t i) {
-      for (std::size_t c = 0; c < width; ++c) result[i * width + c] = old[static_cast<std::size_t>(from[i]) * width + c];
+      for (std::size_t c = 0; c < width; ++c)
+        result[i * width + c] = old[static_cast<std::size_t>(from[i]) * width + c];
     });
     return result;
   }

@@ -85,8 +85,7 @@ Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& 
   pass.lineage.parent = {};
   pass.cell = cut_cells(pass.lineage.hexes, last);
   pass.corners.resize(pass.cell.size());
-  parallel_each(pass.cell.size(),
-                [&](std::size_t i) { pass.corners[i] = from.mesh.hexes[pass.lineage.hexes[i].hex]; });
+  parallel_each(pass.cell.size(), [&](std::size_t i) { pass.corners[i] = from.mesh.hexes[pass.lineage.hexes[i].hex]; });
   return made;
 }
 
@@ -163,7 +162,8 @@ LevelPieces level_pieces(const LevelStack& stack, Index n_base_hexes) {
       const Index begin = pass.lineage.hexes[i].first_child;
       const Index end = i + 1 < pass.cell.size() ? pass.lineage.hexes[i + 1].first_child : pass.n_hexes;
       const std::uint32_t code = std::uint32_t{pass.lineage.hexes[i].code} << 16;
-      for (Index h = begin; h < end; ++h) take(k + 1, h, cut, pass.cell[i], code | static_cast<std::uint32_t>(h - begin));
+      for (Index h = begin; h < end; ++h)
+        take(k + 1, h, cut, pass.cell[i], code | static_cast<std::uint32_t>(h - begin));
     }
   }
   assert(next == pieces.first.back());

@@ -1,8 +1,8 @@
 // A levelled refinement from its marks: one trisecting pass per level, each of regular cells of the level before alone.
 //
-// The result stands level by level: first the hexes of the base that were not cut, then what pass 1 made and pass 2 left,
-// and so on; nodes likewise. Within a level, hexes are in the order of their cells. So meshes of the same base can be
-// compared by merging lists (match.h), and nothing needs to be looked up by coordinates.
+// The result stands level by level: first the hexes of the base that were not cut, then what pass 1 made and pass 2
+// left, and so on; nodes likewise. Within a level, hexes are in the order of their cells. So meshes of the same base
+// can be compared by merging lists (match.h), and nothing needs to be looked up by coordinates.
 #pragma once
 
 #include <memory>

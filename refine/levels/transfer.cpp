@@ -46,10 +46,10 @@ std::vector<double> nodal_values(const LevelChange& change, const Field& field) 
 
 /// Volumes that hex fields are averaged and shared out with; 0 where nobody asks.
 struct Volumes {
-  std::vector<double> before;    ///< per item of origin.several
-  std::vector<double> of_row;    ///< per row: sum of the hexes now that share it
-  std::vector<double> of_hex;    ///< per hex before: sum of those now that are finer
-  std::vector<double> now;       ///< per hex now that is not the same
+  std::vector<double> before;  ///< per item of origin.several
+  std::vector<double> of_row;  ///< per row: sum of the hexes now that share it
+  std::vector<double> of_hex;  ///< per hex before: sum of those now that are finer
+  std::vector<double> now;     ///< per hex now that is not the same
 };
 
 Volumes volumes(const LevelChange& change, bool extensive) {
@@ -106,7 +106,9 @@ std::vector<double> hex_values(const LevelChange& change, const Volumes& volume,
 std::vector<Field> transferred_fields(const LevelChange& change, std::span<const std::string> extensive) {
   std::vector<Field> fields;
   if (change.before.fields.empty()) return fields;
-  const auto is_extensive = [&](const Field& field) { return std::ranges::find(extensive, field.name) != extensive.end(); };
+  const auto is_extensive = [&](const Field& field) {
+    return std::ranges::find(extensive, field.name) != extensive.end();
+  };
   const Volumes volume = volumes(change, std::ranges::any_of(change.before.fields, is_extensive));
   for (const Field& field : change.before.fields)
     fields.push_back({field.name, field.on, field.components,

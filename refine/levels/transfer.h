@@ -10,10 +10,10 @@ namespace hextwist {
 /// What is known of a mesh that came out of a step.
 struct LevelChange {
   const Mesh& before;
-  const Mesh& now;                   ///< in the order of the levels
-  const LevelStack& stack;           ///< of now
-  std::span<const Index> old_node;   ///< per node now: the node before, -1
-  const LevelOrigin& origin;         ///< per hex now: of before
+  const Mesh& now;                  ///< in the order of the levels
+  const LevelStack& stack;          ///< of now
+  std::span<const Index> old_node;  ///< per node now: the node before, -1
+  const LevelOrigin& origin;        ///< per hex now: of before
 };
 
 /// The fields of `before` on `now`. Guarantees:

@@ -42,14 +42,16 @@ Asked merged(const Asked& a, const Asked& b) {
   return both;
 }
 
-/// Leaves of each level with the finest level that any of their hexes asks for; all of them, or those that ask.
-std::vector<Asked> asked_of_leaves(const LevelPieces& pieces, std::span<const std::int8_t> levels, bool all) {
+/// Leaves of each level with the finest level that any of their hexes asks for. asked(hex, level of its leaf): the
+/// level, or -1 to leave the hex out.
+template <class AskedLevel>
+std::vector<Asked> asked_of_leaves(const LevelPieces& pieces, const AskedLevel& asked) {
   std::vector<Asked> whole(static_cast<std::size_t>(pieces.n_levels())), cut(whole.size());
   for (int block = 0; block < pieces.n_levels(); ++block)
     for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
-      if (!all && levels[h] == 0) continue;
       const LevelPieces::Leaf leaf = pieces.leaf(block, h);
-      (leaf.level == block ? whole : cut)[leaf.level].add(leaf.cell, std::max(0, leaf.level + levels[h]));
+      const int level = asked(h, leaf.level);
+      if (level >= 0) (leaf.level == block ? whole : cut)[leaf.level].add(leaf.cell, level);
     }
   for (std::size_t level = 0; level < whole.size(); ++level) whole[level] = merged(whole[level], cut[level]);
   return whole;
@@ -85,47 +87,67 @@ void add_parents(LevelMarks& marks) {
   }
 }
 
-LevelMarks finer(const std::vector<Asked>& leaves, int highest) {
-  LevelMarks more;
+/// The cells that must be cut for these leaves to have the levels asked for: where they are that fine already, if
+/// `all`.
+LevelMarks needed(const std::vector<Asked>& leaves, int highest, bool all) {
+  LevelMarks marks;
   for (std::size_t k = 0; k < leaves.size(); ++k)
     for (std::size_t i = 0; i < leaves[k].cell.size(); ++i) {
-      const int wanted = leaves[k].level[i];
-      if (wanted <= static_cast<int>(k)) continue;
+      const int wanted = leaves[k].level[i], level = static_cast<int>(k);
+      if (wanted == 0 || (wanted <= level && !all)) continue;
       if (wanted > highest)
         throw Error("cells of this mesh cannot be cut more than " + std::to_string(highest) + " times");
-      if (more.size() < static_cast<std::size_t>(wanted)) more.resize(static_cast<std::size_t>(wanted));
-      CellNumber begin = leaves[k].cell[i], end = begin + 1;
-      for (auto level = k; level < static_cast<std::size_t>(wanted); ++level) {
-        for (CellNumber cell = begin; cell < end; ++cell) more[level].add(cell);
+      if (marks.size() < static_cast<std::size_t>(wanted)) marks.resize(static_cast<std::size_t>(wanted));
+      CellNumber begin = leaves[k].cell[i];
+      for (int up = level; up >= wanted; --up) begin = cell_parent(begin);
+      CellNumber end = begin + 1;
+      for (int at = std::min(level, wanted - 1); at < wanted; ++at) {
+        CellMarks& here = marks[static_cast<std::size_t>(at)];
+        for (CellNumber cell = begin; cell < end; ++cell)
+          if (here.empty() || here.cell.back() != cell) here.add(cell);
         begin = first_cell_child(begin);
         end = first_cell_child(end);
       }
     }
-  for (CellMarks& marks : more) normalize(marks);
-  add_parents(more);
-  return more;
+  for (CellMarks& each : marks) normalize(each);
+  add_parents(marks);
+  return marks;
+}
+
+/// Values per hex of the mesh handed out, level by level.
+template <class T>
+std::vector<T> by_level(const Forest& forest, std::span<const T> values) {
+  const std::vector<Index>& order = forest.grown->hex_order;
+  if (values.size() != forest.grown->pieces.cell.size())
+    throw Error("there are " + std::to_string(values.size()) + " levels for " +
+                std::to_string(forest.grown->pieces.cell.size()) + " hexes");
+  std::vector<T> result(values.begin(), values.end());
+  if (!order.empty()) parallel_each(order.size(), [&](std::size_t i) { result[order[i]] = values[i]; });
+  return result;
 }
 
 }  // namespace
 
-LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> levels) {
-  const LevelPieces& pieces = forest.grown->pieces;
-  if (levels.size() != pieces.cell.size())
-    throw Error("there are " + std::to_string(levels.size()) + " flags for " + std::to_string(pieces.cell.size()) +
-                " hexes");
-  const std::vector<Index>& order = forest.grown->hex_order;
-  std::vector<std::int8_t> by_level(levels.begin(), levels.end());
-  if (!order.empty()) parallel_each(order.size(), [&](std::size_t i) { by_level[order[i]] = levels[i]; });
-  const bool coarser = std::ranges::any_of(levels, [](std::int8_t by) { return by < 0; });
-  const std::vector<Asked> leaves = asked_of_leaves(pieces, by_level, coarser);
+LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change) {
+  const std::vector<std::int8_t> changes = by_level(forest, change);
+  const bool coarser = std::ranges::any_of(change, [](std::int8_t by) { return by < 0; });
+  const std::vector<Asked> leaves = asked_of_leaves(forest.grown->pieces, [&](Index h, int level) {
+    return coarser || changes[h] != 0 ? std::max(0, level + changes[h]) : -1;
+  });
   return united(coarser ? without_given_up(forest.wished, leaves) : forest.wished,
-                finer(leaves, max_level(forest.base->mesh.n_hexes())));
+                needed(leaves, max_level(forest.base->mesh.n_hexes()), false));
 }
 
-LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int levels) {
-  std::vector<std::int8_t> flags(forest.grown->pieces.cell.size(), 0);
-  for (const Index h : hexes) flags[h] = static_cast<std::int8_t>(levels);
-  return wishes(forest, flags);
+LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change) {
+  std::vector<std::int8_t> changes(forest.grown->pieces.cell.size(), 0);
+  for (const Index h : hexes) changes[h] = static_cast<std::int8_t>(change);
+  return wishes(forest, changes);
+}
+
+LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels) {
+  const std::vector<std::uint8_t> wanted = by_level(forest, levels);
+  const auto asked = [&](Index h, int) { return wanted[h] > 0 ? wanted[h] : -1; };
+  return needed(asked_of_leaves(forest.grown->pieces, asked), max_level(forest.base->mesh.n_hexes()), true);
 }
 
 }  // namespace hextwist

@@ -26,6 +26,9 @@ struct Grown {
   LevelStep refine(const std::vector<Index>& hexes, int levels = 1, const LevelOptions& options = {}) {
     return take(change(forest, mesh.mesh, wishes(forest, hexes, levels), options));
   }
+  LevelStep set(const std::vector<std::uint8_t>& levels) {
+    return take(change(forest, mesh.mesh, wishes_of_levels(forest, levels)));
+  }
   /// The leaf that each hex is or is a piece of; its level; the hex of the base that it lies in.
   std::vector<LevelPieces::Leaf> leaves() const {
     const LevelPieces& pieces = forest.grown->pieces;
