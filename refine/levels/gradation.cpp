@@ -1,10 +1,7 @@
 #include "hextwist/refine/levels/gradation.h"
 
-#include <algorithm>
-#include <bit>
-#include <cassert>
-
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist {
@@ -171,13 +168,11 @@ CellMarks needed(const CellMarks& marks, std::size_t level, std::span<const Hex>
       for (int f = 0; f < n_features; ++f)
         if ((features >> f & 1) && !(features & table.on[f])) around.collect(parent, feature(f), found);
     }
-    std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
+    sort_unique(found);
   });
   CellMarks result;
   for (const auto& found : of_chunk) result.cell.insert(result.cell.end(), found.begin(), found.end());
-  std::ranges::sort(result.cell);
-  result.cell.erase(std::ranges::unique(result.cell).begin(), result.cell.end());
+  sort_unique(result.cell);
   result.corners.assign(result.cell.size(), all_corners);
   return result;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/refine/levels/forest.h"
 
 namespace hextwist {
@@ -22,8 +23,8 @@ struct Asked {
   }
   /// -1 where the cell is not here.
   int find(CellNumber number) const {
-    const auto found = std::ranges::lower_bound(cell, number);
-    return found != cell.end() && *found == number ? level[found - cell.begin()] : -1;
+    const Index at = position_in(cell, number);
+    return at < 0 ? -1 : level[at];
   }
 };
 

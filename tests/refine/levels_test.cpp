@@ -1,6 +1,7 @@
 // Refinement by levels: how many hexes, how good, and that nothing but regular cells is ever cut.
 #include <random>
 
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
