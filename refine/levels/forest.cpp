@@ -1,0 +1,162 @@
+#include "hextwist/refine/levels/forest.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/loose_topology.h"
+#include "hextwist/refine/levels/gradation.h"
+#include "hextwist/refine/levels/reorder.h"
+#include "hextwist/refine/levels/transfer.h"
+
+namespace hextwist {
+namespace {
+
+std::int64_t next_id(const Mesh& mesh, std::int64_t (*id)(const Mesh&, Index), Index n) {
+  return n == 0 ? 1 : id(mesh, n - 1) + 1;
+}
+
+std::shared_ptr<GrownForest> bare(const Mesh& base) {
+  auto grown = std::make_shared<GrownForest>();
+  grown->pieces = level_pieces({}, base.n_hexes());
+  grown->next_node_id = next_id(base, node_id, base.n_nodes());
+  grown->next_hex_id = next_id(base, hex_id, base.n_hexes());
+  return grown;
+}
+
+/// Places in the mesh handed out, per place level by level.
+std::vector<Index> handed_out(const std::vector<Index>& order) {
+  std::vector<Index> place(order.size());
+  parallel_each(order.size(), [&](std::size_t i) { place[order[i]] = static_cast<Index>(i); });
+  return place;
+}
+void rename(std::vector<Index>& items, const std::vector<Index>& names) {
+  if (names.empty()) return;
+  parallel_each(items.size(), [&](std::size_t i) {
+    if (items[i] >= 0) items[i] = names[items[i]];
+  });
+}
+
+/// How nodes or hexes of a step are handed out: those of the base, then those that were there before, in the order that
+/// they had, then new ones. Each with its id.
+struct Numbering {
+  std::vector<Index> order;       ///< empty: level by level
+  std::vector<std::int64_t> ids;  ///< per place of the order
+};
+
+/// old: per item, level by level, its place in the mesh before, -1; base_id: per item 0 .. n_base - 1.
+template <class BaseId, class OldId>
+Numbering number(std::span<const Index> old, Index n_base, Index n_before, std::int64_t& next, const BaseId& base_id,
+                 const OldId& old_id) {
+  Numbering result;
+  const auto n = static_cast<Index>(old.size());
+  std::vector<Index> now_of(static_cast<std::size_t>(n_before), -1);
+  for (Index i = n_base; i < n; ++i)
+    if (old[i] >= 0) now_of[old[i]] = i;
+  result.order.reserve(old.size());
+  result.ids.reserve(old.size());
+  const auto take = [&](Index i, std::int64_t id) {
+    result.order.push_back(i);
+    result.ids.push_back(id);
+  };
+  for (Index i = 0; i < n_base; ++i) take(i, base_id(i));
+  for (Index place = 0; place < n_before; ++place)
+    if (now_of[place] >= 0) take(now_of[place], old_id(place));
+  for (Index i = n_base; i < n; ++i)
+    if (old[i] < 0) take(i, next++);
+  if (std::ranges::is_sorted(result.order)) result.order.clear();
+  return result;
+}
+
+LevelOrigin reordered(LevelOrigin origin, const std::vector<Index>& hex_order) {
+  if (hex_order.empty()) return origin;
+  LevelOrigin result{{}, {}, std::move(origin.several)};
+  for (const Index h : hex_order) {
+    result.kind.push_back(origin.kind[h]);
+    result.at.push_back(origin.at[h]);
+  }
+  return result;
+}
+
+}  // namespace
+
+Forest plant(std::shared_ptr<const MeshedModel> base) {
+  Forest forest;
+  forest.base = std::move(base);
+  forest.grown = bare(forest.base->mesh);
+  return forest;
+}
+
+LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, const LevelOptions& options) {
+  const GrownForest& before = *forest.grown;
+  const MeshedModel& base = *forest.base;
+  LevelStep step;
+  step.forest = forest;
+  step.forest.wished = std::move(wished);
+  const LevelMarks& wishes = step.forest.wished;
+  if (wishes.size() > 1 && !forest.base_corners)
+    step.forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base.mesh));
+
+  const auto grown = std::make_shared<GrownForest>();
+  grown->marks = wishes.size() > 1 ? graded(wishes, base.mesh.hexes, *step.forest.base_corners) : wishes;
+  for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
+  LevelledMesh built =
+      build_levels(base, grown->marks, before.stack, {options.keep_meshes, options.fixed, options.progress});
+  grown->stack = std::move(built.stack);
+  grown->pieces = level_pieces(grown->stack, base.mesh.n_hexes());
+
+  // What it has in common with the mesh before, as that was handed out.
+  step.old_node = matching_nodes(grown->stack, before.stack, base.mesh.n_nodes());
+  rename(step.old_node, handed_out(before.node_order));
+  step.origin = level_origin(grown->pieces, before.pieces);
+  const std::vector<Index> old_places = handed_out(before.hex_order);
+  rename(step.origin.several.items, old_places);
+  for (Index row = 0; !old_places.empty() && row < step.origin.several.size(); ++row)
+    std::sort(step.origin.several.items.begin() + step.origin.several.first[row],
+              step.origin.several.items.begin() + step.origin.several.first[row + 1]);
+  for (std::size_t h = 0; !old_places.empty() && h < step.origin.at.size(); ++h)
+    if (step.origin.kind[h] != HexOrigin::coarser) step.origin.at[h] = old_places[step.origin.at[h]];
+
+  built.mesh.mesh.fields =
+      transferred_fields({current, built.mesh.mesh, grown->stack, step.old_node, step.origin}, options.extensive);
+  for (const auto& pass : grown->stack)
+    step.off_nodes.insert(step.off_nodes.end(), pass->off_nodes.begin(), pass->off_nodes.end());
+
+  if (wishes.empty()) {  // as if nothing had ever been cut
+    step.forest.grown = bare(base.mesh);
+    step.mesh = std::move(built.mesh);
+    return step;
+  }
+  grown->next_node_id = before.next_node_id;
+  grown->next_hex_id = before.next_hex_id;
+  Numbering nodes = number(
+      step.old_node, base.mesh.n_nodes(), current.n_nodes(), grown->next_node_id,
+      [&](Index i) { return node_id(base.mesh, i); }, [&](Index place) { return node_id(current, place); });
+  std::vector<Index> same_hex(step.origin.at);
+  for (std::size_t h = 0; h < same_hex.size(); ++h)
+    if (step.origin.kind[h] != HexOrigin::same) same_hex[h] = -1;
+  Numbering hexes = number(
+      same_hex, grown->pieces.first[1], current.n_hexes(), grown->next_hex_id,
+      [&](Index i) { return hex_id(base.mesh, static_cast<Index>(grown->pieces.cell[i])); },
+      [&](Index place) { return hex_id(current, place); });
+  step.mesh = nodes.order.empty() && hexes.order.empty() ? std::move(built.mesh)
+                                                         : reordered(built.mesh, nodes.order, hexes.order);
+  // As carry() has it: where the base has no ids, nodes have none until one is missing.
+  const bool by_index = base.mesh.node_ids.empty() && nodes.ids.back() == static_cast<std::int64_t>(nodes.ids.size());
+  step.mesh.mesh.node_ids = by_index ? std::vector<std::int64_t>{} : std::move(nodes.ids);
+  step.mesh.mesh.hex_ids = std::move(hexes.ids);
+  step.origin = reordered(std::move(step.origin), hexes.order);
+  if (!nodes.order.empty()) {
+    const std::vector<Index> old_node = std::move(step.old_node);
+    step.old_node.clear();
+    for (const Index n : nodes.order) step.old_node.push_back(old_node[n]);
+    const std::vector<Index> places = handed_out(nodes.order);
+    for (OffOwner& row : step.off_nodes) row.node = places[row.node];
+  }
+  grown->node_order = std::move(nodes.order);
+  grown->hex_order = std::move(hexes.order);
+  step.forest.grown = grown;
+  return step;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,80 @@
+// A mesh that can be refined and coarsened again and again: a base mesh and the cells of it that are cut.
+//
+//   Forest forest = plant(base);                            // nothing cut: its mesh is the base
+//   LevelStep step = change(forest, *base, wishes(forest, flags));
+//   LevelStep next = change(step.forest, step.mesh, wishes(step.forest, more_flags));
+//
+// Everything is values: undo is keeping the forest and mesh of before; they share what they have in common.
+#pragma once
+
+#include <string>
+
+#include "hextwist/refine/levels/match.h"
+
+namespace hextwist {
+
+/// What was made of a forest's marks, and the order in which its mesh is handed out: ascending ids, while levelled
+/// meshes stand level by level.
+struct GrownForest {
+  LevelMarks marks;  ///< wished and forced
+  LevelStack stack;
+  LevelPieces pieces;
+  /// Per place of the mesh that is handed out: the place level by level. Empty: the same.
+  std::vector<Index> node_order, hex_order;
+  std::int64_t next_node_id = 0, next_hex_id = 0;  ///< ids that were never given
+};
+
+/// The mesh of a forest is determined by base and wished marks but for ids and order, in which what was there before
+/// comes before what is new.
+struct Forest {
+  std::shared_ptr<const MeshedModel> base;
+  LevelMarks wished;  ///< closed: with a cell its parent is wished too. Forced cells are not among them
+  std::shared_ptr<const GrownForest> grown;
+  std::shared_ptr<const CompressedRows> base_corners;  ///< node_corners() of the base; made when first needed
+
+  bool is_bare() const { return wished.empty(); }
+};
+Forest plant(std::shared_ptr<const MeshedModel> base);
+
+/// Wished marks after each hex of the forest's mesh has been asked to become finer (> 0) or coarser (< 0) by so many
+/// levels. change: one per hex, in the order of the mesh handed out. The rules:
+///  1. finer: the regular cell that the hex is, or is a piece of, becomes 27, and these 27 each, and so on;
+///  2. coarser: a wished cell is given up when no hex in it asks to stay finer than it: of pieces of one leaf the
+///  finest
+///     wish counts. Cells that only gradation has cut go by themselves once nobody needs them.
+/// Throws Error when there is not one number per hex, or a cell would be cut more often than max_level().
+LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change);
+/// The same for a list of hexes, all by as many levels.
+LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change);
+/// The level that each hex is to have instead, whatever was wished before: the result depends on these alone.
+LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels);
+
+struct LevelOptions {
+  std::vector<std::string> extensive;  ///< hex fields that are shared out and summed up instead of copied and averaged
+  std::vector<Index> fixed;            ///< nodes of the base that repairing must not move
+  bool keep_meshes = false;            ///< StackOptions
+  SmoothProgress progress;
+};
+
+struct LevelStep {
+  Forest forest;
+  MeshedModel mesh;
+  LevelOrigin origin;               ///< per hex of mesh: hexes of the mesh before
+  std::vector<Index> old_node;      ///< per node of mesh: the same node before, -1
+  Index n_forced = 0;               ///< cells that are cut for the sake of gradation alone
+  std::vector<OffOwner> off_nodes;  ///< of mesh
+};
+
+/// The forest with other wishes, and its mesh. Guarantees:
+///  1. nodes and hexes that are in both meshes keep their ids, and unless inverted children are repaired near them,
+///     their bits; hexes of the base that come back have their old ids. New ones get the next ids, in the order of
+///     levels;
+///  2. without wishes the base comes back, array for array (fields as they are carried up);
+///  3. one level on a bare forest: as one trisecting pass, ids too;
+///  4. the same for any number of threads; but for ids and order the same for any way to these wishes.
+/// current: the mesh that the forest handed out last, with its fields as they are now (places, groups and association
+/// are not looked at; volumes are, for averages). wished: as wishes() makes them.
+/// Throws as build_levels().
+LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, const LevelOptions& options = {});
+
+}  // namespace hextwist

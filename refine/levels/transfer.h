@@ -1,0 +1,27 @@
+// Fields from the mesh before a step to the mesh after it.
+#pragma once
+
+#include <string>
+
+#include "hextwist/refine/levels/match.h"
+
+namespace hextwist {
+
+/// What is known of a mesh that came out of a step.
+struct LevelChange {
+  const Mesh& before;
+  const Mesh& now;                  ///< in the order of the levels
+  const LevelStack& stack;          ///< of now
+  std::span<const Index> old_node;  ///< per node now: the node before, -1
+  const LevelOrigin& origin;        ///< per hex now: of before
+};
+
+/// The fields of `before` on `now`. Guarantees:
+///  1. nodes: a node that was there keeps its values; others are interpolated, level by level, between the nodes of the
+///     edge, face or cell that they were put on (so what is linear stays so in straight-sided cells);
+///  2. hexes: those of the same hex and of the hex that it lies in are copied; where there were several, the average by
+///     volume, exact when all are equal;
+///  3. hex fields named in `extensive` keep their sum instead: they are shared out by volume downwards and summed up.
+std::vector<Field> transferred_fields(const LevelChange& change, std::span<const std::string> extensive);
+
+}  // namespace hextwist
