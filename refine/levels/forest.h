@@ -39,9 +39,9 @@ Forest plant(std::shared_ptr<const MeshedModel> base);
 /// Wished marks after each hex of the forest's mesh has been asked to become finer (> 0) or coarser (< 0) by so many
 /// levels. change: one per hex, in the order of the mesh handed out. The rules:
 ///  1. finer: the regular cell that the hex is, or is a piece of, becomes 27, and these 27 each, and so on;
-///  2. coarser: a wished cell is given up when no hex in it asks to stay finer than it: of pieces of one leaf the
+///  2. coarser: a wished cell is given up when no hex in it asks to stay finer than it (of pieces of one leaf the
 ///  finest
-///     wish counts. Cells that only gradation has cut go by themselves once nobody needs them.
+///     wish counts). Cells that only gradation has cut go by themselves once nobody needs them.
 /// Throws Error when there is not one number per hex, or a cell would be cut more often than max_level().
 LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change);
 /// The same for a list of hexes, all by as many levels.
