@@ -25,7 +25,7 @@ std::array<int, 3> sides_kept(int mask) {
   return side;
 }
 
-/// Optimised places of the new nodes. Printed by optimize_enclosing (refine/optimize_enclosing.cpp).
+/// Optimised places of the new nodes. Printed by optimize_enclosing (optimize_enclosing.cpp).
 constexpr EnclosePlaces places_at_half =
 #include "hextwist/refine/templates/enclose_places_half.inc"
     ;
