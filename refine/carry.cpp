@@ -15,9 +15,11 @@ namespace {
 template <typename Body>
 void for_each_new_node(const Mesh& old_mesh, const Lineage& lineage, const Body& per_node) {
   parallel_each(lineage.edges.size(), [&](std::size_t i) { for_each_node(lineage, lineage.edges[i], per_node); });
-  parallel_each(lineage.faces.size(), [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], per_node); });
-  parallel_each(lineage.hexes.size(),
-                [&](std::size_t i) { for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node); });
+  parallel_each(lineage.faces.size(),
+                [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], per_node, old_mesh.points); });
+  parallel_each(lineage.hexes.size(), [&](std::size_t i) {
+    for_each_node(lineage, lineage.hexes[i], old_mesh.hexes, per_node, old_mesh.points);
+  });
 }
 
 /// Fills ids[first], ... with next, next + 1, ...

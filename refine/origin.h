@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "hextwist/refine/fitted.h"
 #include "hextwist/refine/lineage.h"
 #include "hextwist/refine/templates/split_table.h"
 
@@ -23,19 +24,32 @@ void for_each_node(const Lineage& lineage, const CutEdge& edge, const Body& body
   for (const double t : lineage.table->edge[edge.code].at) body(node++, Origin{2, {edge.a, edge.b}, {1 - t, t}});
 }
 
+/// points: of the old mesh, for nodes that are fitted to the face; none: where the template has them.
 template <typename Body>
-void for_each_node(const Lineage& lineage, const CutFace& face, const Body& body) {
+void for_each_node(const Lineage& lineage, const CutFace& face, const Body& body, std::span<const Vec3> points = {}) {
   Index node = face.first_node;
-  for (const auto& [u, v] : lineage.table->face[face.code].at) {
+  std::array<Vec3, 4> corner;
+  FacePlaces room;
+  std::span<const std::array<double, 2>> places = lineage.table->face[face.code].at;
+  if (!points.empty()) {
+    for (int k = 0; k < 4; ++k) corner[k] = points[face.corners[k]];
+    places = fitted_places(*lineage.table, face.code, corner, room);
+  }
+  for (const auto& [u, v] : places) {
     const auto& c = face.corners;
     body(node++, Origin{4, {c[0], c[1], c[2], c[3]}, {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v}});
   }
 }
 
 template <typename Body>
-void for_each_node(const Lineage& lineage, const CutHex& hex, std::span<const Hex> old_hexes, const Body& body) {
+void for_each_node(const Lineage& lineage, const CutHex& hex, std::span<const Hex> old_hexes, const Body& body,
+                   std::span<const Vec3> points = {}) {
   Index node = hex.first_node;
-  for (const Vec3& at : lineage.table->hex(hex.code).inside) {
+  const HexTemplate& of = lineage.table->hex(hex.code);
+  if (of.inside.empty()) return;
+  const FittedHex fitted(*lineage.table, of, old_hexes[hex.hex], points);
+  for (std::size_t s = 0; s < of.inside.size(); ++s) {
+    const Vec3 at = fitted[s];
     Origin origin{8, old_hexes[hex.hex], {}};
     for (int c = 0; c < 8; ++c) {
       origin.weight[c] = 1;

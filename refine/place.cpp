@@ -291,9 +291,14 @@ struct Cell {
     if (number < 0) return;
     const CutFace& face = work.lineage.faces[number];
     const int symmetry = face_symmetry(face_nodes(hex, f));
-    const FacePattern& pattern = work.table.face[work.table.hex(work.lineage.hexes[cut].code).face_code[f]];
-    for (std::size_t s = 0; s < pattern.at.size(); ++s)
-      body(face.first_node + pattern.turned_slot[symmetry][s], pattern.at[s][0], pattern.at[s][1]);
+    const std::uint16_t code = work.table.hex(work.lineage.hexes[cut].code).face_code[f];
+    const FacePattern& pattern = work.table.face[code];
+    std::array<Vec3, 4> corner;
+    for (int k = 0; k < 4; ++k) corner[k] = work.old_mesh.points[hex[face_corner(f, k)]];
+    FacePlaces room;
+    const auto at = fitted_places(work.table, code, corner, room);
+    for (std::size_t s = 0; s < at.size(); ++s)
+      body(face.first_node + pattern.turned_slot[symmetry][s], at[s][0], at[s][1]);
   }
   bool on_surface(int f) const {
     const Index number = work.split.hex_faces[cut][f];
@@ -357,8 +362,8 @@ void place_inside_hexes(Work& work) {
   parallel_each(work.lineage.hexes.size(), [&](std::size_t i) {
     if (i % grain == 0) check_interrupt();
     const CutHex& hex = work.lineage.hexes[i];
-    const auto& inside = work.table.hex(hex.code).inside;
-    if (inside.empty()) return;
+    const HexTemplate& of = work.table.hex(hex.code);
+    if (of.inside.empty()) return;
     const Cell cell{work, static_cast<Index>(i), work.old_mesh.hexes[hex.hex]};
     std::array<Vec3, n_hex_faces> bulge;
     bool any = false;
@@ -367,8 +372,9 @@ void place_inside_hexes(Work& work) {
       any |= cell.face_rim_has_moved(f) || !bulge[f].isZero(0);
     }
     if (!any) return;
-    for (std::size_t s = 0; s < inside.size(); ++s) {
-      const Vec3& at = inside[s];
+    const FittedHex fitted(work.table, of, cell.hex, work.old_mesh.points);
+    for (std::size_t s = 0; s < of.inside.size(); ++s) {
+      const Vec3 at = fitted[s];
       Vec3 sum = Vec3::Zero();
       for (int f = 0; f < n_hex_faces; ++f) {
         const int axis = f >> 1;

@@ -22,6 +22,10 @@ namespace hextwist {
 void place(const Mesh& old_mesh, const Association& old_association, const Split& split, const Model& model, Mesh& mesh,
            Association& association);
 
+/// Where children are bad all the same, moves their new nodes inside hexes and faces to where the worst hex around is
+/// best; first those inside volumes, then with them those on surfaces. Nodes on edges and old nodes stay.
+void fit_children(const Split& split, const Model* model, Mesh& mesh, Association& association);
+
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end

@@ -66,8 +66,8 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
     places[at] = sum;
   };
   for (const CutEdge& edge : lineage.edges) for_each_node(lineage, edge, take);
-  for (const CutFace& face : lineage.faces) for_each_node(lineage, face, take);
-  for (const CutHex& hex : lineage.hexes) for_each_node(lineage, hex, old_mesh.hexes, take);
+  for (const CutFace& face : lineage.faces) for_each_node(lineage, face, take, old_mesh.points);
+  for (const CutHex& hex : lineage.hexes) for_each_node(lineage, hex, old_mesh.hexes, take, old_mesh.points);
   return places;
 }
 

@@ -63,7 +63,12 @@ MeshedModel State::pass(Cut cut) {
       });
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     }
+<<<<<<< HEAD:sizing/loop.cpp
     begin("improve");
+=======
+    stages_.begin("improve", fraction());
+    fit_children(parts, next.model.get(), next.mesh, next.association);
+>>>>>>> 2bd8de2 (Templates that fit the cell, first state: patterns by the face's proportions, bad children lifted):sizing/pipeline.cpp
     bool stopped = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
@@ -72,6 +77,7 @@ MeshedModel State::pass(Cut cut) {
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
                                       request.finish.fixed, keep_going),
                       std::back_inserter(report.off_nodes));
+    fit_children(parts, next.model.get(), next.mesh, next.association);
     if (stopped) throw Cancelled();
   }
   const std::vector<Index>& parent = parts.lineage.parent;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
@@ -78,32 +79,39 @@ Ring ring_at(const Hex& hex, int corner) {
   const bool odd = std::popcount(static_cast<unsigned>(corner)) % 2 == 1;
   const int a = odd ? 2 : 1, b = odd ? 1 : 2, c = 4;
   return {{hex[corner ^ a], hex[corner ^ b], hex[corner ^ c]},
-          {hex[corner ^ a ^ b], hex[corner ^ a ^ c], hex[corner ^ b ^ c]}};
+          {hex[corner ^ a ^ b], hex[corner ^ a ^ c], hex[corner ^ b ^ c]}, hex[corner ^ 7]};
 }
 
 SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& association, const Model* model,
                                   const SmoothOptions& options) {
   const std::vector<Owner> free_on = freedom(mesh, association, model, options);
+  std::vector<Index> nodes = indices_where(mesh.n_nodes(), [&](Index node) { return bool(free_on[node]); });
+  std::vector<Owner> owners;
+  owners.reserve(nodes.size());
+  for (const Index node : nodes) owners.push_back(free_on[node]);
+  std::vector<Index> hexes(mesh.hexes.size());
+  std::iota(hexes.begin(), hexes.end(), 0);
+  return make_smooth_problem(mesh, nodes, owners, hexes);
+}
+
+SmoothProblem make_smooth_problem(const Mesh& mesh, std::span<const Index> nodes, std::span<const Owner> owners,
+                                  std::span<const Index> hexes) {
   SmoothProblem problem;
   problem.slot.assign(mesh.points.size(), -1);
-  std::vector<Index> used;  // movable nodes, ascending
-  CompressedRows corners;   // per movable node, ascending: 8 * hex + corner
+  for (std::size_t i = 0; i < nodes.size(); ++i) problem.slot[nodes[i]] = static_cast<Index>(i);
+  CompressedRows corners;  // per node: 8 * hex + corner
+  corners.first.assign(nodes.size() + 1, 0);
+  for (const Index h : hexes)
+    for (const Index node : mesh.hexes[h])
+      if (problem.slot[node] >= 0) ++corners.first[problem.slot[node] + 1];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    problem.max_rings = std::max(problem.max_rings, corners.first[i + 1]);
+    corners.first[i + 1] += corners.first[i];
+  }
+  corners.items.resize(corners.first.back());
   {
-    std::vector<Index> count(mesh.points.size(), 0);
-    for (const Hex& hex : mesh.hexes)
-      for (const Index node : hex)
-        if (free_on[node]) ++count[node];
-    corners.first.push_back(0);
-    for (Index node = 0; node < mesh.n_nodes(); ++node)
-      if (count[node] > 0) {
-        problem.slot[node] = static_cast<Index>(used.size());
-        used.push_back(node);
-        corners.first.push_back(corners.first.back() + count[node]);
-        problem.max_rings = std::max(problem.max_rings, count[node]);
-      }
-    corners.items.resize(corners.first.back());
     std::vector<Index> next(corners.first.begin(), corners.first.end() - 1);
-    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    for (const Index h : hexes) {
       bool touched = false;
       for (int c = 0; c < 8; ++c)
         if (const Index s = problem.slot[mesh.hexes[h][c]]; s >= 0) {
@@ -116,20 +124,19 @@ SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& associati
   const std::vector<Index> colour_of = colour(mesh, problem.slot, corners);
 
   // Counting sort by colour.
-  const Index n_colours = used.empty() ? 0 : *std::ranges::max_element(colour_of) + 1;
+  const Index n_colours = nodes.empty() ? 0 : *std::ranges::max_element(colour_of) + 1;
   problem.first_colour.assign(n_colours + 1, 0);
   for (const Index c : colour_of) ++problem.first_colour[c + 1];
   for (Index c = 0; c < n_colours; ++c) problem.first_colour[c + 1] += problem.first_colour[c];
   std::vector<Index> next(problem.first_colour.begin(), problem.first_colour.end() - 1);
-  std::vector<Index> order(used.size());
-  for (Index s = 0; s < static_cast<Index>(used.size()); ++s) order[next[colour_of[s]]++] = s;
+  std::vector<Index> order(nodes.size());
+  for (Index s = 0; s < static_cast<Index>(nodes.size()); ++s) order[next[colour_of[s]]++] = s;
 
   problem.first_ring.push_back(0);
   for (const Index s : order) {
-    const Index node = used[s];
-    problem.slot[node] = problem.n_nodes();
-    problem.nodes.push_back(node);
-    problem.owner.push_back(free_on[node]);
+    problem.slot[nodes[s]] = problem.n_nodes();
+    problem.nodes.push_back(nodes[s]);
+    problem.owner.push_back(owners[s]);
     for (const Index corner : corners[s]) {
       problem.rings.push_back(ring_at(mesh.hexes[corner / 8], corner % 8));
       problem.ring_hex.push_back(corner / 8);

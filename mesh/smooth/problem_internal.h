@@ -10,10 +10,11 @@ namespace hextwist {
 
 /// A hex seen from one of its corners x: the ends of its edges at x, so ordered that det(n0 - x, n1 - x, n2 - x) > 0,
 /// and the far corners of the faces (n0, n1), (n0, n2), (n1, n2). Moving x changes four corner matrices of the hex, and
-/// the eighth corner is in none of them.
+/// the eighth corner, opposite, is in none of them.
 struct Ring {
   std::array<Index, 3> edge;
   std::array<Index, 3> face;  ///< across (0, 1), (0, 2), (1, 2)
+  Index opposite;
 };
 Ring ring_at(const Hex& hex, int corner);
 
@@ -35,6 +36,10 @@ struct SmoothProblem {
 
 SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& association, const Model* model,
                                   const SmoothOptions& options);
+/// The same for nodes (ascending) of which it is known where they may go, and the hexes (ascending) around them; more
+/// of these do no harm.
+SmoothProblem make_smooth_problem(const Mesh& mesh, std::span<const Index> nodes, std::span<const Owner> owners,
+                                  std::span<const Index> hexes);
 
 /// The mesh that a sweep changes, and where its nodes may go.
 struct SmoothState {

@@ -89,6 +89,23 @@ void complete_face_patterns(SplitTable& table) {
     table.max_edge_nodes = std::max(table.max_edge_nodes, static_cast<int>(pattern.at.size()));
 }
 
+void follow_faces(const SplitTable& table, HexTemplate& of) {
+  for (const Vec3& p : of.inside) {
+    const std::size_t first = of.follow.size();
+    Vec3 sum = Vec3::Zero();
+    for (int f = 0; f < n_hex_faces; ++f)
+      for (const auto& at : table.face[of.face_code[f]].at) {
+        Vec3 weight = Vec3::Constant(1 / std::pow((on_face(f, at) - p).squaredNorm(), 2));
+        weight[f >> 1] = 0;  // no node leaves its face
+        sum += weight;
+        of.follow.push_back(weight);
+      }
+    for (std::size_t j = first; j < of.follow.size(); ++j)
+      for (int axis = 0; axis < 3; ++axis)
+        if (sum[axis] > 0) of.follow[j][axis] /= sum[axis];
+  }
+}
+
 HexTemplate make_template(const SplitTable& table, const std::array<std::uint8_t, n_hex_edges>& edge_code,
                           const std::array<std::uint16_t, n_hex_faces>& face_code, const std::vector<Vec3>& points,
                           const std::vector<Hex>& hexes) {

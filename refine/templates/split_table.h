@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "hextwist/mesh/corners.h"
@@ -48,10 +49,16 @@ struct ChildSide {
 struct HexTemplate {
   std::array<std::uint8_t, n_hex_edges> edge_code{};
   std::array<std::uint16_t, n_hex_faces> face_code{};
-  std::vector<Vec3> inside;                              ///< nodes strictly inside, in the unit cube
+  std::vector<Vec3> inside;  ///< nodes strictly inside, in the unit cube
+  /// Per node inside and node inside a face (face by face): how much of its shift along each axis the inner node
+  /// follows where the table fits its patterns to the cell (fitted.h). Empty: not at all.
+  std::vector<Vec3> follow;
   std::vector<std::array<LocalNode, 8>> children;        ///< positively oriented
   std::array<std::vector<ChildSide>, n_hex_faces> side;  ///< children that make up each face of the parent
 };
+
+/// Most nodes inside a face of a pattern that is fitted.
+inline constexpr int max_fitted_face_nodes = 10;
 
 /// One kind of pass. Hex templates are made when first asked for.
 struct SplitTable {
@@ -59,6 +66,10 @@ struct SplitTable {
   int max_face_nodes = 0;
   std::vector<EdgePattern> edge;
   std::vector<FacePattern> face;
+  /// Moves the nodes of a face pattern to where they fit a face whose second axis is `ratio` times as long as its
+  /// first; they are given where the pattern has them. Turning the face turns the result with it. Null: patterns are
+  /// the same for all faces.
+  void (*fit_face)(int code, double ratio, std::span<std::array<double, 2>> at) = nullptr;
 
   /// n_codes: hex codes are 0 .. n_codes - 1; make(code) must always return the same.
   SplitTable(int n_codes, std::function<HexTemplate(const SplitTable&, int)> make);
@@ -107,6 +118,9 @@ inline std::array<double, 2> turned_point(int symmetry, std::array<double, 2> at
 
 /// Fills turned_slot of all face patterns from `turned` and the places of their nodes. For makers of tables.
 void complete_face_patterns(SplitTable& table);
+
+/// Fills `follow`: the nearer a node inside a face, the more (inverse fourth power of the distance).
+void follow_faces(const SplitTable& table, HexTemplate& of);
 
 /// Makes a template from a small mesh of the unit cube: names each of its nodes by where it lies, and finds the sides.
 /// Throws std::logic_error when the mesh does not fit the edge and face codes. For makers of tables.

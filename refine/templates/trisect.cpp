@@ -31,6 +31,66 @@ void move_inside_nodes(CubeMesh& mesh, int canonical_mask) {
     if (is_inside_cube(p)) p = found->at.at(i++);
 }
 
+#include <cstdlib>
+double E(int i, double d) {
+  static double v[20];
+  static bool init = [] {
+    for (int k = 0; k < 20; ++k) {
+      char n[8];
+      std::snprintf(n, 8, "E%d", k);
+      const char* e = std::getenv(n);
+      v[k] = e ? std::atof(e) : NAN;
+    }
+    return true;
+  }();
+  (void)init;
+  return std::isnan(v[i]) ? d : v[i];
+}
+void fit_face(int code, double ratio, std::span<std::array<double, 2>> at, const TrisectPlaces& places) {
+  std::size_t next = 0;
+  const auto put = [&](double u, double v) { at[next++] = {u, v}; };
+  // Two nodes in front of each cut edge: about thirds of the way along.
+  const auto rim_nodes = [&](int j, double depth, double spread, std::array<double, 2> margin, bool corner) {
+    for (const double offset : {-spread, spread}) {
+      const double narrowing = (corner ? margin[j < 2 ? 0 : 1] : 0) * depth;
+      const double along = narrowing + (1 - 2 * narrowing) * (0.5 + offset);
+      const double reach = corner ? margin[j < 2 ? 1 : 0] * depth : depth;
+      const double across = j & 1 ? 1 - reach : reach;
+      if (j < 2)
+        put(along, across);
+      else
+        put(across, along);
+    }
+  };
+  if (code == 0b1111) {
+    for (int k = 0; k < 4; ++k) put(k & 1 ? 2.0 / 3 : 1.0 / 3, k & 2 ? 2.0 / 3 : 1.0 / 3);
+  } else if (is_corner_pattern(code)) {
+    const double size = std::abs(std::log2(ratio));
+    std::array<double, 2> margin = {places.central_margin, places.central_margin};
+    const int longer = ratio > 1;
+    margin[longer] = std::max(E(3, .22), margin[longer] - E(4, .1) * size);
+    margin[!longer] = std::min(E(5, .4), margin[!longer] + E(6, .05) * size);
+    for (int k = 0; k < 4; ++k) put(k & 1 ? 1 - margin[0] : margin[0], k & 2 ? 1 - margin[1] : margin[1]);
+    for (int j = 0; j < 4; ++j)
+      if (code >> j & 1) {
+        const bool is_long = (j < 2) != (ratio > 1);
+        const double depth = is_long ? std::max(E(7, .3), places.depth - E(8, .1) * size)
+                                     : std::min(E(9, .8), places.depth + E(10, .05) * size);
+        rim_nodes(j, depth, places.spread, margin, true);
+      }
+  } else if (std::popcount(static_cast<unsigned>(code)) == 1) {
+    const int j = std::countr_zero(static_cast<unsigned>(code));
+    const double deep = j < 2 ? ratio : 1 / ratio;
+    const double depth =
+        deep >= 1 ? 1 - (1 - places.depth) / deep : places.depth + (E(0, .4) - places.depth) * (1 - deep);
+    const double spread = deep >= 1 ? places.spread : places.spread + (E(1, .25) - places.spread) * (1 - deep);
+    rim_nodes(j, depth, spread, {}, false);
+  }
+}
+void fit_trisect_face(int code, double ratio, std::span<std::array<double, 2>> at) {
+  fit_face(code, ratio, at, TrisectPlaces{});
+}
+
 HexTemplate make_trisect_template(const SplitTable& table, int edge_mask) {
   std::array<std::uint8_t, n_hex_edges> edge_code;
   std::array<std::uint16_t, n_hex_faces> face_code;
@@ -44,7 +104,9 @@ HexTemplate make_trisect_template(const SplitTable& table, int edge_mask) {
   if (symmetry.mirrors())
     for (Hex& hex : mesh.hexes)
       for (int c = 0; c < 8; c += 2) std::swap(hex[c], hex[c + 1]);
-  return make_template(table, edge_code, face_code, mesh.points, mesh.hexes);
+  HexTemplate made = make_template(table, edge_code, face_code, mesh.points, mesh.hexes);
+  if (edge_mask != trisect_all) follow_faces(table, made);
+  return made;
 }
 
 }  // namespace
@@ -52,31 +114,9 @@ HexTemplate make_trisect_template(const SplitTable& table, int edge_mask) {
 /// Nodes inside a face whose cut edges are the bits of `code`.
 FacePattern trisect_face_pattern(int code, const TrisectPlaces& places) {
   FacePattern pattern;
-  const auto rim_nodes = [&](double far_margin, double depth_here) {
-    // Two nodes in front of each cut edge: about thirds of the way along, `depth_here` of the way from the edge to the
-    // parallel line between `far_margin` and 1 - far_margin at that same distance.
-    for (int j = 0; j < 4; ++j) {
-      if (!(code >> j & 1)) continue;
-      for (const double offset : {-places.spread, places.spread}) {
-        const double narrowing = far_margin * depth_here;
-        const double along = narrowing + (1 - 2 * narrowing) * (0.5 + offset);
-        const double reach = far_margin == 0 ? depth_here : narrowing;
-        const double across = j & 1 ? 1 - reach : reach;
-        pattern.at.push_back(j < 2 ? std::array{along, across} : std::array{across, along});
-      }
-    }
-  };
-  const auto central_nodes = [&](double margin) {
-    for (int k = 0; k < 4; ++k) pattern.at.push_back({k & 1 ? 1 - margin : margin, k & 2 ? 1 - margin : margin});
-  };
-  if (code == 0b1111) {
-    central_nodes(1.0 / 3);
-  } else if (is_corner_pattern(code)) {
-    central_nodes(places.central_margin);
-    rim_nodes(places.central_margin, places.depth);
-  } else if (std::popcount(static_cast<unsigned>(code)) == 1) {
-    rim_nodes(0, places.depth);
-  }
+  const int n_cut = std::popcount(static_cast<unsigned>(code));
+  pattern.at.resize(code == 0b1111 ? 4 : is_corner_pattern(code) ? 4 + 2 * n_cut : n_cut == 1 ? 2 : 0);
+  fit_face(code, 1, pattern.at, places);
   for (int symmetry = 0; symmetry < n_face_symmetries; ++symmetry) {
     int turned = 0;
     for (int j = 0; j < 4; ++j) {
@@ -136,6 +176,7 @@ std::shared_ptr<const SplitTable> trisect_table() {
     made->edge = {{{}, 0}, {{1.0 / 3, 2.0 / 3}, 1}};
     for (int code = 0; code < 16; ++code) made->face.push_back(trisect_face_pattern(code, TrisectPlaces{}));
     complete_face_patterns(*made);
+    made->fit_face = fit_trisect_face;
     return made;
   }();
   return table;
