@@ -63,12 +63,7 @@ MeshedModel State::pass(Cut cut) {
       });
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     }
-<<<<<<< HEAD:sizing/loop.cpp
     begin("improve");
-=======
-    stages_.begin("improve", fraction());
-    fit_children(parts, next.model.get(), next.mesh, next.association);
->>>>>>> 2bd8de2 (Templates that fit the cell, first state: patterns by the face's proportions, bad children lifted):sizing/pipeline.cpp
     bool stopped = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
