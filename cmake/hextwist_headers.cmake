@@ -18,7 +18,7 @@ set(HEXTWIST_HEADERS
   mesh/smooth/smooth.h
   mesh/validate/validate.h
   io/io.h
-  refine/lineage.h
+  refine/levels/level_origin.h
   sizing/request.h
   sizing/report.h
   sizing/fields/size_field.h

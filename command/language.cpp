@@ -57,6 +57,21 @@ const std::vector<CommandSpec> table = {
     {"delete", "delete {block|nodeset|sideset|group} <range>", "delete blocks, sets or groups", "Their members stay.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"delete block 2", "delete nodeset all"}},
+    {"coarsen",
+     "coarsen {node|edge|face|hex|vertex|curve|surface|volume} <range> [levels <levels>] [depth <layers>] [radius <radius>] "
+     "[sum <field> ...]",
+     "take back levels of refinement",
+     "Hexes become coarser by so many levels (default 1), as far as they were cut by 'refine' before: 27 become one again "
+     "where all of them are named ('hex'), or where any of them touches or lies in the entities (all else). What was cut only for the "
+     "transition around goes by itself once nothing needs it; with everything coarsened the mesh is the one that was there before "
+     "the first 'refine', with its ids. Values of hexes become averages by volume, those of the fields after 'sum' are added up; nodes that stay keep theirs. 'refine' by "
+     "sheets, layers, one into eight or the combination, and changes of blocks and sets, end what can be taken back: a note says so.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"levels", Kind::integer, 1, 100, false, "default 1"},
+      {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the entities that become coarser too"},
+      {"radius", Kind::number, 0, 1e100, false, "hexes whose centroid is that near to the entities"},
+      {"field", Kind::string, 0, 0, false, "a field of hexes whose sum stays"}},
+     {"coarsen hex all", "coarsen hex in field \"error\" bottom 20 %", "coarsen surface 3 levels 2"}},
     {"draw",
      "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
      " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [overwrite]",
@@ -154,7 +169,7 @@ const std::vector<CommandSpec> table = {
      "refine {{node|edge|face|hex|vertex|curve|surface|volume} <range> "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
      "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] "
-     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [graded]"
+     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded]"
      "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
      "[concave {template|fill}] [{smooth|no_smooth}] [dry_run]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
@@ -174,7 +189,9 @@ const std::vector<CommandSpec> table = {
      "'direction layers' cuts the hexes at the target into layers along it, each thicker than the one before by 'growth'. "
      "'refine sheet' cuts only across the hex sheets of the edges (of the edge between two nodes; 'intersect': the other "
      "sheets of the hexes around the edges), where the edges are longer than a length, or than a multiple of the sheets' "
-     "shortest edge. 'graded' takes more hexes along so that no neighbour is more than one level coarser.\n"
+     "shortest edge. 'transition regular' (the default) never cuts pieces of the transition around a refinement "
+     "again: the cell that they are pieces of is cut instead, so that shapes do not depend on how often and in which order "
+     "is refined; 'nested' cuts them like all others. 'graded' also keeps the hex field \"level\".\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
      {{"range", Kind::range, 0, 0, false, range_help},

@@ -183,7 +183,8 @@ hextwist_status hextwist_take(hextwist_session* session, const hextwist_arrays* 
 /* ---- adaptive analysis ---- */
 
 typedef struct hextwist_adapt_options {
-  int32_t no_gradation; /* 0: neighbours stay within one level of refinement, more hexes than flagged may be cut */
+  int32_t no_gradation; /* 0: by levels: pieces of a transition are never cut again, so shapes stay as good as they are
+                           after the first call, and what was cut can become coarser. 1: exactly the flagged hexes */
   int32_t fill_concave; /* 0: templates of their own where a region is concave */
   int32_t smooth;
   double bias; /* of sizes: growth from element to element, 1 or 0: not limited */
@@ -194,6 +195,14 @@ typedef struct hextwist_adapt_options {
  * of the old mesh per hex of the new one, in which it lies; it is the caller's: hextwist_free_array(). */
 hextwist_status hextwist_adapt_flags(hextwist_session* session, const uint8_t* flags, int64_t n,
                                      const hextwist_adapt_options* options, int32_t** origin);
+/* By how many levels each hex becomes finer (> 0) or coarser (< 0); 27 become one again where none of them stays. Hexes
+ * h of the new mesh lie in, or were made of, the old hexes[first[h]] .. hexes[first[h + 1] - 1]; kind[h] is 0: the same
+ * hex, 1: it lies in a larger one that is gone, 2: the cell that it is, or is a piece of, was several hexes. Each of
+ * the three may be NULL; they are the caller's: hextwist_free_array(). Fields of hexes are copied down and averaged by
+ * volume upwards, those of nodes interpolated and injected. */
+hextwist_status hextwist_adapt_levels(hextwist_session* session, const int8_t* changes, int64_t n,
+                                      const hextwist_adapt_options* options, int8_t** kind, int32_t** first,
+                                      int32_t** hexes);
 hextwist_status hextwist_adapt_sizes(hextwist_session* session, const double* sizes, int64_t n,
                                      const hextwist_adapt_options* options, int32_t** origin);
 

@@ -162,6 +162,23 @@ hextwist_status hextwist_adapt_flags(hextwist_session* session, const std::uint8
                                      const hextwist_adapt_options* options, std::int32_t** origin) {
   return adapt(session, flags, n, options, origin);
 }
+hextwist_status hextwist_adapt_levels(hextwist_session* session, const int8_t* changes, int64_t n,
+                                      const hextwist_adapt_options* options, int8_t** kind, int32_t** first,
+                                      int32_t** hexes) {
+  if (kind) *kind = nullptr;
+  if (first) *first = nullptr;
+  if (hexes) *hexes = nullptr;
+  return with_session(session, [&](Session& s) {
+    if (n < 0 || (n > 0 && !changes)) throw Error("the array of changes is missing");
+    const auto outcome = s.adapt(std::span(changes, static_cast<std::size_t>(n)), options_of(options));
+    const CompressedRows rows = rows_of(outcome.came_from);
+    std::vector<std::int8_t> kinds;
+    for (const HexOrigin each : outcome.came_from.kind) kinds.push_back(static_cast<std::int8_t>(each));
+    if (kind) *kind = given_away(kinds);
+    if (first) *first = given_away(rows.first);
+    if (hexes) *hexes = given_away(rows.items);
+  });
+}
 hextwist_status hextwist_adapt_sizes(hextwist_session* session, const double* sizes, std::int64_t n,
                                      const hextwist_adapt_options* options, std::int32_t** origin) {
   return adapt(session, sizes, n, options, origin);

@@ -5,7 +5,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/patch/refine.h"
 #include "hextwist/sizing/fields/size_field.h"
-#include "hextwist/sizing/levels.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 namespace {
@@ -14,13 +14,29 @@ Request request_of(const Mesh& mesh, std::size_t n, const char* what, const Adap
   if (n != mesh.hexes.size())
     throw Error("there are " + std::to_string(n) + " " + what + " for " + std::to_string(mesh.n_hexes()) + " hexes");
   return {.concave = options.concave,
-          .levels = options.keep_gradation ? Levels::graded : Levels::counted,
-          .finish = {.smooth = options.smooth, .fixed = options.fixed}};
+          .transition = options.keep_gradation ? Transition::regular : Transition::nested,
+          .levelling = options.levelling,
+          .finish = {.smooth = options.smooth,
+                     .fixed = options.fixed,
+                     .level_field = options.level_field,
+                     .extensive = options.extensive}};
+}
+
+/// Of a result that is not by levels, or the first one of a base.
+LevelOrigin origin_of(const MeshedModel& input, const RefineResult& result) {
+  const Mesh& mesh = result.refined.mesh;
+  const std::int64_t last = hex_id(input.mesh, input.mesh.n_hexes() - 1);
+  LevelOrigin origin{{}, result.origin, {{0}, {}}};
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    origin.kind.push_back(hex_id(mesh, h) <= last ? HexOrigin::same : HexOrigin::finer);
+  return origin;
 }
 
 AdaptResult run(const MeshedModel& input, const Request& request, const Progress& progress) {
-  RefineResult refined = refine(input, request, progress);
-  return {std::move(refined.refined), std::move(refined.origin), std::move(refined.report)};
+  RefineResult result = refine(input, request, progress);
+  LevelOrigin came_from = result.came_from.kind.empty() ? origin_of(input, result) : std::move(result.came_from);
+  return {std::move(result.refined),  std::move(result.origin), std::move(came_from),
+          std::move(result.old_node), std::move(result.report), std::move(result.levelling)};
 }
 
 }  // namespace
@@ -28,6 +44,12 @@ AdaptResult run(const MeshedModel& input, const Request& request, const Progress
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options) {
   Request request = request_of(mesh, flags.size(), "flags", options);
   request.target.ids = indices_where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
+  return request;
+}
+
+Request adapt_request(const Mesh& mesh, std::span<const std::int8_t> changes, const AdaptOptions& options) {
+  Request request = request_of(mesh, changes.size(), "flags", options);
+  request.how = LevelChanges{{changes.begin(), changes.end()}};
   return request;
 }
 
@@ -40,7 +62,10 @@ Request adapt_request(const Mesh& mesh, std::span<const double> sizes, const Ada
   background->fields.push_back({"size", Field::On::hex, 1, {sizes.begin(), sizes.end()}});
   request.target.ids.resize(mesh.hexes.size());
   std::iota(request.target.ids.begin(), request.target.ids.end(), 0);
-  request.how = Sizes{.bias = options.bias, .field = field_size(background, "size")};
+  request.method = Method::single;
+  request.how = Sizes{.bias = options.bias,
+                      .field = field_size(background, "size"),
+                      .coarsen = is_regular(request) && has_levels(request)};
   return request;
 }
 
@@ -50,12 +75,20 @@ AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags,
   if (!request.target.ids.empty()) return run(input, request, progress);
   AdaptResult result;
   result.refined = input;
-  level_field_of(result.refined.mesh);
+  raise_levels({}, options.level_field, result.refined.mesh);
+  result.levelling = options.levelling;
+  result.came_from = {std::vector<HexOrigin>(input.mesh.hexes.size(), HexOrigin::same), {}, {{0}, {}}};
   result.origin.resize(input.mesh.hexes.size());
   std::iota(result.origin.begin(), result.origin.end(), 0);
+  result.came_from.at = result.origin;
   result.report.hexes_before = result.report.hexes_after = input.mesh.n_hexes();
   result.report.nodes_before = result.report.nodes_after = input.mesh.n_nodes();
   return result;
+}
+
+AdaptResult adapt(const MeshedModel& input, std::span<const std::int8_t> changes, const AdaptOptions& options,
+                  const Progress& progress) {
+  return run(input, adapt_request(input.mesh, changes, options), progress);
 }
 
 AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const AdaptOptions& options,

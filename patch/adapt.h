@@ -1,7 +1,11 @@
 // Adaptive analysis: which hexes are too coarse comes from a solver, the refined mesh and where it came from go back.
 //
-//   const AdaptResult next = adapt(meshed, flags);          // flags[h] != 0: cut hex h
-//   for (Index h = 0; h < next.refined.mesh.n_hexes(); ++h) transfer(old_solution[next.origin[h]], h);
+//   AdaptOptions options{.levelling = levelling_of(base)};           // base: std::shared_ptr<const MeshedModel>
+//   AdaptResult next = adapt(*base, changes, options);               // changes[h]: +1 finer, -1 coarser, 0
+//   options.levelling = next.levelling;                              // how it came about, for the next step
+//   next = adapt(next.refined, more_changes, options);
+//
+// Fields of the mesh go along (refine/levels/transfer.h says how); next.came_from says where each hex comes from.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +18,49 @@
 namespace HEXTWIST_API hextwist {
 
 struct AdaptOptions {
-  /// Cut more hexes than flagged, so that none has a neighbour (that shares a node) of a level more than one below its
-  /// own: repeated calls of both kinds then grade from coarse to fine. False: exactly the flagged ones.
+  /// Levels (Transition::regular): pieces of a transition are never cut again, and what was cut can become coarser.
+  /// False: exactly the flagged hexes are cut, whatever they are.
   bool keep_gradation = true;
   /// Of wished sizes: limits their growth from element to element (Sizes::bias).
   double bias = 1;
   Concave concave = Concave::templates;
   bool smooth = false;
   std::vector<Index> fixed = {};  ///< nodes (0-based) that are not moved (Finish::fixed)
+  /// Keep the hex field "level": how often the cell that a hex is, or is a piece of, was cut out of others.
+  bool level_field = true;
+  /// Fields of hexes whose sum stays; others are copied, and averaged where hexes become coarser.
+  std::vector<std::string> extensive = {};
+  /// AdaptResult::levelling of the call that made the mesh. Null: it is the base.
+  std::shared_ptr<const Levelling> levelling = nullptr;
 };
 
 struct AdaptResult {
-  MeshedModel refined;        ///< with the field of levels
-  std::vector<Index> origin;  ///< per hex: the hex of the input that it lies in
+  MeshedModel refined;
+  std::vector<Index> origin;    ///< per hex: the hex of the input that it lies in; where several became one, the first
+  LevelOrigin came_from;        ///< per hex in full: the same, in a coarser one, or made of several
+  std::vector<Index> old_node;  ///< per node: the same of the input, -1; empty: those of the input come first
   Report report;
+  std::shared_ptr<const Levelling> levelling;  ///< null without gradation
 };
 
 /// Flags and wishes of a solver as requests like any other.
 /// flags: one per hex, 0 or not. Throws Error when there is not one flag per hex.
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options = {});
+/// changes: one per hex, by how many levels it is to become finer (> 0) or coarser (< 0): LevelChanges.
+Request adapt_request(const Mesh& mesh, std::span<const std::int8_t> changes, const AdaptOptions& options = {});
 /// sizes: one per hex, infinity where there is no wish. Throws Error when there is not one size per hex.
 Request adapt_request(const Mesh& mesh, std::span<const double> sizes, const AdaptOptions& options = {});
 
 /// Cuts the flagged hexes into 27 each. No flag at all: the mesh as it was. Throws as adapt_request(); Cancelled.
 AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags, const AdaptOptions& options = {},
                   const Progress& progress = {});
+/// Finer and coarser.
+AdaptResult adapt(const MeshedModel& input, std::span<const std::int8_t> changes, const AdaptOptions& options = {},
+                  const Progress& progress = {});
 
-/// Cuts hexes until they have their wished sizes. Throws as adapt_request(), and when one is not positive; Cancelled.
+/// Cuts hexes until they have their wished sizes, and with gradation makes those coarser that are finer than wished (of
+/// which there is no wish: as coarse as the base), as far as the base allows. Throws as adapt_request(), and when one
+/// is not positive; Cancelled.
 AdaptResult adapt(const MeshedModel& input, std::span<const double> sizes, const AdaptOptions& options = {},
                   const Progress& progress = {});
 

@@ -8,7 +8,7 @@
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/verify_internal.h"
-#include "hextwist/sizing/loop.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -44,6 +44,7 @@ Request request_in(const Patch& patch, const Request& request, const Around& aro
   Request local = request;
   const auto node = [&](Index n) { return patch.local_node(n); };
   local.finish.fixed.clear();
+  local.levelling = nullptr;
   for (const Index n : request.finish.fixed)
     if (const Index there = node(n); there >= 0) local.finish.fixed.push_back(there);
   const auto renumber = [&](const auto& items, const auto& number) {
@@ -122,14 +123,16 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
     {
       State run(made.patch.meshed, local, report, progress);
       made.result = run_passes(run, plan.approach);
-      made.origin_before = run.origin_before();
-      made.n_kept_before = run.n_kept_before();
+      made.result.levelling = nullptr;  // of the patch
+      made.result.came_from = {};
+      made.result.old_node = {};
       const PatchNumbers numbers(made.patch, input, made.result.refined.mesh);
       const bool is_enough = rings->is_all || std::ranges::all_of(numbers.local_gone, [&](Index h) {
                                return rings->ring[h] + enough_rings <= n_rings;
                              });
       if (!is_enough) continue;
       for (OffOwner& row : report.off_nodes) row.node = numbers.node(row.node);
+      for (Index& node : made.result.smoothed) node = numbers.node(node);
       if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
     }
@@ -162,57 +165,6 @@ std::vector<Index> whole_origin(const PatchResult& result, const MeshedModel& in
   return origin;
 }
 
-Lineage whole_lineage(const PatchResult& made, const MeshedModel& input) {
-  const Lineage& local = made.result.lineage;
-  const Patch& patch = made.patch;
-  const auto n_patch_nodes = static_cast<Index>(patch.nodes.size());
-  const auto n_patch_hexes = static_cast<Index>(patch.hexes.size());
-  // The mesh that the last pass began with: first the hexes of the input that were not cut by then.
-  const auto input_hex = [&](Index h) { return patch.hexes[made.origin_before.empty() ? h : made.origin_before[h]]; };
-  std::vector<Index> gone;  // by then
-  for (Index kept = 0, h = 0; h < n_patch_hexes; ++h)
-    if (kept < made.n_kept_before && input_hex(kept) == patch.hexes[h])
-      ++kept;
-    else
-      gone.push_back(patch.hexes[h]);
-  const Index n_kept = input.mesh.n_hexes() - static_cast<Index>(gone.size());
-  const auto node = [&](Index n) {
-    return n < n_patch_nodes ? patch.nodes[n] : n - n_patch_nodes + input.mesh.n_nodes();
-  };
-  const auto hex = [&](Index h) {
-    return h < made.n_kept_before ? after_gaps(gone, input_hex(h)) : h - made.n_kept_before + n_kept;
-  };
-
-  Lineage lineage = local;
-  lineage.n_old_nodes = local.n_old_nodes - n_patch_nodes + input.mesh.n_nodes();
-  lineage.n_old_hexes = local.n_old_hexes - made.n_kept_before + n_kept;
-  for (CutEdge& edge : lineage.edges)
-    edge = {node(edge.a), node(edge.b), node(edge.first_node), hex(edge.hex), edge.code};
-  for (CutFace& face : lineage.faces) {
-    face.side.hex = hex(face.side.hex);
-    for (Index& n : face.corners) n = node(n);
-    face.first_node = node(face.first_node);
-  }
-  const Index n_new = static_cast<Index>(local.parent.size());
-  const Index n_final = made.splice->n_hexes(true);
-  for (CutHex& cut : lineage.hexes)
-    cut = {hex(cut.hex), n_final - (n_new - cut.first_child), node(cut.first_node), cut.code};
-  // Hexes that were kept have themselves as parents.
-  lineage.parent.resize(static_cast<std::size_t>(n_final));
-  Index next = 0, old = 0, n_gone = 0;
-  const auto keep_until = [&](Index end) {
-    for (; old < end; ++old) lineage.parent[next++] = old - n_gone;
-  };
-  for (const Index h : made.splice->gone()) {
-    keep_until(h);
-    ++old;
-    if (n_gone < static_cast<Index>(gone.size()) && gone[n_gone] == h) ++n_gone;
-  }
-  keep_until(input.mesh.n_hexes());
-  for (Index h = n_new - (n_final - next); h < n_new; ++h) lineage.parent[next++] = hex(local.parent[h]);
-  return lineage;
-}
-
 RefineResult whole_result(PatchResult made, const MeshedModel& input, const Measured& known, const Request& request) {
   Report report = std::move(made.result.report);
   RefineResult result;
@@ -221,7 +173,8 @@ RefineResult whole_result(PatchResult made, const MeshedModel& input, const Meas
     Stages stages(report, none);
     stages.begin("splice", 0.9);
     result.refined = spliced(input, *made.splice);
-    result.lineage = whole_lineage(made, input);
+    result.smoothed = std::move(made.result.smoothed);
+    result.levelling = levelling_after(request, result, result.refined);
     result.origin = whole_origin(made, input);
     stages.begin("verify", 0.9);
     if (!made.is_verified) verify_all(result.refined, known, report);

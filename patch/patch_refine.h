@@ -14,12 +14,10 @@ namespace hextwist {
 using RingsOf = std::function<std::optional<Rings>(const Mesh& mesh, std::span<const Index> nodes,
                                                    std::span<const Index> at, int n_rings, std::size_t limit)>;
 
-/// What came of it. The lineage and the mesh of `result` are those of the patch; the report is that of the whole.
+/// What came of it. The mesh and the origin of `result` are those of the patch; the report is that of the whole.
 struct PatchResult {
   Patch patch;
   RefineResult result;
-  std::vector<Index> origin_before;  ///< see State
-  Index n_kept_before = 0;
   std::unique_ptr<const Splice> splice;
   bool is_verified = false;  ///< false (and not a dry run): only verifying everything will do
 };
@@ -32,8 +30,7 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
 /// The result of a patch put into a copy of the mesh.
 RefineResult whole_result(PatchResult made, const MeshedModel& input, const Measured& known, const Request& request);
 
-/// Lineage and origin in numbers of the whole.
-Lineage whole_lineage(const PatchResult& result, const MeshedModel& input);
+/// The origin in numbers of the whole.
 std::vector<Index> whole_origin(const PatchResult& result, const MeshedModel& input);
 
 }  // namespace hextwist

@@ -2,7 +2,7 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/patch/patch_refine.h"
-#include "hextwist/sizing/loop.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 
@@ -14,7 +14,8 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   {
     State state(input, request, report, progress);
     result = run_passes(state, approach);
-    if (!request.finish.dry_run) verify(input, known, result.refined, report);
+    // Nodes may be gone where levels change.
+    if (!request.finish.dry_run) verify(input, has_levels(request) ? nullptr : known, result.refined, report);
   }
   report.hexes_before = input.mesh.n_hexes();
   report.nodes_before = input.mesh.n_nodes();
@@ -25,6 +26,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
     result = {};
     report.sizes.reset();
   }
+  result.levelling = levelling_after(request, result, result.refined);
   result.report = std::move(report);
   return result;
 }

@@ -10,6 +10,7 @@
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/untangle.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {
@@ -147,6 +148,7 @@ void replace_and_measure(Transaction& run, MeshedModel meshed) {
   run.state.cad_volume = 0;
   if (meshed.model)
     for (int id = 1; id <= meshed.model->count(3); ++id) run.state.cad_volume += meshed.model->measure({3, id});
+  run.state.levelling = nullptr;
   run.replace(std::move(meshed));
 }
 
@@ -166,6 +168,26 @@ void accept_refined(Transaction& run, MeshedModel refined, const Report& report)
   if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
   run.replace(std::move(refined));
   take_measured(run, report);
+}
+
+void accept_refined(Transaction& run, RefineResult result) {
+  accept_refined(run, std::move(result.refined), result.report);
+  take_levelling(run, std::move(result.levelling));
+  const auto& fixed = run.state.fixed_nodes;
+  if (!fixed || result.old_node.empty()) return;  // else nodes may be gone
+  std::vector<Index> still;
+  for (Index n = 0; n < run.meshed->mesh.n_nodes(); ++n)
+    if (result.old_node[n] >= 0 && std::ranges::binary_search(*fixed, result.old_node[n])) still.push_back(n);
+  if (still.size() < fixed->size())
+    run.note(counted(static_cast<std::int64_t>(fixed->size() - still.size()), "fixed node") + " of before " +
+             (fixed->size() - still.size() == 1 ? "is" : "are") + " no more");
+  run.state.fixed_nodes = still.empty() ? nullptr : std::make_shared<const std::vector<Index>>(std::move(still));
+}
+
+void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling) {
+  if (!levelling && run.state.levelling)
+    run.note("levels end here: this mesh is the base of what is refined from now on");
+  run.state.levelling = std::move(levelling);
 }
 
 void forget_members(ModelState& state, bool also_cad) {

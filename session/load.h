@@ -21,8 +21,13 @@ void replace_and_measure(Transaction& run, MeshedModel meshed);
 
 /// The result of a refinement becomes the mesh of the session, unless it is no good: then throws Error.
 void accept_refined(Transaction& run, MeshedModel refined, const Report& report);
+/// The same with the levelling of the result, and with fixed nodes where nodes are gone.
+void accept_refined(Transaction& run, RefineResult result);
 /// What the engine measured of a result that is the mesh of the session by now.
 void take_measured(Transaction& run, const Report& report);
+
+/// The levelling of the mesh that the command has made. Null: says so where there was one.
+void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling);
 
 /// Takes members out of all groups that mean nothing for a new mesh, or drops the groups where the CAD is new too.
 void forget_members(ModelState& state, bool also_cad);

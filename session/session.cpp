@@ -6,6 +6,7 @@
 #include "hextwist/command/syntax.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/run.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 
@@ -96,14 +97,20 @@ AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& valu
     if (run.meshed->mesh.n_hexes() == 0) throw Error("there is no mesh to adapt");
     if (const auto& fixed = run.state.fixed_nodes)
       options.fixed.insert(options.fixed.end(), fixed->begin(), fixed->end());
+    options.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
     AdaptResult result = adapt(*run.meshed, values, options, core.callbacks.progress);
     for (const std::string& line : result.report.notices) run.note(line);
     run.record().seconds = result.report.seconds;
     run.record().filled_hexes = result.report.filled_hexes;
-    outcome = {std::move(result.origin), std::move(result.report)};
+    outcome = {std::move(result.origin), std::move(result.report), std::move(result.came_from)};
     // Nothing was cut, and then nothing was measured: the mesh stays, without a field of zeros.
-    if (outcome.report.hexes_after > outcome.report.hexes_before)
-      accept_refined(run, std::move(result.refined), outcome.report);
+    if (std::ranges::all_of(outcome.came_from.kind, [](HexOrigin kind) { return kind == HexOrigin::same; })) return;
+    RefineResult refined;
+    refined.refined = std::move(result.refined);
+    refined.report = outcome.report;
+    refined.levelling = std::move(result.levelling);
+    refined.old_node = std::move(result.old_node);
+    accept_refined(run, std::move(refined));
   });
   return outcome;
 }
@@ -112,6 +119,9 @@ AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& valu
 
 AdaptOutcome Session::adapt(std::span<const std::uint8_t> flags, const AdaptOptions& options) {
   return adapt_session(*core_, "flags", flags, options);
+}
+AdaptOutcome Session::adapt(std::span<const std::int8_t> changes, const AdaptOptions& options) {
+  return adapt_session(*core_, "levels", changes, options);
 }
 AdaptOutcome Session::adapt(std::span<const double> sizes, const AdaptOptions& options) {
   return adapt_session(*core_, "sizes", sizes, options);

@@ -79,8 +79,9 @@ struct CommandRecord {
 
 /// What Session::adapt() did.
 struct AdaptOutcome {
-  std::vector<Index> origin;  ///< per hex of the new mesh: the hex of the old one that it lies in
+  std::vector<Index> origin;  ///< per hex of the new mesh: the hex of the old one that it lies in; of several the first
   Report report;
+  LevelOrigin came_from;  ///< the same in full
 };
 
 struct SessionCallbacks {
@@ -128,7 +129,10 @@ class Session {
 
   /// adapt() on the mesh of the session, which becomes the result, as by a command: it can be undone, and a failure
   /// leaves the session as it was. flags, sizes: one per hex. Throws CommandError.
+  /// changes: by how many levels each becomes finer (> 0) or coarser (< 0). The session knows how its mesh came about:
+  /// options.levelling is not looked at.
   AdaptOutcome adapt(std::span<const std::uint8_t> flags, const AdaptOptions& options = {});
+  AdaptOutcome adapt(std::span<const std::int8_t> changes, const AdaptOptions& options = {});
   AdaptOutcome adapt(std::span<const double> sizes, const AdaptOptions& options = {});
 
   /// Ids of the entities of a kind ("hex", "curve", ... as in commands) that a range means: ids("node", "in curve 3").

@@ -15,6 +15,8 @@
 
 namespace hextwist {
 
+struct Levelling;
+
 enum class Glue { automatic, on, off };
 
 /// What is known of mesh and model, and is brought back with them by `undo`. Cheap to copy: the heavy parts are shared
@@ -31,6 +33,7 @@ struct ModelState {
   /// Smoothing schemes of CAD entities that were given one; null: none.
   std::shared_ptr<const std::vector<std::pair<Owner, SmoothScheme>>> schemes;
   std::shared_ptr<const std::vector<Group>> groups;  ///< by ascending id; null: none
+  std::shared_ptr<const Levelling> levelling;        ///< how the mesh came out of its base; null: it is one
 };
 
 /// All but the mesh that a command may change; copied before each, so that a failure can put it back.

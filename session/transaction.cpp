@@ -84,6 +84,14 @@ void Transaction::splice(const SpliceChange& change) {
   }
 }
 
+void Transaction::end_levels() {
+  if (is_playback || is_history || !(back || mesh_before_)) return;
+  if (!state.levelling || state.levelling != state_before_.levelling) return;
+  // Changed by a command that knows nothing of levels.
+  state.levelling = nullptr;
+  note("levels end here: this mesh is the base of what is refined from now on");
+}
+
 std::optional<Step> Transaction::undo_step() {
   if (is_playback || is_history || !core.history.on) return std::nullopt;
   const ModelState &now = state, &then = state_before_;
@@ -149,6 +157,7 @@ void transact(Transaction& run, const std::function<void()>& f) {
   try {
     f();
     run.close_stage();
+    run.end_levels();
     step = run.undo_step();
   } catch (const CommandError& error) {
     run.fail(error);

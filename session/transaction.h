@@ -56,6 +56,7 @@ class Transaction {
   /// The same with the nodes and hexes that there are now, and their neighbours.
   void replace_alike(MeshedModel next);
   std::optional<Step> undo_step();
+  void end_levels();
   void roll_back() noexcept;
   void close_record();
   void fail(const CommandError& error);

@@ -13,7 +13,7 @@
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
-#include "hextwist/sizing/levels.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
@@ -23,16 +23,6 @@ constexpr int smooth_layers = 2;  // around the new hexes
 /// Between passes, new hexes below this shape are smoothed, even if smoothing is not asked for.
 constexpr double least_shape_to_go_on = 0.1;
 
-/// One more for the children of hexes all of whose edges were cut.
-void raise_levels(const Lineage& lineage, Mesh& refined) {
-  std::vector<double>& level = level_field_of(refined).values;
-  for (const CutHex& cut : lineage.hexes) {
-    const HexTemplate& pieces = lineage.table->hex(cut.code);
-    if (std::ranges::count(pieces.edge_code, 0) > 0) continue;
-    for (std::size_t i = 0; i < pieces.children.size(); ++i) ++level[static_cast<std::size_t>(cut.first_child) + i];
-  }
-}
-
 }  // namespace
 
 void State::run(Technique& technique) {
@@ -40,7 +30,7 @@ void State::run(Technique& technique) {
     if (cut->cuts_again) smooth_between_passes();
     const bool is_first = current_ == &input;
     const MeshedModel before = pass(std::move(*cut));
-    technique.follow(result_.lineage, is_first ? input.mesh : before.mesh, mesh());
+    technique.follow(lineage_, is_first ? input.mesh : before.mesh, mesh());
   }
   if (current_ == &input) keep();
   technique.finish(*this);
@@ -54,7 +44,7 @@ MeshedModel State::pass(Cut cut) {
   begin("carry");
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
-  if (request.levels != Levels::ignored) raise_levels(parts.lineage, next.mesh);
+  raise_levels(parts.lineage, request.finish.level_field, next.mesh);
   if (!request.finish.dry_run) {
     begin("place");
     if (next.model && !next.association.empty()) {
@@ -78,21 +68,20 @@ MeshedModel State::pass(Cut cut) {
   std::vector<Index> origin(parent.size());
   parallel_each(parent.size(),
                 [&](std::size_t h) { origin[h] = result_.origin.empty() ? parent[h] : result_.origin[parent[h]]; });
-  origin_before_ = std::exchange(result_.origin, std::move(origin));
-  n_kept_before_ = n_kept(from.mesh);
-  result_.lineage = std::move(parts.lineage);
+  result_.origin = std::move(origin);
+  result_.levelling = nullptr;
+  result_.came_from = {};
+  result_.old_node = {};
+  lineage_ = std::move(parts.lineage);
   current_ = &result_.refined;
   return std::exchange(result_.refined, std::move(next));
 }
 
 void State::keep() {
   result_.refined = input;
-  if (request.levels != Levels::ignored) level_field_of(result_.refined.mesh);
-  result_.lineage.n_old_nodes = input.mesh.n_nodes();
-  result_.lineage.n_old_hexes = input.mesh.n_hexes();
-  result_.lineage.parent.resize(input.mesh.hexes.size());
-  std::iota(result_.lineage.parent.begin(), result_.lineage.parent.end(), 0);
-  result_.origin = result_.lineage.parent;
+  raise_levels({}, request.finish.level_field, result_.refined.mesh);
+  result_.origin.resize(input.mesh.hexes.size());
+  std::iota(result_.origin.begin(), result_.origin.end(), 0);
   current_ = &result_.refined;
 }
 
@@ -119,6 +108,7 @@ std::vector<Index> State::new_hexes() const {
 void State::smooth_band(bool fix_boundary) {
   begin("smooth");
   Mesh& mesh = result_.refined.mesh;
+  const std::vector<Vec3> before = mesh.points;
   SmoothOptions options;
   options.nodes = nodes_inside(mesh, with_layers(mesh, new_hexes(), smooth_layers));
   options.fixed = request.finish.fixed;
@@ -126,6 +116,7 @@ void State::smooth_band(bool fix_boundary) {
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,
                                        [&](const char* stage, double) { return stages.report(stage, 0.9); });
   if (smoothed.stopped) throw Cancelled();
+  result_.smoothed = indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
   note("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " + std::to_string(smoothed.sweeps) + " sweeps");
 }
 
@@ -144,6 +135,11 @@ RefineResult run_passes(State& state, Approach approach) {
   state.begin("targets");
   if (approach == Approach::nearest_size)
     run_nearest_size(state);
+  else if (approach == Approach::levels || approach == Approach::size_by_levels)
+    run_levels(state);
+  else if (approach == Approach::combination && is_regular(state.request) &&
+           std::get<Cuts>(state.request.how).numsplit > 1 && run_combination_by_levels(state))
+    ;
   else
     state.run(*make_technique(approach, state));
   if (state.request.finish.smooth && !state.request.finish.dry_run) state.smooth_band();

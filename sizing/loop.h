@@ -44,10 +44,6 @@ class State {
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
 
-  /// Before the last pass: per hex the hex of the input that it lay in (empty: itself); the first so many were those of
-  /// the input that had not been cut.
-  const std::vector<Index>& origin_before() const { return origin_before_; }
-  Index n_kept_before() const { return n_kept_before_; }
   RefineResult take_result() { return std::move(result_); }
 
  private:
@@ -64,8 +60,7 @@ class State {
 
   const MeshedModel* current_;
   RefineResult result_;
-  std::vector<Index> origin_before_;
-  Index n_kept_before_ = 0;
+  Lineage lineage_;  // of the last pass
   int n_passes_ = 0;
   bool told_between_ = false;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hextwist/refine/templates/uniform.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -33,20 +34,18 @@ void check_numsplit(int numsplit, int limit) {
 void check_direction(const Request& request) {
   if (request.target.depth || request.target.radius || request.method != Method::automatic)
     throw Error("a direction goes with numsplit, not with sizes, depth, radius or a method");
-  if (request.levels == Levels::graded) throw Error("graded levels need whole hexes to be cut: not one direction");
 }
 
 /// The technique of the paper that the target and the method ask for.
 Method technique_of(const Request& request) {
   const Target& target = request.target;
-  const bool solid = is_solid(target.kind), deep = has_depth(target), graded = request.levels == Levels::graded;
+  const bool solid = is_solid(target.kind), deep = has_depth(target);
   switch (request.method) {
     case Method::single:
       if (!solid && target.depth && !deep)
         throw Error("the single sheet technique refines whole hexes: it needs depth 1 or more");
       return Method::single;
     case Method::combination:
-      if (graded) throw Error("graded levels need whole hexes to be cut: not the combination");
       if (solid)
         throw Error("the combination technique refines around nodes, edges and faces, not " + the(target.kind));
       if (target.depth && deep) throw Error("the combination technique has depth 0");
@@ -56,22 +55,24 @@ Method technique_of(const Request& request) {
     case Method::automatic:
       break;
   }
-  return solid || deep || graded ? Method::single : Method::combination;
+  return solid || deep ? Method::single : Method::combination;
 }
 
 Plan plan_how(const MeshedModel& input, const Request& request, const Cuts& cuts) {
   const Target& target = request.target;
-  const bool solid = is_solid(target.kind), deep = has_depth(target), graded = request.levels == Levels::graded;
+  const bool solid = is_solid(target.kind), deep = has_depth(target);
   const bool whole = is_whole_model(input, target);
   const Method method = technique_of(request);
-  const bool uniform = whole && method == Method::single && !target.radius && !graded;
+  const bool uniform = whole && method == Method::single && !target.radius;
   check_numsplit(cuts.numsplit, whole ? max_uniform_pieces - 1 : max_numsplit);
   if (uniform) return {Approach::uniform};
   if (method == Method::parallel && (solid || deep)) return {Approach::eight};  // planned by sheets
   if (method == Method::parallel) return {Approach::parallel, 2};
   if (method == Method::combination) return {Approach::combination, 2};
-  if (graded) return {Approach::trisect};  // takes coarser neighbours along, however far that goes
-  return {Approach::trisect, target.radius ? 1 : target.depth.value_or(solid ? 0 : 1) + 1};
+  const int reach = target.radius ? 1 : target.depth.value_or(solid ? 0 : 1) + 1;
+  if (!is_regular(request) || (cuts.numsplit == 1 && !has_levels(request))) return {Approach::trisect, reach};
+  if (has_levels(request)) return {Approach::levels};  // from the base on
+  return {Approach::levels, reach + 1};                // all rings that further levels add are within one of the first
 }
 
 Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
@@ -81,6 +82,8 @@ Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
     throw Error(sizes.bias != 1 ? "a bias other than 1 needs a size or a sizing function to grow from"
                                 : "give a size or a sizing function");
   if (sizes.size && !(*sizes.size > 0 && std::isfinite(*sizes.size))) throw Error("size must be a positive number");
+  if (sizes.coarsen && !is_regular(request))
+    throw Error("sizes become coarser by levels only: not with a nested transition or filled regions");
   if (sizes.max_passes < 1 || sizes.max_passes > 30) throw Error("max_passes must be from 1 to 30");
   const bool exactly = target.depth && *target.depth == 0 && !is_solid(target.kind);
   if (exactly && request.method == Method::parallel)
@@ -88,13 +91,16 @@ Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
   const Method method = technique_of(request);
   if (method == Method::combination && (request.method == method || exactly)) return {Approach::size_by_combination};
   if (request.method == Method::parallel) return {Approach::size_by_halves};
-  if (request.method == Method::single) return {Approach::size_by_threes};
-  // Where the wish changes from place to place, halved regions have steps for sides, which twos meet badly: nothing to
-  // choose from, but for a size that grows from the target, which the combination may meet better there.
+  const bool by_levels = is_regular(request) && (request.transition == Transition::regular || has_levels(request));
+  if (by_levels || sizes.coarsen) return {Approach::size_by_levels};
+  if (request.method == Method::single)
+    return {is_regular(request) ? Approach::nearest_size : Approach::size_by_threes};
+  // (run_nearest_size() has the same rule.) Where the wish changes from place to place, halved regions have steps for
+  // sides, which twos meet badly: nothing to choose from, but for a size that grows from the target, which the
+  // combination may meet better there.
   const bool varies = sizes.bias > 1 || sizes.field;
-  const bool may_combine = sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius &&
-                           request.levels == Levels::ignored;
-  return {varies && !may_combine ? Approach::size_by_threes : Approach::nearest_size};
+  const bool may_combine = sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius;
+  return {varies && !may_combine && !is_regular(request) ? Approach::size_by_threes : Approach::nearest_size};
 }
 
 Plan plan_how(const MeshedModel&, const Request& request, const Thickness& thickness) {
@@ -122,6 +128,14 @@ Plan plan_how(const MeshedModel&, const Request& request, const AcrossSheets& sh
   return {Approach::sheets};
 }
 
+Plan plan_how(const MeshedModel& input, const Request& request, const LevelChanges& changes) {
+  if (!is_regular(request)) throw Error("levels need a regular transition, and templates for concave places");
+  if (changes.by.size() != input.mesh.hexes.size())
+    throw Error("there are " + std::to_string(changes.by.size()) + " flags for " +
+                std::to_string(input.mesh.n_hexes()) + " hexes");
+  return {Approach::levels};
+}
+
 }  // namespace
 
 const char* name(Method method) {
@@ -131,7 +145,8 @@ const char* name(Method method) {
 
 Plan plan(const MeshedModel& input, const Request& request) {
   if (input.mesh.hexes.empty()) throw Error("there is no mesh to refine");
-  if (!std::holds_alternative<AcrossSheets>(request.how)) check_targets(input, request.target);
+  if (!std::holds_alternative<AcrossSheets>(request.how) && !std::holds_alternative<LevelChanges>(request.how))
+    check_targets(input, request.target);
   check_target(request.target, request.method);
   return std::visit([&](const auto& how) { return plan_how(input, request, how); }, request.how);
 }

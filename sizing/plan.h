@@ -11,13 +11,15 @@ namespace hextwist {
 enum class Approach {
   uniform,              ///< the whole model, every edge in equal pieces
   trisect,              ///< hexes and layers of hexes in 27 (section 4)
+  levels,               ///< the same so that no piece of a transition is cut again, and back (levelling.h)
   eight,                ///< the same in eight where sheets allow it (sections 5.1 to 5.3)
   parallel,             ///< around nodes, edges and faces (section 5.1)
   combination,          ///< the same and along them (section 5.4)
   thickness,            ///< edges behind surfaces
   layers,               ///< boundary layers
   sheets,               ///< edges of sheets
-  size_by_threes,       ///< to wished sizes, by trisecting
+  size_by_levels,       ///< to wished sizes, by levels
+  size_by_threes,       ///< by trisecting whatever is too large
   size_by_halves,       ///< and one into eight where that comes nearer
   size_by_combination,  ///< and by the combination at the target
   nearest_size,         ///< whichever of two of these comes nearer to the wish
@@ -29,6 +31,11 @@ struct Plan {
   /// enclosing adds. None: anywhere, since sheets, sizes, gradation or the whole model decide.
   std::optional<int> reach = std::nullopt;
 };
+
+/// Whether whole hexes are cut by levels. (Filled regions are convex by cutting what is there.)
+inline bool is_regular(const Request& request) {
+  return request.transition != Transition::nested && request.concave == Concave::templates;
+}
 
 /// Throws Error for unknown ids, options out of range and wishes that do not go together.
 Plan plan(const MeshedModel& input, const Request& request);

@@ -11,11 +11,12 @@
 #include "hextwist/mesh/meshed_model.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/validate/validate.h"
-#include "hextwist/refine/lineage.h"
+#include "hextwist/refine/levels/level_origin.h"
 
 namespace HEXTWIST_API hextwist {
 
 struct Extremes;
+struct Levelling;
 
 /// Seconds per stage of a refinement, in the order run.
 struct StageTime {
@@ -44,6 +45,7 @@ struct SizeReport {
 struct Report {
   std::int64_t hexes_before = 0, hexes_after = 0;
   std::int64_t nodes_before = 0, nodes_after = 0;
+  std::int64_t graded_cells = 0;  ///< cells that are cut for the sake of those around them alone (Transition::regular)
   std::int64_t filled_hexes = 0;  ///< hexes that joined the region because of Concave::fill
   Summary shape_before, shape_after;
   Summary scaled_jacobian_before, scaled_jacobian_after;
@@ -68,9 +70,17 @@ struct Cancelled : Error {
 
 struct RefineResult {
   MeshedModel refined;
-  Lineage lineage;            ///< of the last pass
-  std::vector<Index> origin;  ///< over all passes: per hex, the hex of the input that it lies in; empty for a dry run
+  /// Per hex, the hex of the input that it lies in; of those that it came from (`came_from`), the first. Empty for a
+  /// dry run.
+  std::vector<Index> origin;
   Report report;
+  /// Of a result by levels: for Request::levelling of the next request. Null: the result is a new base.
+  std::shared_ptr<const Levelling> levelling = nullptr;
+  /// Of a result by levels, but for the first one of a base: that of each hex in full, and per node the node of the
+  /// input that it is, -1.
+  LevelOrigin came_from = {};
+  std::vector<Index> old_node = {};
+  std::vector<Index> smoothed = {};  ///< nodes that smoothing moved in the end (Finish::smooth), ascending
 };
 
 }  // namespace hextwist

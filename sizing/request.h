@@ -1,8 +1,10 @@
 // One refinement as asked for: where, how, by which technique, and what is done with the result.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -12,6 +14,7 @@
 namespace HEXTWIST_API hextwist {
 
 class SizeField;
+struct Levelling;
 
 /// What is to be refined.
 struct Target {
@@ -53,6 +56,9 @@ struct Sizes {
   double bias = 1;
   std::shared_ptr<const SizeField> field =
       nullptr;  ///< wished size by place (size_field.h), in the hexes of the target
+  /// Where hexes are finer than wished they become coarser, as far as the base of the levels allows: what was cut
+  /// before counts no longer. Needs Transition::regular.
+  bool coarsen = false;
   /// Sizes are approached in passes that each cut by up to three; after so many the rest is reported as unmet. 1 .. 30.
   int max_passes = 12;
 };
@@ -80,7 +86,16 @@ struct AcrossSheets {
   std::optional<double> factor = std::nullopt;        ///< or than this times the shortest edge of the sheets
 };
 
-using How = std::variant<Cuts, Sizes, Thickness, Layers, AcrossSheets>;
+/// Instead of a target: by how many levels each hex is to become finer (> 0) or coarser (< 0). Needs
+/// Transition::regular; nothing becomes coarser than the base of the levels.
+///  1. finer: the hex becomes 27, and these 27 each, and so on; a piece of a transition first becomes the cell again
+///     that it is a piece of;
+///  2. coarser: 27 become one again where none of them asks to stay. What only gradation had cut goes by itself.
+struct LevelChanges {
+  std::vector<std::int8_t> by = {};  ///< per hex
+};
+
+using How = std::variant<Cuts, Sizes, Thickness, Layers, AcrossSheets, LevelChanges>;
 
 /// Which technique of the paper (table 1).
 enum class Method {
@@ -96,12 +111,17 @@ const char* name(Method method);
 /// What to do where a region is concave: templates of their own, or filling it up as the paper does (section 4.3).
 enum class Concave { templates, fill };
 
-/// What to do about the hex field of levels (levels.h), which says how often hexes were cut in all directions at once.
-enum class Levels {
-  ignored,  ///< children have the value of their parent, like that of any other field
-  counted,  ///< children of a hex that is cut in all directions are one above it
-  graded,   ///< and more hexes are cut so that none shares a node with one more than one level below its own (sizes by
-            ///< threes, and numsplit of whole hexes)
+/// What becomes of the transition around hexes that are cut as a whole, when what is in it or next to it is cut again.
+enum class Transition {
+  /// Regular, but for sizes on a base either, whichever comes nearer to the wish: regular where nested shapes would be
+  /// poor.
+  automatic,
+  /// Its pieces are never cut: the cell of which they are pieces is cut instead, and the transition moves outwards.
+  /// More
+  /// hexes; quality does not depend on how often, where and in which order hexes are cut (docs/design.md, "Levels").
+  regular,
+  /// They are cut like all others. Fewer hexes; the smallest scaled Jacobian falls to about a tenth with each level.
+  nested,
 };
 
 /// What is done besides cutting.
@@ -109,6 +129,10 @@ struct Finish {
   bool smooth = false;            ///< smooth the new hexes and two layers around them (smooth.h) after the last pass
   std::vector<Index> fixed = {};  ///< nodes (0-based) that neither smoothing nor the repair of children moves
   bool dry_run = false;           ///< count only: the result holds no mesh
+  /// Keep the hex field "level", which says how often the cell that a hex is, or is a piece of, was cut out of others.
+  bool level_field = false;
+  /// Fields of hexes whose sum stays (others are copied, and averaged where hexes become coarser). With levels.
+  std::vector<std::string> extensive = {};
 };
 
 struct Request {
@@ -116,7 +140,10 @@ struct Request {
   How how = Cuts{};
   Method method = Method::automatic;
   Concave concave = Concave::templates;
-  Levels levels = Levels::ignored;
+  Transition transition = Transition::automatic;
+  /// How the input came out of its base (RefineResult::levelling). Null: it is a base, and nobody asks for more than
+  /// the result.
+  std::shared_ptr<const Levelling> levelling = nullptr;
   Finish finish = {};
 };
 

@@ -137,25 +137,31 @@ void expect_items(Reader& reader, bool names, bool first) {
   if (first) reader.expect("all");
 }
 
-/// "name" {above v | below v | top p [%]}
+constexpr const char* test_words[] = {"above", "below", "top", "bottom"};
+
+/// "name" {above v | below v | top p [%] | bottom p [%]}
 void read_field_test(Reader& reader, RangeFilter& filter) {
   filter.token = reader.take();
   filter.field = filter.token.text;
   using Test = RangeFilter::Test;
-  filter.test = reader.accept("above") ? Test::above : reader.accept("below") ? Test::below : Test::top;
-  if (filter.test == Test::top && !reader.accept("top")) reader.fail();
+  for (std::size_t test = 0;; ++test) {
+    if (test == std::size(test_words)) reader.fail();
+    filter.test = static_cast<Test>(test);
+    if (reader.accept(test_words[test])) break;
+  }
+  const bool is_part = filter.test == Test::top || filter.test == Test::bottom;
   // "5%" and "%" are words.
   const std::string& text = reader.peek().text;
   double joined = 0;
   const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), joined);
-  const bool percent = filter.test == Test::top && bad == std::errc() && std::string_view(end) == "%";
+  const bool percent = is_part && bad == std::errc() && std::string_view(end) == "%";
   if (reader.peek().kind != Token::Kind::number && !percent) {
     reader.expect("a number");
     reader.fail();
   }
   const Token number = reader.take();
   filter.value = percent ? joined : number.value;
-  if (filter.test != Test::top) return;
+  if (!is_part) return;
   if (!(filter.value > 0 && filter.value <= 100))
     reader.fail(number, "a part of the whole is above 0 and at most 100 %");
   skip_word(reader, "%");
@@ -403,10 +409,9 @@ std::string to_string(const Range& range) {
     const RangeFilter& filter = range.filters[i];
     if (!result.empty()) result += ' ';
     if (filter.kind == RangeFilter::Kind::field) {
-      constexpr const char* tests[] = {" above ", " below ", " top "};
-      result +=
-          "in field " + quoted_text(filter.field) + tests[static_cast<int>(filter.test)] + number_text(filter.value);
-      if (filter.test == RangeFilter::Test::top) result += " %";
+      result += "in field " + quoted_text(filter.field) + " " + test_words[static_cast<int>(filter.test)] + " " +
+                number_text(filter.value);
+      if (filter.test == RangeFilter::Test::top || filter.test == RangeFilter::Test::bottom) result += " %";
     } else if (filter.kind == RangeFilter::Kind::with) {
       result += "with " + to_string(filter.criterion);
     } else if (filter.kind == RangeFilter::Kind::except) {

@@ -45,12 +45,12 @@ struct RangeFilter {
     except,     ///< are none of the term, which is of the same kind
     field,      ///< have values of a field of the mesh that pass the test
   };
-  enum class Test { above, below, top };
+  enum class Test { above, below, top, bottom };
   Kind kind = Kind::in;
   std::vector<RangeTerm> terms;
   Criterion criterion;
   std::string field;        ///< its name
-  Test test = Test::above;  ///< `top`: the largest so many percent of the entities so far
+  Test test = Test::above;  ///< `top`, `bottom`: the largest, smallest so many percent of those so far
   double value = 0;
   Token token;  ///< of the field's name
 };

@@ -166,9 +166,10 @@ class Evaluation {
     std::vector<Index> candidates = positions(chosen);
     const std::vector<double> value = field_values(kind, filter);
     using Test = RangeFilter::Test;
-    if (filter.test == Test::top) {
-      // The largest first; of equal ones those that come first.
-      std::ranges::stable_sort(candidates, std::greater{}, [&](Index i) { return value[i]; });
+    if (filter.test == Test::top || filter.test == Test::bottom) {
+      // The largest (smallest) first; of equal ones those that come first.
+      const double sign = filter.test == Test::top ? -1 : 1;
+      std::ranges::stable_sort(candidates, {}, [&](Index i) { return sign * value[i]; });
       const double share = filter.value / 100 * static_cast<double>(candidates.size());
       candidates.resize(static_cast<std::size_t>(std::ceil(share * (1 - 1e-12))));
     } else {

@@ -231,6 +231,19 @@ py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::
   return array_of(session.run([&](Session& s) { return s.adapt(values, options).origin; }));
 }
 
+py::tuple adapt_levels(PySession& session, const py::object& changes, bool smooth,
+                       const std::vector<std::string>& extensive) {
+  std::vector<std::int8_t> by;
+  for (const std::int64_t change : integers<std::int64_t>(changes, "changes", 0))
+    by.push_back(static_cast<std::int8_t>(std::clamp<std::int64_t>(change, -100, 100)));
+  const AdaptOptions options{.smooth = smooth, .extensive = extensive};
+  const LevelOrigin origin = session.run([&](Session& s) { return s.adapt(by, options).came_from; });
+  std::vector<std::int8_t> kinds;
+  for (const HexOrigin kind : origin.kind) kinds.push_back(static_cast<std::int8_t>(kind));
+  CompressedRows rows = rows_of(origin);
+  return py::make_tuple(array_of(std::move(kinds)), array_of(std::move(rows.first)), array_of(std::move(rows.items)));
+}
+
 void take(PySession& session, const py::object& points, const py::object& hexes, const py::object& node_ids,
           const py::object& hex_ids, const py::dict& blocks, const py::dict& node_sets, const py::dict& side_sets,
           const py::dict& node_fields, const py::dict& hex_fields, const py::object& node_owners,
@@ -325,8 +338,17 @@ void bind_session(py::module_& m) {
       .def("adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
            "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
            "Cuts the hexes with a flag, (n_hexes,), into 27 each, or all until they have their sizes, (n_hexes,) in "
-           "model units, inf: no wish. gradation: cuts more, so that neighbours stay within one level. Returns per "
+           "model units, inf: no wish. gradation: by levels, so that shapes do not get worse from "
+           "call to call; sizes may then become coarser too. Returns per "
            "new hex the old one that it lies in.")
+      .def(
+          "adapt_levels", &adapt_levels, "changes"_a, py::kw_only(), "smooth"_a = false,
+          "extensive"_a = std::vector<std::string>(),
+          "By how many levels each hex becomes finer (> 0) or coarser (< 0), (n_hexes,) integers; 27 become one again "
+          "where none of them stays. Returns (kind, first, hexes): new hex h lies in, or was made of, the old "
+          "hexes[first[h]:first[h + 1]]; kind 0: the same hex, 1: in a larger one, 2: made of several. Fields of hexes "
+          "are copied down and averaged by volume upwards (those named in extensive: shared out and summed), those of "
+          "nodes interpolated and injected.")
       .def("ids", &ids, "kind"_a, "range"_a = "all",
            "(n,) int64: ids of the entities that a range means: ids('hex', 'in volume 2').")
       .def(

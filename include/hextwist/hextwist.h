@@ -21,7 +21,7 @@
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/patch/adapt.h"
 #include "hextwist/patch/refine.h"
-#include "hextwist/refine/lineage.h"
+#include "hextwist/refine/levels/level_origin.h"
 #include "hextwist/session/session.h"
 #include "hextwist/sizing/fields/size_field.h"
 #include "hextwist/sizing/report.h"

@@ -32,6 +32,11 @@ int max_level(Index n_base_hexes) {
   return level;
 }
 
+void check_levels(int n_levels, Index n_base_hexes) {
+  if (const int most = max_level(n_base_hexes); n_levels > most)
+    throw Error("cells of this mesh cannot be cut more than " + std::to_string(most) + " times");
+}
+
 void normalize(CellMarks& marks) {
   if (std::ranges::is_sorted(marks.cell, std::less_equal{})) return;
   std::vector<Index> order(marks.size());

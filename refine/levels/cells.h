@@ -34,8 +34,10 @@ constexpr int cell_layer(CellNumber cell, int axis) {
   return axis == 0 ? place / 9 : axis == 1 ? place / 3 % 3 : place % 3;
 }
 
-/// Cells of a level are numbered in 62 bits: so many levels there can be at most (9 for a million hexes).
+/// Cells of a level are numbered in 62 bits: so many levels there can be at most (8 for a million hexes).
 int max_level(Index n_base_hexes);
+/// Throws Error when they are more.
+void check_levels(int n_levels, Index n_base_hexes);
 
 /// Marked corners of cells of one level. An edge is cut in three when both its ends are marked (a node is marked when
 /// any cell that has it says so), so a cell with all corners marked becomes 27.

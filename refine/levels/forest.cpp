@@ -24,6 +24,14 @@ std::shared_ptr<GrownForest> bare(const Mesh& base) {
   return grown;
 }
 
+/// The marks that it needs.
+LevelMarks with_gradation(Forest& forest) {
+  if (forest.wished.size() < 2) return forest.wished;
+  const Mesh& base = forest.base->mesh;
+  if (!forest.base_corners) forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
+  return graded(forest.wished, base.hexes, *forest.base_corners);
+}
+
 /// Places in the mesh handed out, per place level by level.
 std::vector<Index> handed_out(const std::vector<Index>& order) {
   std::vector<Index> place(order.size());
@@ -87,6 +95,77 @@ Forest plant(std::shared_ptr<const MeshedModel> base) {
   return forest;
 }
 
+Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hexes, int numsplit) {
+  const Mesh& mesh = base->mesh;
+  check_levels(numsplit, mesh.n_hexes());
+  Forest forest;
+  forest.base = std::move(base);
+  CellMarks marks;
+  for (const Index h : hexes) marks.add(h);
+  for (int level = 0; level < numsplit && !marks.empty(); ++level) {
+    CellMarks next;
+    for (const CellNumber cell : marks.cell)
+      for (int child = 0; level + 1 < numsplit && child < n_cell_children; ++child)
+        next.add(first_cell_child(cell) + child);
+    forest.wished.push_back(std::exchange(marks, std::move(next)));
+  }
+  return forest;
+}
+
+Forest grown(Forest forest, const std::vector<Index>& fixed) {
+  if (forest.grown) return forest;
+  const Mesh& base = forest.base->mesh;
+  const std::shared_ptr<GrownForest> grown = bare(base);
+  forest.grown = grown;
+  if (forest.is_bare()) return forest;
+  grown->marks = with_gradation(forest);
+  LevelledMesh built = build_levels(*forest.base, grown->marks, {}, {.fixed = fixed});
+  grown->stack = std::move(built.stack);
+  grown->pieces = level_pieces(grown->stack, base.n_hexes());
+  grown->next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
+  grown->next_hex_id = hex_id(built.mesh.mesh, built.mesh.mesh.n_hexes() - 1) + 1;
+  return forest;
+}
+
+std::vector<std::uint8_t> levels_of(const Forest& forest) {
+  const LevelPieces& pieces = forest.grown->pieces;
+  std::vector<std::uint8_t> level(pieces.cell.size());
+  for (int block = 0; block < pieces.n_levels(); ++block)
+    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h)
+      level[h] = static_cast<std::uint8_t>(pieces.leaf(block, h).level);
+  const std::vector<Index>& order = forest.grown->hex_order;
+  if (order.empty()) return level;
+  std::vector<std::uint8_t> handed(level.size());
+  for (std::size_t i = 0; i < order.size(); ++i) handed[i] = level[order[i]];
+  return handed;
+}
+
+std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> hexes) {
+  const LevelPieces& pieces = forest.grown->pieces;
+  const std::vector<Index> places = handed_out(forest.grown->hex_order);
+  const auto place = [&](Index h) { return places.empty() ? h : places[h]; };
+  // Per hex: level and number of the cell that its own was cut out of; of a hex of the base, that one.
+  const auto for_each = [&](const auto& f) {
+    for (int block = 0; block < pieces.n_levels(); ++block)
+      for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
+        const LevelPieces::Leaf leaf = pieces.leaf(block, h);
+        f(place(h), leaf.level == 0 ? LevelPieces::Leaf{-1, leaf.cell}
+                                    : LevelPieces::Leaf{leaf.level - 1, cell_parent(leaf.cell)});
+      }
+  };
+  std::vector<LevelPieces::Leaf> cells;
+  for_each([&](Index h, const LevelPieces::Leaf& cell) {
+    if (std::ranges::binary_search(hexes, h)) cells.push_back(cell);
+  });
+  std::ranges::sort(cells);
+  std::vector<Index> result;
+  for_each([&](Index h, const LevelPieces::Leaf& cell) {
+    if (std::ranges::binary_search(cells, cell)) result.push_back(h);
+  });
+  std::ranges::sort(result);
+  return result;
+}
+
 LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, const LevelOptions& options) {
   const GrownForest& before = *forest.grown;
   const MeshedModel& base = *forest.base;
@@ -94,14 +173,11 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   step.forest = forest;
   step.forest.wished = std::move(wished);
   const LevelMarks& wishes = step.forest.wished;
-  if (wishes.size() > 1 && !forest.base_corners)
-    step.forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base.mesh));
-
   const auto grown = std::make_shared<GrownForest>();
-  grown->marks = wishes.size() > 1 ? graded(wishes, base.mesh.hexes, *step.forest.base_corners) : wishes;
+  grown->marks = with_gradation(step.forest);
   for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
-  LevelledMesh built =
-      build_levels(base, grown->marks, before.stack, {options.keep_meshes, options.fixed, options.progress});
+  LevelledMesh built = build_levels(base, grown->marks, options.reuse.empty() ? before.stack : options.reuse,
+                                    {options.keep_meshes, options.fixed, options.progress});
   grown->stack = std::move(built.stack);
   grown->pieces = level_pieces(grown->stack, base.mesh.n_hexes());
 

@@ -29,12 +29,19 @@ struct GrownForest {
 struct Forest {
   std::shared_ptr<const MeshedModel> base;
   LevelMarks wished;  ///< closed: with a cell its parent is wished too. Forced cells are not among them
-  std::shared_ptr<const GrownForest> grown;
+  std::shared_ptr<const GrownForest> grown;            ///< null where its mesh came about otherwise: see grown()
   std::shared_ptr<const CompressedRows> base_corners;  ///< node_corners() of the base; made when first needed
 
   bool is_bare() const { return wished.empty(); }
 };
 Forest plant(std::shared_ptr<const MeshedModel> base);
+/// The forest in which these hexes of the base (ascending) and all that they become are cut `numsplit` times, for who
+/// makes its mesh by a pass.
+Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hexes, int numsplit);
+/// With all that was left out. Precondition: no more than one step leads to its mesh from the base.
+Forest grown(Forest forest, const std::vector<Index>& fixed = {});
+/// How often the cell that each hex of the mesh is, or is a piece of, has been cut out of others.
+std::vector<std::uint8_t> levels_of(const Forest& forest);
 
 /// Wished marks after each hex of the forest's mesh has been asked to become finer (> 0) or coarser (< 0) by so many
 /// levels. change: one per hex, in the order of the mesh handed out. The rules:
@@ -49,10 +56,19 @@ LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change
 /// The level that each hex is to have instead, whatever was wished before: the result depends on these alone.
 LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels);
 
+/// The hexes (ascending) and all others in the cells of which theirs were cut out.
+std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> hexes);
+/// With all cells in which these lie.
+LevelMarks closed(LevelMarks marks);
+/// Values per hex of the mesh handed out, in the order level by level. Throws Error when there is not one per hex.
+template <class T>
+std::vector<T> by_level(const Forest& forest, std::span<const T> values);
+
 struct LevelOptions {
   std::vector<std::string> extensive;  ///< hex fields that are shared out and summed up instead of copied and averaged
   std::vector<Index> fixed;            ///< nodes of the base that repairing must not move
   bool keep_meshes = false;            ///< StackOptions
+  LevelStack reuse = {};               ///< a stack on the same base to begin from, instead of that of before
   SmoothProgress progress;
 };
 
@@ -65,7 +81,7 @@ struct LevelStep {
   std::vector<OffOwner> off_nodes;  ///< of mesh
 };
 
-/// The forest with other wishes, and its mesh. Guarantees:
+/// The forest with other wishes, and its mesh. Precondition, here and above: it is grown. Guarantees:
 ///  1. nodes and hexes that are in both meshes keep their ids, and unless inverted children are repaired near them,
 ///     their bits; hexes of the base that come back have their old ids. New ones get the next ids, in the order of
 ///     levels;

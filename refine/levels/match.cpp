@@ -127,6 +127,16 @@ std::vector<Index> matching_nodes(const LevelStack& now, const LevelStack& befor
   return old_node;
 }
 
+CompressedRows rows_of(const LevelOrigin& origin) {
+  CompressedRows rows{{0}, {}};
+  for (Index h = 0; h < static_cast<Index>(origin.kind.size()); ++h) {
+    const std::span<const Index> before = origin.before(h);
+    rows.items.insert(rows.items.end(), before.begin(), before.end());
+    rows.first.push_back(static_cast<Index>(rows.items.size()));
+  }
+  return rows;
+}
+
 LevelOrigin level_origin(const LevelPieces& now, const LevelPieces& before) {
   LevelOrigin origin;
   origin.kind.assign(now.cell.size(), HexOrigin::same);

@@ -78,26 +78,30 @@ LevelMarks without_given_up(const LevelMarks& wished, const std::vector<Asked>& 
   return rest;
 }
 
-/// With each cell its parent, and theirs.
-void add_parents(LevelMarks& marks) {
+}  // namespace
+
+LevelMarks closed(LevelMarks marks) {
+  for (CellMarks& each : marks) normalize(each);
   for (std::size_t k = marks.size(); k-- > 1;) {
     CellMarks parents;
     for (const CellNumber cell : marks[k].cell)
       if (parents.empty() || parents.cell.back() != cell_parent(cell)) parents.add(cell_parent(cell));
     marks[k - 1] = united(marks[k - 1], parents);
   }
+  return marks;
 }
+
+namespace {
 
 /// The cells that must be cut for these leaves to have the levels asked for: where they are that fine already, if
 /// `all`.
-LevelMarks needed(const std::vector<Asked>& leaves, int highest, bool all) {
+LevelMarks needed(const std::vector<Asked>& leaves, Index n_base_hexes, bool all) {
   LevelMarks marks;
   for (std::size_t k = 0; k < leaves.size(); ++k)
     for (std::size_t i = 0; i < leaves[k].cell.size(); ++i) {
       const int wanted = leaves[k].level[i], level = static_cast<int>(k);
       if (wanted == 0 || (wanted <= level && !all)) continue;
-      if (wanted > highest)
-        throw Error("cells of this mesh cannot be cut more than " + std::to_string(highest) + " times");
+      check_levels(wanted, n_base_hexes);
       if (marks.size() < static_cast<std::size_t>(wanted)) marks.resize(static_cast<std::size_t>(wanted));
       CellNumber begin = leaves[k].cell[i];
       for (int up = level; up >= wanted; --up) begin = cell_parent(begin);
@@ -110,12 +114,11 @@ LevelMarks needed(const std::vector<Asked>& leaves, int highest, bool all) {
         end = first_cell_child(end);
       }
     }
-  for (CellMarks& each : marks) normalize(each);
-  add_parents(marks);
-  return marks;
+  return closed(std::move(marks));
 }
 
-/// Values per hex of the mesh handed out, level by level.
+}  // namespace
+
 template <class T>
 std::vector<T> by_level(const Forest& forest, std::span<const T> values) {
   const std::vector<Index>& order = forest.grown->hex_order;
@@ -126,8 +129,8 @@ std::vector<T> by_level(const Forest& forest, std::span<const T> values) {
   if (!order.empty()) parallel_each(order.size(), [&](std::size_t i) { result[order[i]] = values[i]; });
   return result;
 }
-
-}  // namespace
+template std::vector<std::int8_t> by_level(const Forest&, std::span<const std::int8_t>);
+template std::vector<std::uint8_t> by_level(const Forest&, std::span<const std::uint8_t>);
 
 LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change) {
   const std::vector<std::int8_t> changes = by_level(forest, change);
@@ -136,7 +139,7 @@ LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change) {
     return coarser || changes[h] != 0 ? std::max(0, level + changes[h]) : -1;
   });
   return united(coarser ? without_given_up(forest.wished, leaves) : forest.wished,
-                needed(leaves, max_level(forest.base->mesh.n_hexes()), false));
+                needed(leaves, forest.base->mesh.n_hexes(), false));
 }
 
 LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change) {
@@ -148,7 +151,7 @@ LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change
 LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels) {
   const std::vector<std::uint8_t> wanted = by_level(forest, levels);
   const auto asked = [&](Index h, int) { return wanted[h] > 0 ? wanted[h] : -1; };
-  return needed(asked_of_leaves(forest.grown->pieces, asked), max_level(forest.base->mesh.n_hexes()), true);
+  return needed(asked_of_leaves(forest.grown->pieces, asked), forest.base->mesh.n_hexes(), true);
 }
 
 }  // namespace hextwist

@@ -9,13 +9,14 @@ using Function = void (*)(Execution&);
 
 Function function_of(std::string_view command) {
   static const std::map<std::string_view, Function> functions = {
-      {"block", do_sets},    {"check", do_check},       {"create", do_create},   {"curve", do_scheme},
-      {"delete", do_delete}, {"draw", do_draw},         {"exit", do_quit},       {"export", do_export},
-      {"group", do_group},   {"help", do_help},         {"import", do_import},   {"list", do_list},
-      {"node", do_node},     {"nodeset", do_sets},      {"quality", do_quality}, {"quit", do_quit},
-      {"record", do_record}, {"playback", do_playback}, {"redo", do_redo},       {"refine", do_refine},
-      {"reset", do_reset},   {"set", do_set},           {"sideset", do_sets},    {"smooth", do_smooth},
-      {"sizing", do_sizing}, {"surface", do_scheme},    {"undo", do_undo},       {"volume", do_scheme},
+      {"block", do_sets},    {"check", do_check},   {"coarsen", do_coarsen},   {"create", do_create},
+      {"curve", do_scheme},  {"delete", do_delete}, {"draw", do_draw},         {"exit", do_quit},
+      {"export", do_export}, {"group", do_group},   {"help", do_help},         {"import", do_import},
+      {"list", do_list},     {"node", do_node},     {"nodeset", do_sets},      {"quality", do_quality},
+      {"quit", do_quit},     {"record", do_record}, {"playback", do_playback}, {"redo", do_redo},
+      {"refine", do_refine}, {"reset", do_reset},   {"set", do_set},           {"sideset", do_sets},
+      {"smooth", do_smooth}, {"sizing", do_sizing}, {"surface", do_scheme},    {"undo", do_undo},
+      {"volume", do_scheme},
   };
   return functions.at(command);
 }

@@ -26,6 +26,7 @@ struct Execution : Transaction {
 /// Does what the command says, by one of these. Each throws Error when it can't do what was asked.
 void execute(Execution& run);
 void do_check(Execution& run);
+void do_coarsen(Execution& run);
 void do_create(Execution& run);
 void do_delete(Execution& run);
 void do_draw(Execution& run);

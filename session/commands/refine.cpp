@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/patch/refine_known.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -86,8 +88,8 @@ How how_of(const Execution& run) {
   const Item* layers = command.find("n");
   if ((command.has("thickness") || layers) && sizes)
     throw Error("a direction goes with numsplit, not with sizes, depth, radius or a method");
-  if (command.has("graded") && (numsplit != 1 || sizes || command.has("thickness") || layers))
-    throw Error("graded cuts whole hexes once: it goes with depth, radius and concave only");
+  if (command.has("graded") && (command.has("thickness") || layers || command.has("fill")))
+    throw Error("graded cuts whole hexes: not in one direction, and not with concave fill");
   if (sizes) return *sizes;
   if (command.has("thickness")) return Thickness{numsplit};
   if (!layers) return Cuts{numsplit};
@@ -123,12 +125,18 @@ Request request_of(const Execution& run) {
   }
   request.target = target_of(run);
   request.how = how_of(run);
+  if (command.has("nested")) request.transition = Transition::nested;
+  if (command.has("regular")) request.transition = Transition::regular;
   for (const Method method : {Method::automatic, Method::single, Method::parallel, Method::combination})
     if (command.has(name(method))) request.method = method;
-  if (!command.has("graded")) return request;
-  if (request.method != Method::automatic)
-    throw Error("graded cuts whole hexes once: it goes with depth, radius and concave only");
-  request.levels = Levels::graded;
+  if (command.has("graded")) {
+    if (request.method != Method::automatic && request.method != Method::single)
+      throw Error("graded cuts whole hexes: it goes with 'method single' alone");
+    if (request.transition == Transition::nested) throw Error("graded levels have a regular transition");
+    request.transition = Transition::regular;
+    request.method = Method::single;
+    request.finish.level_field = true;
+  }
   return request;
 }
 
@@ -164,13 +172,17 @@ std::string tell(Execution& run, const Report& report, bool dry_run) {
 }
 
 /// Puts a refined patch into the mesh.
-void splice_in(Execution& run, PatchResult patch) {
+void splice_in(Execution& run, PatchResult patch, Request request) {
   const Report& report = patch.result.report;
   const std::string line = tell(run, report, false);
   run.stage("splice");
+  const std::vector<Index> smoothed = std::exchange(patch.result.smoothed, {});
+  const std::shared_ptr<const Levelling> levelling = levelling_after(request, patch.result, *run.meshed);
+  request.levelling = nullptr;  // a mesh that is the base of nothing is changed in place
   run.splice({std::move(patch.splice)});
   run.close_stage();
   take_measured(run, report);
+  take_levelling(run, smoothed.empty() ? levelling : levelling_after_move(levelling, smoothed, *run.meshed));
   run.say(line);
 }
 
@@ -180,10 +192,11 @@ void do_refine(Execution& run) {
   if (run.meshed->mesh.n_hexes() == 0)
     throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh to refine");
   run.stage("select");
-  const Request request = request_of(run);
+  Request request = request_of(run);
+  request.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
   run.close_stage();
   std::optional<PatchResult> patch = refine_in_patch(run, request);
-  if (patch && patch->is_verified) return splice_in(run, std::move(*patch));
+  if (patch && patch->is_verified) return splice_in(run, std::move(*patch), std::move(request));
   RefineResult result = patch ? whole_result(std::move(*patch), *run.meshed, run.state.measured, request)
                               : refine_whole(*run.meshed, &run.state.measured, request, run.core.callbacks.progress);
   const Report& report = result.report;
@@ -195,11 +208,12 @@ void do_refine(Execution& run) {
     return run.say(line);
   }
 
-  accept_refined(run, std::move(result.refined), report);
+  const std::optional<SizeReport> sizes = report.sizes;
+  accept_refined(run, std::move(result));
   run.say(line);
-  if (!report.sizes) return;
-  run.record().sizes = sizes_row(run.meshed->mesh, *report.sizes);
-  run.say(sizes_text(run.meshed->mesh, *report.sizes));
+  if (!sizes) return;
+  run.record().sizes = sizes_row(run.meshed->mesh, *sizes);
+  run.say(sizes_text(run.meshed->mesh, *sizes));
 }
 
 }  // namespace hextwist

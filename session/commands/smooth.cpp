@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "hextwist/base/sorted.h"
+#include "hextwist/base/parallel.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 namespace {
@@ -66,6 +67,7 @@ void do_smooth(Execution& run) {
   const Item& range = *command.find("range");
   const auto targets = by_scheme(run, range.kind, run.chosen(range));
   MeshedModel meshed = *run.meshed;
+  const std::shared_ptr<const Levelling> levelling = state.levelling;
   const Summary was = state.measured.shape;
   Index n_nodes = 0;
   int sweeps = 0;
@@ -92,7 +94,10 @@ void do_smooth(Execution& run) {
     at_rest = at_rest && report.converged;
   }
   run.close_stage();
+  const std::vector<Index> moved = indices_where(
+      meshed.mesh.n_nodes(), [&](Index n) { return meshed.mesh.points[n] != run.meshed->mesh.points[n]; });
   replace_and_measure(run, std::move(meshed));
+  state.levelling = levelling_after_move(levelling, moved, *run.meshed);
   const Summary& is = state.measured.shape;
   std::string line = text_of(command.statement) + ": " + counted(n_nodes, EntityKind::node) + ", " +
                      counted(sweeps, "sweep") + ", smallest shape " + arrow(was.min, is.min) + ", average " +

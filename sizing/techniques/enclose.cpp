@@ -21,6 +21,8 @@ class Enclose : public Technique {
         n_left_(std::get<Cuts>(state.request.how).numsplit),
         round_(sub_element_target(state.input, state.request.target, state.report.notices), at_) {}
 
+  explicit Enclose(CombinationTarget target) : at_(EncloseAt::third), n_left_(1), round_(std::move(target), at_) {}
+
   std::optional<Cut> next(State& state) override {
     for (;;) {
       if (auto cut = round_.next(state, done_, &state.mesh() != &state.input.mesh)) return cut;
@@ -71,6 +73,9 @@ void EncloseRound::follow(const Lineage& lineage, const Mesh& after) {
 
 std::unique_ptr<Technique> enclose_technique(State& state, Approach approach) {
   return std::make_unique<Enclose>(state, approach);
+}
+std::unique_ptr<Technique> enclose_technique(State&, CombinationTarget target) {
+  return std::make_unique<Enclose>(std::move(target));
 }
 
 }  // namespace hextwist

@@ -1,10 +1,12 @@
 // What comes nearer to wished sizes: threes alone, or with twos, or with the combination at the target.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/place.h"
+#include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
@@ -13,6 +15,9 @@ namespace {
 /// Parts of hexes within a factor sqrt(3), and relative differences between average distances from the wish, that are
 /// no more than this count as equal.
 constexpr double near_tie = 0.05;
+
+/// Nobody should compute on shapes below this where others can be had.
+constexpr double poor_shape = 0.1;
 
 struct Candidate {
   RefineResult result;
@@ -27,6 +32,11 @@ Candidate attempt(const State& from, const Report& start, Approach approach) {
   Candidate candidate;
   candidate.report = start;
   State state(from.input, from.request, candidate.report, from.progress);
+  if (approach == Approach::size_by_levels) {
+    run_levels(state);
+    candidate.result = state.take_result();
+    return candidate;
+  }
   const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
   state.run(*technique);
   candidate.has_done = technique->has_done();
@@ -35,6 +45,7 @@ Candidate attempt(const State& from, const Report& start, Approach approach) {
 }
 
 void judge(Candidate& candidate) {
+  candidate.distance = 0;
   const std::vector<double>& ratio = candidate.report.sizes->ratio;
   for (const double r : ratio) candidate.distance += std::abs(std::log(r)) / static_cast<double>(ratio.size());
   const Mesh& mesh = candidate.result.refined.mesh;
@@ -45,6 +56,9 @@ void judge(Candidate& candidate) {
 
 bool is_better(const Candidate& a, const Candidate& b) {
   if (a.sound != b.sound) return a.sound;
+  const double shape = std::max(a.worst_shape, b.worst_shape);
+  const auto is_poor = [&](const Candidate& c) { return c.worst_shape < poor_shape && c.worst_shape < shape / 2; };
+  if (is_poor(a) != is_poor(b)) return is_poor(b);
   if (std::abs(a.report.sizes->met() - b.report.sizes->met()) > near_tie)
     return a.report.sizes->met() > b.report.sizes->met();
   if (std::abs(a.distance - b.distance) > near_tie * std::max(a.distance, b.distance)) return a.distance < b.distance;
@@ -56,37 +70,60 @@ std::string rounded(double value) {
   return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") + std::to_string(hundredths % 100);
 }
 
-}  // namespace
-
-void run_nearest_size(State& state) {
-  const Sizes& sizes = std::get<Sizes>(state.request.how);
-  const bool varies = sizes.bias > 1;
-  state.stages.close();  // those of the candidates count
-  const Report start = state.report;
-  Candidate mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
-  if (!mixed.has_done) {
-    state.report = std::move(mixed.report);
-    return state.adopt(std::move(mixed.result));
-  }
-  Candidate thirds = attempt(state, start, Approach::size_by_threes);
-  judge(mixed);
-  judge(thirds);
-  const bool takes_mixed = is_better(mixed, thirds);
-  Candidate& better = takes_mixed ? mixed : thirds;
-  const Candidate& other = takes_mixed ? thirds : mixed;
-  Report& report = state.report;
-  report = std::move(better.report);
+/// The better one of two, which says why it was taken.
+Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* says_b, const Report& start) {
+  const bool takes_a = is_better(a, b);
+  Candidate& better = takes_a ? a : b;
+  const Candidate& other = takes_a ? b : a;
+  Report& report = better.report;
   const double wasted = other.report.total_seconds - start.total_seconds;
   report.seconds.push_back({"other technique", wasted});
   report.total_seconds += wasted;
-  const char* taken = varies ? takes_mixed ? "the combination for the last passes at the target, else whole hexes"
-                                           : "whole hexes alone, not the combination at the target as well"
-                      : takes_mixed ? "one into eight where that comes nearer, else one into 27"
-                                    : "one into 27 alone, not one into eight as well";
-  report.notices.push_back(std::string(taken) + ": sizes are off by a factor of " + rounded(std::exp(better.distance)) +
-                           " on average, not " + rounded(std::exp(other.distance)) + "; the worst shape is " +
-                           rounded(better.worst_shape) + ", not " + rounded(other.worst_shape));
-  state.adopt(std::move(better.result));
+  report.notices.push_back(std::string(takes_a ? says_a : says_b) + ": sizes are off by a factor of " +
+                           rounded(std::exp(better.distance)) + " on average, not " +
+                           rounded(std::exp(other.distance)) + "; the worst shape is " + rounded(better.worst_shape) +
+                           ", not " + rounded(other.worst_shape));
+  return std::move(better);
+}
+
+/// By threes: by levels, nested, or whichever is better.
+Candidate by_threes(const State& state, const Report& start) {
+  if (!is_regular(state.request)) return attempt(state, start, Approach::size_by_threes);
+  Candidate levels = attempt(state, start, Approach::size_by_levels);
+  Candidate nested = attempt(state, start, Approach::size_by_threes);
+  judge(levels);
+  judge(nested);
+  if (levels.result.refined.mesh.hexes == nested.result.refined.mesh.hexes) return levels;
+  return better_of(std::move(levels), std::move(nested), "by levels, no piece of a transition is cut again",
+                   "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
+}
+
+}  // namespace
+
+void run_nearest_size(State& state) {
+  const Request& request = state.request;
+  const Sizes& sizes = std::get<Sizes>(request.how);
+  const bool varies = sizes.bias > 1;
+  const bool may_combine =
+      sizes.size && sizes.bias > 1 && !is_solid(request.target.kind) && !request.target.depth && !request.target.radius;
+  const bool may_mix = request.method != Method::single && (may_combine || !(varies || sizes.field));
+  state.stages.close();  // those of the candidates count
+  const Report start = state.report;
+  std::optional<Candidate> mixed;
+  if (may_mix) mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
+  Candidate taken = by_threes(state, start);
+  if (mixed && mixed->has_done) {
+    judge(*mixed);
+    judge(taken);
+    taken = better_of(std::move(*mixed), std::move(taken),
+                      varies ? "the combination for the last passes at the target, else whole hexes"
+                             : "one into eight where that comes nearer, else one into 27",
+                      varies ? "whole hexes alone, not the combination at the target as well"
+                             : "one into 27 alone, not one into eight as well",
+                      start);
+  }
+  state.report = std::move(taken.report);
+  state.adopt(std::move(taken.result));
 }
 
 }  // namespace hextwist

@@ -15,6 +15,8 @@ std::unique_ptr<Technique> trisect_technique(State& state);
 std::unique_ptr<Technique> eight_technique(State& state);
 /// Around nodes, edges and faces: Approach::parallel or combination.
 std::unique_ptr<Technique> enclose_technique(State& state, Approach approach);
+/// One round of the combination around and along a target of the current mesh.
+std::unique_ptr<Technique> enclose_technique(State& state, CombinationTarget target);
 std::unique_ptr<Technique> thickness_technique(State& state);
 std::unique_ptr<Technique> layers_technique(State& state);
 std::unique_ptr<Technique> sheets_technique(State& state);

@@ -3,7 +3,6 @@
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/uniform.h"
-#include "hextwist/sizing/levels.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
@@ -23,8 +22,6 @@ class Trisect : public Technique {
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);
     mark_nodes(mesh.hexes, targets_, marked);
     if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-    if (state.request.levels == Levels::graded)
-      say_graded(grade_marks(mesh, state.request.concave, marked), state.report.notices);
     return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), &mesh != &state.input.mesh};
   }
   void follow(const Lineage& lineage, const Mesh&, const Mesh&) override {

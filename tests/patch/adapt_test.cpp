@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "hextwist/sizing/levels.h"
+#include "hextwist/sizing/levelling.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
@@ -17,6 +17,7 @@ namespace {
 
 using test::brick;
 using test::centroid;
+using test::levels;
 
 /// Hexes that share a node differ by at most one level; names the first that don't.
 testing::AssertionResult graded(const Mesh& mesh) {
@@ -59,12 +60,14 @@ TEST(adapt, cuts_flagged_hexes_into_27_and_says_where_children_come_from) {
 
 TEST(adapt, keeps_neighbours_within_one_level_over_repeated_calls) {
   MeshedModel mesh = brick(5, 5, 5);
+  AdaptOptions options{.levelling = levelling_of(std::make_shared<const MeshedModel>(mesh))};
   for (int pass = 0; pass < 3; ++pass) {
     SCOPED_TRACE(pass);
     std::vector<std::uint8_t> flags(mesh.mesh.hexes.size(), 0);
     for (Index h = 0; h < mesh.mesh.n_hexes(); ++h)
       flags[h] = (centroid(mesh.mesh, h) - Vec3(2.5, 2.5, 2.5)).cwiseAbs().maxCoeff() < 0.5 * std::pow(1.0 / 3, pass);
-    AdaptResult result = adapt(mesh, flags);
+    AdaptResult result = adapt(mesh, flags, options);
+    EXPECT_GE(result.report.scaled_jacobian_after.min, 0.405);
     EXPECT_TRUE(graded(result.refined.mesh));
     EXPECT_TRUE(test::conformal(result.refined.mesh));
     EXPECT_TRUE(test::uninverted(result.refined.mesh));
@@ -73,6 +76,7 @@ TEST(adapt, keeps_neighbours_within_one_level_over_repeated_calls) {
         EXPECT_EQ(std::ranges::count(result.origin, h), 27);
       }
     mesh = std::move(result.refined);
+    options.levelling = result.levelling;
   }
   EXPECT_EQ(std::ranges::max(levels(mesh.mesh)), 3);
 }
@@ -81,7 +85,9 @@ TEST(adapt, without_gradation_cuts_exactly_what_was_flagged) {
   const MeshedModel input = brick(4, 4, 4);
   std::vector<std::uint8_t> flags(64, 0);
   flags[0] = 1;
-  const MeshedModel once = adapt(input, flags).refined;
+  const AdaptResult first =
+      adapt(input, flags, {.levelling = levelling_of(std::make_shared<const MeshedModel>(input))});
+  const MeshedModel& once = first.refined;
   const auto corner_flags = [&](const Mesh& mesh) {
     // All children of hex 0: those at its far corner have neighbours of level 0.
     std::vector<std::uint8_t> result(mesh.hexes.size(), 0);
@@ -91,38 +97,13 @@ TEST(adapt, without_gradation_cuts_exactly_what_was_flagged) {
   };
   const std::vector<std::uint8_t> again = corner_flags(once.mesh);
   const AdaptResult free = adapt(once, again, {.keep_gradation = false});
-  const AdaptResult kept = adapt(once, again);
+  const AdaptResult kept = adapt(once, again, {.levelling = first.levelling});
   EXPECT_FALSE(graded(free.refined.mesh));
   EXPECT_TRUE(graded(kept.refined.mesh));
   EXPECT_GT(kept.refined.mesh.n_hexes(), free.refined.mesh.n_hexes());
   ASSERT_FALSE(kept.report.notices.empty());
-  EXPECT_NE(kept.report.notices.back().find("hexes more than asked for, to keep neighbours within one level"),
+  EXPECT_NE(kept.report.notices.back().find("more than asked for, so that no piece of a transition is cut"),
             std::string::npos);
-}
-
-TEST(adapt, closing_flags_equals_brute_force_on_random_levels) {
-  std::mt19937 random(13);
-  const Mesh mesh = test::grid(5, 4, 3);
-  for (int round = 0; round < 50; ++round) {
-    std::vector<int> level(mesh.hexes.size());
-    for (int& l : level) l = static_cast<int>(random() % 4);
-    std::vector<std::uint8_t> flags(mesh.hexes.size()), expected;
-    for (auto& f : flags) f = random() % 20 == 0;
-    expected = flags;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t a = 0; a < flags.size(); ++a)
-        for (std::size_t b = 0; expected[a] && b < flags.size(); ++b) {
-          const bool touch = std::ranges::any_of(
-              mesh.hexes[a], [&](Index n) { return std::ranges::find(mesh.hexes[b], n) != mesh.hexes[b].end(); });
-          if (touch && level[b] < level[a] && !expected[b]) expected[b] = 1, changed = true;
-        }
-    }
-    const auto before = std::ranges::count(flags, 1);
-    const Index n_added = close_flags(mesh, level, flags);
-    EXPECT_EQ(flags, expected);
-    EXPECT_EQ(n_added, std::ranges::count(expected, 1) - before);
-  }
 }
 
 TEST(adapt, takes_a_wished_size_for_each_hex) {
@@ -177,10 +158,9 @@ TEST(adapt, neighbours_stay_within_one_level_over_mixed_calls) {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     std::mt19937 random(seed);
     MeshedModel mesh = brick(4, 4, 3);
+    AdaptOptions options{.levelling = levelling_of(std::make_shared<const MeshedModel>(mesh))};
     for (int call = 0; call < 4 && mesh.mesh.n_hexes() < 3000; ++call) {
       SCOPED_TRACE("seed " + std::to_string(seed) + " call " + std::to_string(call));
-      AdaptOptions options;
-      options.concave = random() % 3 == 0 ? Concave::fill : Concave::templates;
       const auto n = mesh.mesh.hexes.size();
       AdaptResult result;
       if (random() % 2) {
@@ -197,7 +177,9 @@ TEST(adapt, neighbours_stay_within_one_level_over_mixed_calls) {
       EXPECT_TRUE(graded(result.refined.mesh));
       EXPECT_TRUE(test::conformal(result.refined.mesh));
       EXPECT_TRUE(test::uninverted(result.refined.mesh));
+      EXPECT_GE(result.report.scaled_jacobian_after.min, 0.405);
       mesh = std::move(result.refined);
+      options.levelling = result.levelling;
     }
   }
 }

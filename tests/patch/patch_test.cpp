@@ -62,22 +62,6 @@ void expect_same(const Report& a, const Report& b) {
   EXPECT_EQ(a.notices, b.notices);
 }
 
-void expect_same(const Lineage& a, const Lineage& b) {
-  EXPECT_EQ(a.n_old_nodes, b.n_old_nodes);
-  EXPECT_EQ(a.n_old_hexes, b.n_old_hexes);
-  EXPECT_EQ(a.table, b.table);
-  EXPECT_EQ(a.parent, b.parent);
-  ASSERT_EQ(a.edges.size(), b.edges.size());
-  ASSERT_EQ(a.faces.size(), b.faces.size());
-  ASSERT_EQ(a.hexes.size(), b.hexes.size());
-  const auto edge = [](const CutEdge& e) { return std::tuple(e.a, e.b, e.first_node, e.hex, e.code); };
-  const auto face = [](const CutFace& f) { return std::tuple(f.side, f.corners, f.first_node, f.code); };
-  const auto hex = [](const CutHex& h) { return std::tuple(h.hex, h.first_child, h.first_node, h.code); };
-  EXPECT_TRUE(std::ranges::equal(a.edges, b.edges, {}, edge, edge));
-  EXPECT_TRUE(std::ranges::equal(a.faces, b.faces, {}, face, face));
-  EXPECT_TRUE(std::ranges::equal(a.hexes, b.hexes, {}, hex, hex));
-}
-
 /// Ids with gaps, overlapping blocks, sets and fields, by chance.
 void decorate(MeshedModel& meshed, std::mt19937& random) {
   Mesh& mesh = meshed.mesh;
@@ -176,7 +160,6 @@ bool expect_same_both_ways(const MeshedModel& meshed, const Measured& known, con
   EXPECT_EQ(error, patch_error);
   if (!whole || !patch) return false;
   EXPECT_TRUE(same_bits(whole->refined, patch->refined));
-  expect_same(whole->lineage, patch->lineage);
   EXPECT_EQ(whole->origin, patch->origin);
   expect_same(whole->report, patch->report);
   return std::ranges::find(patch->report.seconds, "splice", &StageTime::stage) != patch->report.seconds.end();

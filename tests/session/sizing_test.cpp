@@ -7,9 +7,9 @@
 #include "hextwist/io/io.h"
 #include "hextwist/patch/adapt.h"
 #include "hextwist/session/session.h"
-#include "hextwist/sizing/levels.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
@@ -81,8 +81,9 @@ TEST(Sizing, what_makes_no_sense_together_is_refused) {
             "there is no sizing function; define one with 'sizing function'");
   EXPECT_EQ(f.error("refine curve 1 sizing_function f"),
             "there is no sizing function 'f'; define one with 'sizing function'");
-  EXPECT_EQ(f.error("refine hex 1 graded size 1"),
-            "graded cuts whole hexes once: it goes with depth, radius and concave only");
+  EXPECT_EQ(f.error("refine hex 1 graded concave fill"),
+            "graded cuts whole hexes: not in one direction, and not with concave fill");
+  EXPECT_EQ(f.error("refine hex 1 graded transition nested"), "graded levels have a regular transition");
   EXPECT_EQ(f.error("refine hex 1 direction layers 3"), "layers lie along nodes, edges and faces, not a hex");
   EXPECT_EQ(f.mesh().n_hexes(), 64);
 }
@@ -181,7 +182,7 @@ TEST(Sizing, graded_refinement_keeps_levels_within_one) {
   f.session.run("refine hex in field \"error\" top 2 % graded");
   f.session.run("refine hex in field \"level\" above 0 graded");
   EXPECT_TRUE(test::conformal(f.mesh()));
-  const std::vector<int> level = levels(f.mesh());
+  const std::vector<int> level = test::levels(f.mesh());
   EXPECT_EQ(std::ranges::max(level), 2);
   std::vector<int> low(f.mesh().points.size(), 9), high(f.mesh().points.size(), 0);
   for (std::size_t h = 0; h < level.size(); ++h)

@@ -54,6 +54,7 @@ TEST(size_mix, auto_comes_no_farther_from_the_wish_than_threes_alone) {
     Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = size}};
     const RefineResult by_auto = checked(input, request);
     request.method = Method::single;
+    request.transition = Transition::nested;
     const RefineResult by_threes = checked(input, request);
     EXPECT_LE(distance(by_auto), distance(by_threes) * 1.0500001);
     EXPECT_GE(by_auto.report.sizes->met(), by_threes.report.sizes->met() - 0.05);

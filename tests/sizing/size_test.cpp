@@ -217,9 +217,8 @@ TEST(size, options_that_make_no_sense_together_are_refused) {
             "the single sheet technique refines whole hexes: it needs depth 1 or more");
   EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1}, r.target.depth = 1, r.method = Method::combination; }),
             "the combination technique has depth 0");
-  EXPECT_EQ(
-      with([](Request& r) { r.how = Sizes{.size = 1}, r.levels = Levels::graded, r.method = Method::combination; }),
-      "graded levels need whole hexes to be cut: not the combination");
+  EXPECT_EQ(with([](Request& r) { r.how = Sizes{.size = 1, .coarsen = true}, r.transition = Transition::nested; }),
+            "sizes become coarser by levels only: not with a nested transition or filled regions");
   EXPECT_EQ(with([](Request& r) {
               r.target.kind = EntityKind::volume, r.how = Sizes{.size = 1}, r.method = Method::combination;
             }),

@@ -42,6 +42,14 @@ std::string refusal(const MeshedModel& input, const Request& request) {
   return "not refused";
 }
 
+std::vector<int> levels(const Mesh& mesh) {
+  std::vector<int> result(mesh.hexes.size(), 0);
+  for (const Field& field : mesh.fields)
+    if (field.name == "level" && field.on == Field::On::hex)
+      for (std::size_t h = 0; h < result.size(); ++h) result[h] = static_cast<int>(field.values[h]);
+  return result;
+}
+
 Vec3 centroid(const Mesh& mesh, Index hex) {
   Vec3 sum = Vec3::Zero();
   for (const Index n : mesh.hexes[hex]) sum += mesh.points[n];

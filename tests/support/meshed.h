@@ -19,6 +19,9 @@ void expect_sound(const RefineResult& result);
 /// What refine() says against a request; "not refused" where it does not.
 std::string refusal(const MeshedModel& input, const Request& request);
 
+/// The hex field "level" as integers, zeros where there is none.
+std::vector<int> levels(const Mesh& mesh);
+
 /// Average of the corners.
 Vec3 centroid(const Mesh& mesh, Index hex);
 

@@ -1,7 +1,7 @@
 """Shapes and meanings are in the docstrings (help(hextwist.Session)) and in docs/embedding.md."""
 
 import os
-from typing import Any, Callable, Mapping, Optional, Union
+from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -104,5 +104,8 @@ class Session:
         concave: str = "template",
         smooth: bool = False,
     ) -> NDArray[np.int32]: ...
+    def adapt_levels(
+        self, changes: ArrayLike, *, smooth: bool = False, extensive: Sequence[str] = []
+    ) -> Tuple[NDArray[np.int8], NDArray[np.int32], NDArray[np.int32]]: ...
     def ids(self, kind: str, range: str = "all") -> NDArray[np.int64]: ...
     def nodes_of(self, kind: str, id: int) -> NDArray[np.int64]: ...

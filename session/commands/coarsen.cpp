@@ -1,0 +1,62 @@
+// coarsen: levels of refinement are taken back.
+
+#include <algorithm>
+
+#include "hextwist/patch/refine.h"
+#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/load.h"
+#include "hextwist/sizing/levelling.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+
+void do_coarsen(Execution& run) {
+  const Command& command = run.command;
+  const Mesh& mesh = run.meshed->mesh;
+  if (mesh.n_hexes() == 0)
+    throw error_at(command.statement, command.items.front().token, "there is no mesh to coarsen");
+  run.stage("select");
+  const Item& range = *command.find("range");
+  Target target{.kind = range.kind, .ids = run.chosen(range)};
+  if (is_cad(range.kind))
+    for (Index& id : target.ids) ++id;
+  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
+  if (const Item* radius = command.find("radius")) target.radius = radius->number;
+  if (target.depth && target.radius) throw Error("give a depth or a radius, not both");
+  if (!run.state.levelling)
+    throw Error("no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+  std::vector<std::string> told;
+  std::vector<Index> hexes = region_target(*run.meshed, target, told);
+  for (const std::string& line : told) run.note(line);
+
+  Levelling levelling = *run.state.levelling;
+  levelling.forest = grown(std::move(levelling.forest));
+  if (range.kind != EntityKind::hex) hexes = with_siblings(levelling.forest, hexes);
+  const Item* levels = command.find("levels");
+  LevelChanges changes{std::vector<std::int8_t>(mesh.hexes.size(), 0)};
+  for (const Index h : hexes) changes.by[h] = static_cast<std::int8_t>(levels ? -levels->number : -1);
+  Request request{.how = std::move(changes), .levelling = std::make_shared<const Levelling>(std::move(levelling))};
+  if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
+  for (const Item& item : command.items)
+    if (item.name == "field") request.finish.extensive.push_back(item.text);
+  for (const std::string& name : request.finish.extensive)
+    if (std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == Field::On::hex; }))
+      throw Error("there is no field '" + printable(name) + "' of hexes");
+  run.close_stage();
+
+  RefineResult result = refine(*run.meshed, request, run.core.callbacks.progress);
+  for (const std::string& line : result.report.notices) run.note(line);
+  run.record().seconds.insert(run.record().seconds.end(), result.report.seconds.begin(), result.report.seconds.end());
+  const Index before = mesh.n_hexes(), after = result.refined.mesh.n_hexes();
+  const double shape_before = run.state.measured.shape.min;
+  if (before == after && std::ranges::all_of(result.came_from.kind, [](HexOrigin k) { return k == HexOrigin::same; }))
+    run.note(
+        "nothing became coarser: 27 hexes become one where all of them are named, and where no finer ones around need "
+        "them");
+  accept_refined(run, std::move(result));
+  run.say(text_of(command.statement) + ": " + std::to_string(before) + " -> " + counted(after, EntityKind::hex) +
+          ", smallest shape " + short_number(shape_before) + " -> " + short_number(run.state.measured.shape.min) +
+          off_text(", ", run.state.measured.off_cad, run.state.has_cad));
+}
+
+}  // namespace hextwist

@@ -1,0 +1,199 @@
+#include "hextwist/sizing/levelling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/memory.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
+#include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/level_sizes_internal.h"
+#include "hextwist/sizing/techniques/techniques_internal.h"
+
+namespace hextwist {
+namespace {
+
+constexpr const char* level_field = "level";
+
+/// make: else null where there is none.
+Field* level_field_of(Mesh& mesh, bool make) {
+  const auto found = std::ranges::find_if(mesh.fields, [](const Field& field) {
+    return field.name == level_field && field.on == Field::On::hex && field.components == 1;
+  });
+  if (found != mesh.fields.end()) return &*found;
+  if (!make) return nullptr;
+  return &mesh.fields.emplace_back(Field{level_field, Field::On::hex, 1, std::vector<double>(mesh.hexes.size())});
+}
+
+/// Throws Error when what is asked for cannot fit into memory.
+void check_fits(const Mesh& mesh, std::size_t n_cut, int numsplit) {
+  const double n = mesh.n_hexes() + static_cast<double>(n_cut) * (std::pow(n_cell_children, numsplit) - 1);
+  check_memory(n, n, "at least ");
+}
+
+/// Levels by which the hexes of the request become finer or coarser.
+LevelMarks wishes_of(const Forest& forest, State& state) {
+  const Mesh& mesh = state.input.mesh;
+  if (const auto* changes = std::get_if<LevelChanges>(&state.request.how)) return wishes(forest, changes->by);
+  const int numsplit = std::get<Cuts>(state.request.how).numsplit;
+  const std::vector<Index> cut = region_target(state.input, state.request.target, state.report.notices);
+  check_fits(mesh, cut.size(), numsplit);
+  return wishes(forest, cut, numsplit);
+}
+
+/// The request's levelling, grown.
+Levelling start_of(const State& state) {
+  const MeshedModel& input = state.input;
+  Levelling start;
+  if (state.request.levelling) {
+    start = *state.request.levelling;
+  } else {  // for as long as the request runs
+    start.forest = plant(std::shared_ptr<const MeshedModel>(std::shared_ptr<void>(), &input));
+  }
+  start.forest = grown(std::move(start.forest));
+  return start;
+}
+
+/// What both need of a state.
+struct LevelRun {
+  State& state;
+  Levelling from;
+  LevelOptions options;
+  bool stopped = false;
+  Interruptible interruptible;
+
+  explicit LevelRun(State& of)
+      : state(of), from(start_of(of)), interruptible([this] {
+          if (!state.stages.report("levels", state.fraction())) throw Cancelled();
+        }) {
+    const Finish& finish = state.request.finish;
+    options.extensive = finish.extensive;
+    std::ranges::copy_if(finish.fixed, std::back_inserter(options.fixed),
+                         [&](Index n) { return n < from.forest.base->mesh.n_nodes(); });
+    options.progress = [this](const char* stage, double) {
+      stopped |= !state.stages.report(stage, state.fraction());
+      return !stopped;
+    };
+  }
+  LevelStep change(LevelMarks wished) {
+    LevelStep step = hextwist::change(from.forest, state.input.mesh, std::move(wished), options);
+    if (stopped) throw Cancelled();
+    return step;
+  }
+  void adopt(LevelStep step);
+};
+
+void LevelRun::adopt(LevelStep step) {
+  const Request& request = state.request;
+  std::vector<Index> pinned = request.finish.fixed;
+  std::ranges::sort(pinned);
+  Index n_dropped = 0;
+  Overlay overlay = put_on(from.overlay, state.input.mesh, state.input.association, pinned, step, n_dropped);
+  if (n_dropped > 0)
+    state.note(counted(n_dropped, "node") + " that had been smoothed went back, as hexes around changed");
+  state.report.graded_cells += step.n_forced;
+  if (step.n_forced > 0)
+    state.note("cut " + counted(step.n_forced, "cell") +
+               " more than asked for, so that no piece of a transition is cut");
+  std::ranges::move(step.off_nodes, std::back_inserter(state.report.off_nodes));
+  RefineResult result;
+  result.refined = std::move(step.mesh);
+  const std::vector<std::uint8_t> level = levels_of(step.forest);
+  if (Field* const field = level_field_of(result.refined.mesh, request.finish.level_field))
+    std::ranges::copy(level, field->values.begin());
+  result.origin.resize(level.size());
+  for (std::size_t h = 0; h < level.size(); ++h) result.origin[h] = step.origin.before(static_cast<Index>(h)).front();
+  result.levelling = std::make_shared<const Levelling>(Levelling{std::move(step.forest), std::move(overlay)});
+  result.came_from = std::move(step.origin);
+  result.old_node = std::move(step.old_node);
+  state.adopt(std::move(result));
+}
+
+}  // namespace
+
+void run_levels(State& state) {
+  state.begin("levels");
+  LevelRun run(state);
+  std::optional<LevelSizes> sizes;
+  if (std::holds_alternative<Sizes>(state.request.how)) sizes.emplace(run.from.forest, state);
+  LevelStep step = run.change(sizes ? sizes->wishes(run.options) : wishes_of(run.from.forest, state));
+  if (sizes) state.report.sizes = sizes->report(step);
+  run.adopt(std::move(step));
+}
+
+bool run_combination_by_levels(State& state) {
+  const Target& target = state.request.target;
+  const bool is_bare = !has_levels(state.request);
+  if (!is_bare && !is_cad(target.kind)) return false;
+  state.begin("levels");
+  LevelRun run(state);
+  run.options.keep_meshes = true;
+  const Cuts& cuts = std::get<Cuts>(state.request.how);
+  // What the target is in the mesh of a step.
+  std::vector<std::string> told;  // again
+  const auto target_in = [&](const LevelStep& step) {
+    if (is_cad(target.kind)) return sub_element_target(step.mesh, target, told);
+    CombinationTarget there = sub_element_target(state.input, target, told);
+    for (const auto& pass : step.forest.grown->stack) there = carried_target(there, pass->lineage, pass->mesh->mesh);
+    return there;
+  };
+  LevelStep step;
+  step.forest = run.from.forest;
+  CombinationTarget at = sub_element_target(state.input, target, state.report.notices);
+  const Mesh* mesh = &state.input.mesh;
+  for (int level = 1; level < cuts.numsplit; ++level) {
+    const std::vector<Index> touching = layers_around(*mesh, at.nodes, 1);
+    check_fits(*mesh, touching.size(), 1);
+    LevelMarks wished = wishes(step.forest, touching, 1);
+    step = run.change(std::move(wished));
+    run.options.reuse = step.forest.grown->stack;
+    at = target_in(step);
+    mesh = &step.mesh.mesh;
+  }
+  run.adopt(std::move(step));
+  state.run(*enclose_technique(state, std::move(at)));
+  return true;
+}
+
+LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base) {
+  Levelling bare;
+  bare.forest.base = std::move(base);
+  return std::make_shared<const Levelling>(std::move(bare));
+}
+
+LevellingPtr levelling_after(const Request& request, const RefineResult& result, const MeshedModel& refined) {
+  if (!request.levelling || request.finish.dry_run) return nullptr;
+  LevellingPtr after = result.levelling;
+  if (!after) {
+    // A pass over a base, or levels in a patch of it.
+    const Forest& bare = request.levelling->forest;
+    const Approach approach = plan(*bare.base, request).approach;
+    if (!is_regular(request) || (approach != Approach::trisect && approach != Approach::levels)) return nullptr;
+    std::vector<std::string> told;  // again
+    const std::vector<Index> cut = region_target(*bare.base, request.target, told);
+    after = std::make_shared<const Levelling>(Levelling{plant(bare.base, cut, std::get<Cuts>(request.how).numsplit)});
+  }
+  return result.smoothed.empty() ? after : levelling_after_move(after, result.smoothed, refined);
+}
+
+LevellingPtr levelling_after_move(const LevellingPtr& before, std::span<const Index> moved, const MeshedModel& meshed) {
+  if (!before || before->forest.is_bare()) return nullptr;
+  return std::make_shared<const Levelling>(Levelling{before->forest, overlay_after(before->overlay, moved, meshed)});
+}
+
+void raise_levels(const Lineage& lineage, bool make, Mesh& refined) {
+  Field* const field = level_field_of(refined, make);
+  if (!field) return;
+  for (const CutHex& cut : lineage.hexes) {
+    const HexTemplate& pieces = lineage.table->hex(cut.code);
+    if (std::ranges::count(pieces.edge_code, 0) > 0) continue;
+    for (std::size_t i = 0; i < pieces.children.size(); ++i)
+      ++field->values[static_cast<std::size_t>(cut.first_child) + i];
+  }
+}
+
+}  // namespace hextwist

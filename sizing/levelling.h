@@ -1,0 +1,43 @@
+// How a mesh came out of a base mesh by levels (refine/levels/forest.h), so that it can be refined and coarsened
+// further without its quality coming down.
+#pragma once
+
+#include "hextwist/refine/levels/overlay.h"
+#include "hextwist/sizing/loop.h"
+
+namespace hextwist {
+
+struct Levelling {
+  Forest forest;
+  Overlay overlay = {};  ///< what smoothing did to the mesh that was handed out
+};
+using LevellingPtr = std::shared_ptr<const Levelling>;
+
+/// How the mesh that is to be cut came about counts.
+inline bool has_levels(const Request& request) {
+  return request.levelling && !request.levelling->forest.is_bare();
+}
+
+/// Of a mesh that nothing is known of: it is the base.
+LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base);
+/// After a request: that of its result. result.levelling: what run_levels() made, or null; refined: the whole mesh.
+/// Null: `refined` is a base.
+LevellingPtr levelling_after(const Request& request, const RefineResult& result, const MeshedModel& refined);
+/// After these nodes (ascending) have moved. before: null or bare, then the mesh as it is now is a base: null.
+LevellingPtr levelling_after_move(const LevellingPtr& before, std::span<const Index> moved, const MeshedModel& meshed);
+
+/// Approach::levels and size_by_levels: makes the mesh of the request's levelling (of the input, where it has none)
+/// with other wishes the current one. Tells what was cut for the sake of gradation, and what came off of earlier
+/// smoothing.
+void run_levels(State& state);
+
+/// Approach::combination with numsplit n above 1: the hexes that touch the target are cut by n - 1 levels, those that
+/// touch it then by the combination, so that no piece of a transition is cut either. Returns false where that can't be
+/// had: of nodes, edges and faces of a mesh that was cut by levels already.
+bool run_combination_by_levels(State& state);
+
+/// After a pass that knows nothing of levels: adds one in the hex field of levels (Finish::level_field) to the children
+/// of hexes all of whose edges were cut. make: the field where there is none.
+void raise_levels(const Lineage& lineage, bool make, Mesh& refined);
+
+}  // namespace hextwist

@@ -1,0 +1,120 @@
+#include "hextwist/sizing/techniques/level_sizes_internal.h"
+
+#include <algorithm>
+
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
+#include "hextwist/refine/levels/gradation.h"
+#include "hextwist/refine/marks.h"
+#include "hextwist/refine/templates/trisect.h"
+#include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+namespace {
+
+/// Per node the level of the hexes around it; -1 where these are not all regular cells of one level.
+std::vector<std::int8_t> regular_levels(const Mesh& mesh, const LevelPieces& pieces) {
+  constexpr std::int8_t nothing_yet = -2;
+  std::vector<std::int8_t> result(mesh.points.size(), nothing_yet);
+  for (int block = 0; block < pieces.n_levels(); ++block)
+    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
+      const auto level = static_cast<std::int8_t>(pieces.leaf(block, h).level == block ? block : -1);
+      for (const Index n : mesh.hexes[h]) {
+        std::int8_t& here = result[n];
+        here = here == nothing_yet || here == level ? level : std::int8_t{-1};
+      }
+    }
+  return result;
+}
+
+}  // namespace
+
+LevelSizes::LevelSizes(const Forest& forest, State& state)
+    : forest_(forest),
+      state_(state),
+      sizes_(std::get<Sizes>(state.request.how)),
+      wish_(state.input, state.request),
+      in_zone_(state.input.mesh.hexes.size(), wish_.is_everywhere()),
+      in_report_(in_zone_.size(), 0) {
+  for (const Index h : region_target(state.input, state.request.target, state.report.notices))
+    in_zone_[h] = in_report_[h] = 1;
+}
+
+LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone,
+                            bool is_first) const {
+  const std::vector<Index> too_large = wish_.too_large(mesh, in_zone);
+  if (is_first) wish_.check_fits(mesh, too_large);
+  const std::vector<Index> too_far = wish_.nodes_too_far_apart(mesh, in_zone);
+  std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, too_far);
+  if (marked.empty()) return {};
+  // Hexes that ask: for some of their edges or, when none of these can be had, for being cut.
+  std::vector<std::uint8_t> asks(mesh.hexes.size(), 0), is_far(mesh.points.size(), 0);
+  for (const Index h : too_large) asks[h] = 1;
+  for (const Index n : too_far) is_far[n] = 1;
+  const std::vector<std::int8_t> level_at = regular_levels(mesh, pieces);
+  for (std::size_t n = 0; n < marked.size(); ++n) marked[n] &= static_cast<std::uint8_t>(level_at[n] >= 0);
+
+  const int most = std::min(sizes_.max_passes, max_level(forest_.base->mesh.n_hexes()));
+  LevelMarks marks(static_cast<std::size_t>(std::min(most, pieces.n_levels())));
+  for (int block = 0; block < pieces.n_levels(); ++block)
+    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
+      const LevelPieces::Leaf leaf = pieces.leaf(block, h);
+      if (leaf.level >= most) continue;
+      const int mask = corner_mask(mesh.hexes[h], marked);
+      if (leaf.level == block && edge_mask_of_corners(mask) != 0)
+        marks[leaf.level].add(leaf.cell, static_cast<std::uint8_t>(mask));
+      else if (asks[h] || (in_zone[h] && edge_mask_of_corners(corner_mask(mesh.hexes[h], is_far)) != 0))
+        marks[leaf.level].add(leaf.cell);
+    }
+  return closed(std::move(marks));
+}
+
+LevelMarks LevelSizes::wishes(LevelOptions& options) {
+  const MeshedModel& base = *forest_.base;
+  const CompressedRows corners = node_corners(base.mesh);
+  const std::vector<std::uint8_t> zone_before = by_level(forest_, std::span<const std::uint8_t>(in_zone_));
+  LevelMarks wished = sizes_.coarsen ? LevelMarks() : forest_.wished;
+  options.reuse = forest_.grown->stack;
+  for (bool is_first = true;; is_first = false) {
+    const LevelMarks marks = wished.size() > 1 ? graded(wished, base.mesh.hexes, corners) : wished;
+    state_.begin("levels");
+    LevelledMesh built = build_levels(base, marks, options.reuse,
+                                      {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress});
+    options.reuse = std::move(built.stack);
+    const LevelPieces pieces = level_pieces(options.reuse, base.mesh.n_hexes());
+    const LevelOrigin origin = level_origin(pieces, forest_.grown->pieces);
+    std::vector<std::uint8_t> zone(built.mesh.mesh.hexes.size());
+    parallel_each(zone.size(), [&](std::size_t h) {
+      zone[h] = std::ranges::any_of(origin.before(static_cast<Index>(h)), [&](Index b) { return zone_before[b] != 0; });
+    });
+    state_.begin("sizes");
+    LevelMarks next = united(wished, more(built.mesh.mesh, pieces, zone, is_first));
+    trim(next);
+    if (next == wished) break;
+    wished = std::move(next);
+  }
+  n_levels_ = static_cast<int>(wished.size());
+  return wished;
+}
+
+SizeReport LevelSizes::report(const LevelStep& step) const {
+  const Mesh& mesh = step.mesh.mesh;
+  std::vector<std::uint8_t> zone(mesh.hexes.size()), reported(mesh.hexes.size());
+  parallel_each(zone.size(), [&](std::size_t i) {
+    const auto h = static_cast<Index>(i);
+    const auto any = [&](const std::vector<std::uint8_t>& of) {
+      return std::ranges::any_of(step.origin.before(h), [&](Index b) { return of[b] != 0; });
+    };
+    zone[i] = any(in_zone_);
+    reported[i] = any(in_report_) || (wish_.is_everywhere() && step.origin.kind[h] != HexOrigin::same);
+  });
+  SizeReport report =
+      size_report(mesh, indices_where(mesh.n_hexes(), [&](Index h) { return reported[h] != 0; }), wish_.field());
+  report.n_passes = n_levels_;
+  report.unmet = wish_.too_large(mesh, zone);
+  return report;
+}
+
+}  // namespace hextwist

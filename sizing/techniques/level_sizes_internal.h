@@ -1,0 +1,35 @@
+// To wished sizes, by levels.
+#pragma once
+
+#include "hextwist/refine/levels/forest.h"
+#include "hextwist/sizing/loop.h"
+#include "hextwist/sizing/techniques/wish_internal.h"
+
+namespace hextwist {
+
+class LevelSizes {
+ public:
+  /// forest: grown, of the input. Precondition: the request is for sizes.
+  LevelSizes(const Forest& forest, State& state);
+
+  /// The marks that bring the forest's mesh to the sizes. As in passes, nodes are marked at which the wish is less than
+  /// the size of a hex; but only those around which all hexes are regular cells of one level, so that no piece of a
+  /// transition is cut. What would stay too coarse that way is cut as a whole at its own level, and looked at again.
+  /// options.reuse: what was built on the way.
+  LevelMarks wishes(LevelOptions& options);
+  /// How well they were met by the mesh of the step that was made of these wishes.
+  SizeReport report(const LevelStep& step) const;
+
+ private:
+  LevelMarks more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone,
+                  bool is_first) const;
+
+  const Forest& forest_;
+  State& state_;
+  const Sizes& sizes_;
+  SizeWish wish_;
+  std::vector<std::uint8_t> in_zone_, in_report_;  // per hex of the input
+  int n_levels_ = 0;
+};
+
+}  // namespace hextwist

@@ -1,0 +1,240 @@
+// Levels in a session: any number of refinements in any order keep the quality of one, and can be taken back.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/refine/levels/level_origin.h"
+#include "session_fixture.h"
+#include "support/checkers.h"
+#include "support/meshed.h"
+#include "support/same_meshed.h"
+
+namespace hextwist {
+namespace {
+
+using test::Fixture;
+
+double worst(const Mesh& mesh) {
+  return summarize(quality(Metric::scaled_jacobian, mesh)).min;
+}
+
+const Mesh& mesh_of(const Fixture& f) {
+  return f.session.meshed().mesh;
+}
+std::string error_of(Fixture& f, const std::string& text) {
+  try {
+    f.session.run(text);
+  } catch (const CommandError& error) {
+    return error.message();
+  }
+  return "";
+}
+
+/// On unit cubes, whole hexes: the worst of all 256 ways to mark the corners of a cube.
+constexpr double least_on_cubes = 0.405;
+
+void run_ok(Fixture& f, const std::string& text) {
+  SCOPED_TRACE(text);
+  f.session.run(text);
+  EXPECT_TRUE(test::conformal(mesh_of(f)));
+  EXPECT_TRUE(test::uninverted(mesh_of(f)));
+}
+
+TEST(SessionLevels, repeated_cuts_of_one_hex_are_as_good_as_the_first) {
+  const Index n_hexes[] = {271, 3113, 32127};
+  for (int n = 1; n <= 3; ++n) {
+    Fixture f;
+    run_ok(f, "create brick x 5 interval 5; refine hex 63 numsplit " + std::to_string(n));
+    EXPECT_EQ(mesh_of(f).n_hexes(), n_hexes[n - 1]);
+    EXPECT_GE(worst(mesh_of(f)), 0.477);
+  }
+}
+
+TEST(SessionLevels, nested_transitions_are_cut_again) {
+  Fixture f;
+  run_ok(f, "create brick x 5 interval 5; refine hex 63 numsplit 2 transition nested");
+  EXPECT_EQ(mesh_of(f).n_hexes(), 1765);
+  EXPECT_LT(worst(mesh_of(f)), 0.07);
+}
+
+TEST(SessionLevels, commands_one_after_the_other_keep_the_quality_of_one) {
+  std::mt19937 random(std::random_device{}());
+  const auto seed = static_cast<unsigned>(random());
+  random.seed(seed);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  for (int round = 0; round < 6; ++round) {
+    Fixture f;
+    f.session.run("create brick x 4 y 4 z 3 interval 4 4 3");
+    const MeshedModel base = f.session.meshed();
+    for (int step = 0; step < 5 && mesh_of(f).n_hexes() < 20000; ++step) {
+      const auto any = [&](int n) { return std::to_string(1 + random() % static_cast<unsigned>(n)); };
+      const std::string hex =
+          std::to_string(hex_id(mesh_of(f), static_cast<Index>(random() % mesh_of(f).hexes.size())));
+      const std::string commands[] = {"refine hex " + hex,
+                                      "refine curve " + any(12) + " depth 1",
+                                      "refine surface " + any(6) + " depth 1",
+                                      "refine vertex " + any(8) + " radius 1",
+                                      "coarsen hex " + hex,
+                                      "coarsen surface " + any(6)};
+      const std::string& command = commands[step == 0 ? random() % 4 : random() % 6];
+      if (f.session.meshed().mesh.hexes == base.mesh.hexes && command.starts_with("coarsen")) continue;
+      SCOPED_TRACE(command);
+      std::string failed = error_of(f, command);
+      if (command.find("radius") != std::string::npos && !failed.empty()) continue;  // no centroid that near
+      EXPECT_EQ(failed, "");
+      EXPECT_GE(worst(mesh_of(f)), least_on_cubes);
+      EXPECT_TRUE(test::conformal(mesh_of(f)));
+    }
+    f.session.run("coarsen hex all levels 9");
+    EXPECT_TRUE(test::same_bits(base, f.session.meshed())) << "round " << round;
+  }
+}
+
+TEST(SessionLevels, undo_brings_levels_back) {
+  Fixture f;
+  run_ok(f, "create brick x 5 interval 5; refine hex 63; refine hex 126 to 130");
+  const MeshedModel two = f.session.meshed();
+  run_ok(f, "undo 2; redo 2");
+  EXPECT_TRUE(test::same_bits(two, f.session.meshed()));
+  run_ok(f, "refine hex 200 to 220; undo");
+  EXPECT_TRUE(test::same_bits(two, f.session.meshed()));
+  run_ok(f, "refine hex in surface 1");
+  EXPECT_GE(worst(mesh_of(f)), least_on_cubes);
+  run_ok(f, "coarsen volume all levels 9");
+  EXPECT_EQ(mesh_of(f).n_hexes(), 125);
+}
+
+TEST(SessionLevels, what_is_no_level_makes_a_new_base_and_says_so) {
+  for (const std::string command : {"refine curve 1", "refine sheet node 1 2", "refine surface 1 direction layers 2",
+                                    "refine volume all numsplit 1", "nodeset 7 node 5 6"}) {
+    SCOPED_TRACE(command);
+    Fixture f;
+    f.session.run("create brick x 5 interval 5; refine hex 63; " + command);
+    EXPECT_EQ(f.session.records().back().notices.back(),
+              "levels end here: this mesh is the base of what is refined from now on");
+    const Index n = mesh_of(f).n_hexes();
+    EXPECT_EQ(error_of(f, "coarsen hex all"),
+              "no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+    f.session.run("refine hex 100; coarsen hex all");
+    EXPECT_EQ(mesh_of(f).n_hexes(), n);
+  }
+}
+
+TEST(SessionLevels, the_combination_keeps_its_quality_over_splits) {
+  double of_curve = 0, of_surface = 0;
+  for (const int n : {1, 2, 3}) {
+    Fixture f;
+    run_ok(f, "create brick x 5 interval 5; refine curve 1 numsplit " + std::to_string(n));
+    if (n == 1) of_curve = worst(mesh_of(f));
+    EXPECT_GE(worst(mesh_of(f)), std::min(of_curve, least_on_cubes) - 1e-9) << n;
+    run_ok(f, "undo; refine surface 1 numsplit " + std::to_string(n));
+    if (n == 1) of_surface = worst(mesh_of(f));
+    EXPECT_GE(worst(mesh_of(f)), std::min(of_surface, least_on_cubes) - 1e-9) << n;
+    run_ok(f, "undo; refine edge 50 60 numsplit " + std::to_string(n));
+  }
+}
+
+TEST(SessionLevels, smoothing_lies_over_the_levels) {
+  Fixture f;
+  run_ok(f, "create brick x 6 interval 6; refine hex 90 smooth");
+  const MeshedModel smoothed = f.session.meshed();
+  run_ok(f, "refine hex 1");
+  const Mesh& mesh = mesh_of(f);
+  // Far from what is new, nodes are where they were smoothed to.
+  Index n_moved = 0;
+  for (Index n = 0; n < smoothed.mesh.n_nodes(); ++n) {
+    const Index now = find_node(mesh, node_id(smoothed.mesh, n));
+    ASSERT_GE(now, 0);
+    n_moved += mesh.points[now] != smoothed.mesh.points[n];
+  }
+  EXPECT_EQ(n_moved, 0);
+  run_ok(f, "coarsen hex all levels 2");
+  EXPECT_EQ(mesh_of(f).n_hexes(), 216);
+  run_ok(f, "refine hex 90; smooth hex all");
+  const double smooth_worst = worst(mesh_of(f));
+  EXPECT_GT(smooth_worst, 0.477);
+  run_ok(f, "refine hex in surface 1; undo; refine hex 200 smooth; undo");
+  EXPECT_EQ(worst(mesh_of(f)), smooth_worst);
+}
+
+TEST(SessionLevels, fixed_nodes_stay_where_they_are_and_are_known_by_id) {
+  Fixture f;
+  run_ok(f, "create brick x 5 interval 5; refine hex 63; node in hex 140 150 position fixed");
+  const MeshedModel before = f.session.meshed();
+  const std::vector<std::int64_t> fixed = f.session.ids("node", "in hex 140 150");
+  run_ok(f, "refine hex in surface 1; refine hex 300 smooth; coarsen surface 1");
+  for (const std::int64_t id : fixed) {
+    const Index now = find_node(mesh_of(f), id), then = find_node(before.mesh, id);
+    if (now < 0) continue;
+    EXPECT_EQ(mesh_of(f).points[now], before.mesh.points[then]) << id;
+  }
+}
+
+TEST(SessionLevels, sizes_are_met_without_bad_shapes) {
+  Fixture f;
+  run_ok(f,
+         "create brick x 10 interval 10; refine volume all sizing_function "
+         "\"0.1 + 0.5 * abs(sqrt(x*x + y*y + z*z) - 2)\"");
+  EXPECT_GE(worst(mesh_of(f)), least_on_cubes);
+  EXPECT_LT(mesh_of(f).n_hexes(), 90000);
+  EXPECT_EQ(f.session.records().back().sizes.coarser, 0);
+}
+
+TEST(SessionLevels, changes_of_a_solver_go_both_ways_with_fields) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4");
+  MeshedModel meshed = f.session.meshed();
+  Field linear{"linear", Field::On::node, 1, {}}, load{"load", Field::On::hex, 1, {}};
+  const auto value = [](const Vec3& p) { return 3 * p.x() - 2 * p.y() + 0.5 * p.z() + 1; };
+  for (const Vec3& p : meshed.mesh.points) linear.values.push_back(value(p));
+  load.values.assign(meshed.mesh.hexes.size(), 2.5);
+  meshed.mesh.fields = {linear, load};
+  f.session.take(std::move(meshed), true);
+  const MeshedModel base = f.session.meshed();
+  std::mt19937 random(7);
+  for (int step = 0; step < 20; ++step) {
+    SCOPED_TRACE(step);
+    const Mesh before = mesh_of(f);
+    const std::vector<std::uint8_t> level = [&] {
+      std::vector<std::uint8_t> all(before.hexes.size());
+      const std::vector<int> is = test::levels(before);
+      std::ranges::copy(is, all.begin());
+      return all;
+    }();
+    std::vector<std::int8_t> changes(before.hexes.size());
+    for (std::size_t h = 0; h < changes.size(); ++h)
+      changes[h] = static_cast<std::int8_t>(level[h] < 2 && random() % 40 == 0 ? 1 : random() % 3 ? -1 : 0);
+    const AdaptOutcome outcome = f.session.adapt(changes, {.extensive = {"load"}});
+    const Mesh& now = mesh_of(f);
+    EXPECT_GE(worst(now), least_on_cubes);
+    ASSERT_EQ(outcome.came_from.kind.size(), now.hexes.size());
+    double sum = 0;
+    for (Index h = 0; h < now.n_hexes(); ++h) {
+      sum += now.fields[1].values[h];
+      if (outcome.came_from.kind[h] == HexOrigin::same) {
+        EXPECT_EQ(hex_id(now, h), hex_id(before, outcome.origin[h]));
+      }
+    }
+    EXPECT_NEAR(sum, 2.5 * 64, 1e-9);
+    for (Index n = 0; n < now.n_nodes(); ++n) EXPECT_NEAR(now.fields[0].values[n], value(now.points[n]), 1e-9);
+  }
+  f.session.adapt(std::vector<std::int8_t>(mesh_of(f).hexes.size(), -2));
+  EXPECT_EQ(mesh_of(f).hexes, base.mesh.hexes);
+  EXPECT_EQ(mesh_of(f).points, base.mesh.points);
+}
+
+TEST(SessionLevels, what_cannot_be_is_refused) {
+  Fixture f;
+  EXPECT_EQ(error_of(f, "coarsen hex all"), "there is no mesh to coarsen");
+  f.session.run("create brick x 3 interval 3");
+  EXPECT_EQ(error_of(f, "coarsen hex all"),
+            "no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+  f.session.run("refine hex 14");
+  EXPECT_EQ(error_of(f, "coarsen hex 14 sum \"nothing\""), "hex 14 does not exist; hexes are 1 to 192");
+  EXPECT_NE(error_of(f, "coarsen hex all sum \"nothing\""), "");
+  EXPECT_NE(error_of(f, "refine hex all numsplit 8").find("memory"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hextwist
