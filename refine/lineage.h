@@ -8,7 +8,7 @@
 
 #include "hextwist/mesh/topology.h"
 
-namespace HEXTWIST_API hextwist {
+namespace hextwist {
 
 struct SplitTable;  // split_table.h: the templates of a pass, and what the codes below mean
 

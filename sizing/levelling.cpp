@@ -110,6 +110,7 @@ void LevelRun::adopt(LevelStep step) {
   result.levelling = std::make_shared<const Levelling>(Levelling{std::move(step.forest), std::move(overlay)});
   result.came_from = std::move(step.origin);
   result.old_node = std::move(step.old_node);
+  state.is_renumbered = has_levels(request);
   state.adopt(std::move(result));
 }
 
@@ -169,10 +170,11 @@ LevellingPtr levelling_after(const Request& request, const RefineResult& result,
   if (!request.levelling || request.finish.dry_run) return nullptr;
   LevellingPtr after = result.levelling;
   if (!after) {
+    if (has_levels(request) || !is_regular(request)) return nullptr;
     // A pass over a base, or levels in a patch of it.
     const Forest& bare = request.levelling->forest;
     const Approach approach = plan(*bare.base, request).approach;
-    if (!is_regular(request) || (approach != Approach::trisect && approach != Approach::levels)) return nullptr;
+    if (approach != Approach::trisect && approach != Approach::levels) return nullptr;
     std::vector<std::string> told;  // again
     const std::vector<Index> cut = region_target(*bare.base, request.target, told);
     after = std::make_shared<const Levelling>(Levelling{plant(bare.base, cut, std::get<Cuts>(request.how).numsplit)});

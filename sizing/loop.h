@@ -44,6 +44,8 @@ class State {
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
 
+  /// Nodes of the input may be gone, so that others have other numbers.
+  bool is_renumbered = false;
   RefineResult take_result() { return std::move(result_); }
 
  private:

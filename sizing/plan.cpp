@@ -68,6 +68,10 @@ Plan plan_how(const MeshedModel& input, const Request& request, const Cuts& cuts
   if (uniform) return {Approach::uniform};
   if (method == Method::parallel && (solid || deep)) return {Approach::eight};  // planned by sheets
   if (method == Method::parallel) return {Approach::parallel, 2};
+  if (method == Method::combination && cuts.numsplit > 1 && is_regular(request)) {  // by levels before
+    if (has_levels(request)) return {Approach::combination};
+    return {Approach::combination, 3};
+  }
   if (method == Method::combination) return {Approach::combination, 2};
   const int reach = target.radius ? 1 : target.depth.value_or(solid ? 0 : 1) + 1;
   if (!is_regular(request) || (cuts.numsplit == 1 && !has_levels(request))) return {Approach::trisect, reach};

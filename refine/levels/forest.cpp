@@ -123,7 +123,7 @@ Forest grown(Forest forest, const std::vector<Index>& fixed) {
   grown->stack = std::move(built.stack);
   grown->pieces = level_pieces(grown->stack, base.n_hexes());
   grown->next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
-  grown->next_hex_id = hex_id(built.mesh.mesh, built.mesh.mesh.n_hexes() - 1) + 1;
+  grown->next_hex_id += built.mesh.mesh.n_hexes() - grown->pieces.first[1];  // as change() gives them
   return forest;
 }
 

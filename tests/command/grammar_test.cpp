@@ -180,7 +180,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine curve 3 method fast", 23, "expected auto, single, parallel or combination"},
            {"refine sheet 3", 14, "expected edge, node or intersect"},
            {"refine sheet edge 3 greater_than 1 factor 2", 36, "this option was given already"},
-           {"refine hex in field \"error\" over 3", 29, "expected above, below or top"},
+           {"refine hex in field \"error\" over 3", 29, "expected above, below, top or bottom"},
            {"refine hex in field \"error\" top 101 %", 33, "a part of the whole is above 0 and at most 100 %"},
            {"smooth volume", 14, "expected an id"},
            {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
