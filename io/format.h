@@ -47,12 +47,15 @@ struct Run {
 [[noreturn]] void fail_at_item(const Cursor& cursor, std::span<const Run> runs, std::size_t item,
                                const std::string& what);
 
+/// No file may have ids above this, so that refinements can count on for ever.
+inline constexpr std::int64_t highest_readable_id = std::int64_t{1} << 62;
+
 /// The numbering of nodes or hexes: ids in file order are sorted, and looked up.
 class Ids {
  public:
   Ids() = default;
-  /// `kind` is "node", "element". At an id that occurs twice or is not positive calls fail(position in file order,
-  /// message), which throws.
+  /// `kind` is "node", "element". At an id that occurs twice, is not positive or too large calls fail(position in file
+  /// order, message), which throws.
   using Fail = std::function<void(std::size_t item, const std::string& what)>;
   Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& fail);
   Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Cursor& cursor, std::span<const Run> runs)

@@ -37,9 +37,8 @@ struct MeshFile {
   std::vector<std::string> notices;
 };
 
-/// Reads by extension (case ignored). Node ids are those of the file where it has any, nodes sorted by id; hex ids
-/// likewise, except for Gmsh, where elements of all kinds share one numbering: unless the hexes come first in it (as we
-/// write them), they are counted from 1 in its order.
+/// Reads by extension (case ignored). Node and hex ids are those of the file where it has any (in .msh the tags of
+/// elements, which count other elements too), nodes and hexes sorted by id; a notice says where they are not.
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
 MeshFile read_mesh(const std::filesystem::path& file);
