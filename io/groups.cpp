@@ -29,6 +29,8 @@ Ids::Ids(std::vector<std::int64_t> in_file_order, const char* kind, const Fail& 
   for (std::size_t i = 0; i < (ascending ? 1 : ids_.size()); ++i)
     if (ids_[i] < 1) fail(i, " is not positive");
   const auto [low, high] = std::ranges::minmax(ids_);
+  if (high > highest_readable_id)
+    fail(static_cast<std::size_t>(std::ranges::find(ids_, high) - ids_.begin()), " is too large");
   low_ = low;
   const auto range = static_cast<std::size_t>(high - low) + 1;
   contiguous_ = range == ids_.size();
@@ -125,6 +127,13 @@ std::string component_name(const std::string& name, int c, int n) {
 }
 
 }  // namespace
+
+void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  if (mesh.fields.empty()) return;
+  std::string names;
+  for (const Field& field : mesh.fields) names += (names.empty() ? "'" : ", '") + field.name + "'";
+  notices.push_back(std::string(format) + " has no fields: " + names + " left out");
+}
 
 std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep) {
   std::vector<Field> result;

@@ -14,9 +14,10 @@
 //   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
 //
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
-// skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode.
-// Quads, lines and points in a file are sides, edges and members of sets; those that are not, and triangles, are
-// dropped with a notice.
+// skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode, but
+// for .inp: CalculiX reads 20 characters of a number, so small coordinates are rounded in the 14th digit or later, and
+// those below 1e-99 are 0. Quads, lines and points in a file are sides, edges and members of sets; those that are not,
+// and triangles, are dropped with a notice.
 #pragma once
 
 #include <filesystem>
@@ -36,9 +37,8 @@ struct MeshFile {
   std::vector<std::string> notices;
 };
 
-/// Reads by extension (case ignored). Node ids are those of the file where it has any, nodes sorted by id; hex ids
-/// likewise, except for Gmsh, where elements of all kinds share one numbering: unless the hexes come first in it (as we
-/// write them), they are counted from 1 in its order.
+/// Reads by extension (case ignored). Node and hex ids are those of the file where it has any (in .msh the tags of
+/// elements, which count other elements too), nodes and hexes sorted by id; a notice says where they are not.
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
 MeshFile read_mesh(const std::filesystem::path& file);
@@ -51,9 +51,10 @@ struct WriteOptions {
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole
-/// or as it was. association may be null. Throws Error naming the file and the reason.
-void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
-                const WriteOptions& options = {});
+/// or as it was. association may be null. Returns what the format could not keep, one line each. Throws Error naming
+/// the file and the reason.
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
+                                    const WriteOptions& options = {});
 
 /// Extensions that can be read or written, for messages: ".msh .e ...".
 std::string readable_extensions();

@@ -151,14 +151,15 @@ def write(path, mesh, binary):
             gmsh.model.mesh.addElementsByType(tag, kind, element + 1 + np.arange(len(nodes)), tag_of[nodes].ravel())
             element += len(nodes)
 
+    # Hexes first, so that they are hex 1, 2, ... in commands.
+    for k, (_, tag) in enumerate(gmsh.model.getEntities(3)):
+        add(3, tag, 5, hexes[part == k])
     for _, tag in gmsh.model.getEntities(0):
         add(0, tag, 15, np.flatnonzero((owner[:, 0] == 0) & (owner[:, 1] == tag))[:, None])
     for _, tag in gmsh.model.getEntities(1):
         add(1, tag, 1, [(a, b) for t, a, b in curve_edges if t == tag])
     for _, tag in gmsh.model.getEntities(2):
         add(2, tag, 3, [quad for t, quad in surface_quads if t == tag])
-    for k, (_, tag) in enumerate(gmsh.model.getEntities(3)):
-        add(3, tag, 5, hexes[part == k])
     gmsh.option.setNumber("Mesh.SaveAll", 1)
     gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
     gmsh.option.setNumber("Mesh.Binary", int(binary))

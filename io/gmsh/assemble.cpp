@@ -168,12 +168,7 @@ class Assembly {
     if (!first.empty()) in_.hexes.resize(n);
     hex_ids_.sort(in_.hexes);
     file_.mesh.hexes = std::move(in_.hexes);
-    // Ids of hexes only where they are counted before everything else.
-    std::int64_t lowest_other = std::numeric_limits<std::int64_t>::max();
-    for (int dim = 0; dim < 3; ++dim)
-      for (const auto tag : in_.elements[dim].tags) lowest_other = std::min(lowest_other, tag);
-    const auto highest = std::ranges::max(elements.tags);
-    if (highest < lowest_other) file_.mesh.hex_ids = hex_ids_.stored();
+    file_.mesh.hex_ids = hex_ids_.stored();
   }
 
   void derive_node_owners(int dim) {

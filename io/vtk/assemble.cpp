@@ -38,7 +38,10 @@ class Assembly {
   MeshFile result() {
     cells();
     ours();
-    if (made_.empty()) groups();
+    if (made_.empty()) {
+      groups();
+      global_ids();
+    }
     fields();
     return std::move(out_);
   }
@@ -172,6 +175,26 @@ class Assembly {
     tidy(tags);
   }
 
+  /// Arrays that the file calls ids are, where a mesh can have them: positive and ascending.
+  void global_ids() {
+    for (VtkArray& array : in_.arrays) {
+      if (!array.global_ids || array.on == VtkArray::On::file) continue;
+      const bool node = array.on == VtkArray::On::node;
+      const std::size_t n = node ? out_.mesh.points.size() : out_.mesh.hexes.size();
+      const bool fits = array.is_integer() && array.components == 1 && array.size() == (node ? n : in_.types.size());
+      std::vector<std::int64_t> found;
+      for (std::size_t i = 0; fits && i < n; ++i) found.push_back(array.integer(node ? i : cell_of_hex(i)));
+      array.global_ids = !found.empty() && found[0] > 0 && found.back() <= highest_readable_id &&
+                         std::ranges::adjacent_find(found, std::ranges::greater_equal{}) == found.end();
+      if (!array.global_ids)
+        out_.notices.push_back("array '" + array.name +
+                               "' of ids is kept as a field: it is not positive and ascending; " +
+                               (node ? "nodes" : "hexes") + " are counted from 1");
+      else if (found.back() != std::ssize(found))
+        (node ? out_.mesh.node_ids : out_.mesh.hex_ids) = std::move(found);
+    }
+  }
+
   /// Ids of nodes or hexes, empty where they are 1..n.
   std::vector<std::int64_t> ids(const VtkArray* array, const char* kind) const {
     if (!array || array->size() == 0) return {};
@@ -181,6 +204,8 @@ class Assembly {
       for (std::size_t i = 1; i < numbers.size(); ++i)
         if (numbers[i] <= numbers[i - 1]) fail(std::string(kind) + " ids are not ascending");
       if (static_cast<std::size_t>(numbers[numbers.size() - 1]) == numbers.size()) return;
+      if (array->integer(numbers.size() - 1) > highest_readable_id || array->integer(numbers.size() - 1) < 1)
+        fail(std::string(kind) + " id " + std::to_string(numbers[numbers.size() - 1]) + " is too large");
       reserve_large(result, numbers.size());
       for (std::size_t i = 0; i < numbers.size(); ++i) result.push_back(static_cast<std::int64_t>(numbers[i]));
     });
@@ -279,7 +304,7 @@ class Assembly {
 
   void fields() {
     for (const VtkArray& array : in_.arrays) {
-      if (array.on == VtkArray::On::file || is_made(array.name)) continue;
+      if (array.on == VtkArray::On::file || is_made(array.name) || (array.global_ids && made_.empty())) continue;
       const bool node = array.on == VtkArray::On::node;
       const auto width = static_cast<std::size_t>(array.components);
       const std::size_t n = node ? out_.mesh.points.size() : in_.types.size();

@@ -210,6 +210,7 @@ class Reader {
       const auto found = std::ranges::find(known, word, &std::pair<std::string_view, int>::first);
       if (found == std::end(known)) cursor_.fail_at(at, "expected a section, found " + shown(word));
       array.components = found->second;
+      array.global_ids = word == "GLOBAL_IDS";
       type = cursor_.word();
       cursor_.line();
     }

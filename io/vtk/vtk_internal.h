@@ -32,6 +32,7 @@ struct VtkArray {
   enum class On { node, cell, file } on = On::node;
   std::string name;
   int components = 1;
+  bool global_ids = false;  ///< the file says that they are ids
   VtkType type = VtkType::int64;
   std::string_view bytes;          ///< of the numbers, in this machine's order
   std::vector<std::uint64_t> own;  ///< what `bytes` is in, where that is not the file

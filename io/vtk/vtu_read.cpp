@@ -78,8 +78,10 @@ class Reader {
         piece(*tag);
       else if (tag->name == "DataArray" && !tag->closing)
         array(*tag);
-      else if (std::ranges::find(sections, tag->name) != std::end(sections))
+      else if (std::ranges::find(sections, tag->name) != std::end(sections)) {
         section_ = tag->closing ? "" : tag->name;
+        global_ids_ = (*tag)["GlobalIds"];
+      }
     }
     if (!is_grid_) cursor_.fail_at(cursor_.begin, "not a VTK XML file");
     finish();
@@ -180,6 +182,7 @@ class Reader {
     array.on = section_ == "PointData"  ? VtkArray::On::node
                : section_ == "CellData" ? VtkArray::On::cell
                                         : VtkArray::On::file;
+    array.global_ids = !global_ids_.empty() && array.name == global_ids_;
     if (const auto n = tag["NumberOfComponents"]; !n.empty())
       std::from_chars(n.data(), n.data() + n.size(), array.components);
     if (array.components < 1 || array.components > 1000)
@@ -336,6 +339,7 @@ class Reader {
   VtkArray points_;
   std::map<std::string, VtkArray> cells_;
   std::string_view section_;
+  std::string global_ids_;  // name of the array in this section that is ids
   std::string_view appended_;
   const char* tags_end_ = nullptr;
   bool appended_base64_ = false, is_grid_ = false, swapped_ = false, wide_header_ = false, compressed_ = false;

@@ -71,6 +71,25 @@ TEST(gmsh_files, binary_files_of_the_other_byte_order_are_read) {
   EXPECT_EQ(read.tags.hex_volume, std::vector<int>{1});
 }
 
+TEST(gmsh_files, hexes_keep_their_tags_whatever_else_is_counted_with_them) {
+  const std::string points = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n";
+  const auto read = [](const std::string& text) {
+    return read_mesh(test::write_text(test::output_folder() / "tags.msh", text)).mesh.hex_ids;
+  };
+  EXPECT_EQ(read("$NOD\n8\n" + points +
+                 "$ENDNOD\n$ELM\n3\n1 3 5 5 4 1 2 3 4\n10 5 1 1 8 1 2 3 4 5 6 7 8\n"
+                 "12 15 1 1 1 3\n$ENDELM\n"),
+            (std::vector<std::int64_t>{10}));
+  EXPECT_EQ(read("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n" + points +
+                 "$EndNodes\n$Elements\n3\n1 3 2 0 5 1 2 3 4\n10 5 2 0 1 1 2 3 4 5 6 7 8\n12 15 2 0 1 3\n"
+                 "$EndElements\n"),
+            (std::vector<std::int64_t>{10}));
+  EXPECT_EQ(read("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 8 1 8\n3 1 0 8\n1\n2\n3\n4\n5\n6\n7\n8\n0 0 0\n"
+                 "1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n$EndNodes\n$Elements\n2 2 1 10\n2 5 3 1\n"
+                 "1 1 2 3 4\n3 1 5 1\n10 1 2 3 4 5 6 7 8\n$EndElements\n"),
+            (std::vector<std::int64_t>{10}));
+}
+
 TEST(gmsh_files, real_meshes_have_the_known_counts) {
   const auto data = test::data_folder();
   if (data.empty()) GTEST_SKIP() << "no folder of real meshes";

@@ -142,6 +142,52 @@ TEST(vtk_files, legacy_files_with_voxels_quads_and_arrays_are_understood) {
                           {"speed up", Field::On::node, 2, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}}}));
 }
 
+TEST(vtk_files, global_ids_are_the_ids) {
+  const auto file = test::output_folder() / "ids.vtk";
+  const std::string cells = std::string(legacy) + "CELLS 2 14\n4 0 1 3 2\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 2\n9 12\n";
+  const auto good = read_mesh(test::write_text(
+      file,
+      cells + "CELL_DATA 2\nGLOBAL_IDS e vtkIdType\n3 17\nPOINT_DATA 8\nGLOBAL_IDS n int\n2 3 5 7 11 13 17 19\n"));
+  EXPECT_EQ(good.mesh.hex_ids, std::vector<std::int64_t>{17});
+  EXPECT_EQ(good.mesh.node_ids, (std::vector<std::int64_t>{2, 3, 5, 7, 11, 13, 17, 19}));
+  EXPECT_TRUE(good.mesh.fields.empty());
+  EXPECT_TRUE(good.notices.empty());
+  const auto bad = read_mesh(test::write_text(file, cells + "POINT_DATA 8\nGLOBAL_IDS n int\n0 1 2 3 4 5 6 7\n"));
+  EXPECT_TRUE(bad.mesh.node_ids.empty());
+  EXPECT_EQ(bad.mesh.fields.size(), 1u);
+  EXPECT_EQ(bad.notices, (std::vector<std::string>{"array 'n' of ids is kept as a field: it is not positive and "
+                                                   "ascending; nodes are counted from 1"}));
+  const auto vtu = test::write_text(
+      file.parent_path() / "ids.vtu",
+      "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece NumberOfPoints=\"8\" "
+      "NumberOfCells=\"1\"><PointData GlobalIds=\"n\"><DataArray type=\"Int64\" Name=\"n\" format=\"ascii\">4 5 6 7 8 "
+      "9 "
+      "10 11</DataArray></PointData><CellData GlobalIds=\"e\"><DataArray type=\"Int64\" Name=\"e\" format=\"ascii\">8"
+      "</DataArray></CellData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 "
+      "0 "
+      "1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+      "format=\"ascii\">0 1 2 3 4 5 6 7</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">8"
+      "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">12</DataArray></Cells></Piece>"
+      "</UnstructuredGrid></VTKFile>");
+  EXPECT_EQ(read_mesh(vtu).mesh.node_ids, (std::vector<std::int64_t>{4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(read_mesh(vtu).mesh.hex_ids, std::vector<std::int64_t>{8});
+}
+
+TEST(vtk_files, ids_are_at_most_2_to_the_62) {
+  const auto file = test::output_folder() / "ids.inp";
+  const auto inp = [&](const std::string& node, const std::string& hex) {
+    return test::write_text(file, "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n" + node +
+                                      ",0,1,1\n*ELEMENT,TYPE=C3D8\n" + hex + ",1,2,3,4,5,6,7," + node + "\n");
+  };
+  EXPECT_EQ(read_mesh(inp("4611686018427387904", "4611686018427387904")).mesh.node_ids.back(), std::int64_t{1} << 62);
+  EXPECT_EQ(test::refusal(inp("4611686018427387905", "1")),
+            file.string() + ":9: node id 4611686018427387905 is too large");
+  EXPECT_EQ(test::refusal(inp("8", "9223372036854775807")),
+            file.string() + ":11: element id 9223372036854775807 is too large");
+  EXPECT_EQ(test::refusal(inp("9223372036854775808", "1")),
+            file.string() + ":9: expected a node id, found '9223372036854775808,0,1,1'");
+}
+
 TEST(vtk_files, what_is_wrong_is_said) {
   const auto folder = test::output_folder();
   const auto says = [&](const std::string& text, const std::string& expected) {
