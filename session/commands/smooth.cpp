@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
@@ -91,6 +92,7 @@ void do_smooth(Execution& run) {
     sweeps += report.sweeps;
     at_rest = at_rest && report.converged;
   }
+  evaluate_where_moved(run.meshed->mesh, meshed.mesh);
   run.close_stage();
   replace_and_measure(run, std::move(meshed));
   const Summary& is = state.measured.shape;

@@ -16,6 +16,7 @@ constexpr double near_tie = 0.05;
 
 struct Candidate {
   RefineResult result;
+  std::vector<Vec3> straight;
   Report report;
   double distance = 0;  ///< average of |log(actual / wished size)| at the target
   double worst_shape = 0;
@@ -31,6 +32,7 @@ Candidate attempt(const State& from, const Report& start, Approach approach) {
   state.run(*technique);
   candidate.has_done = technique->has_done();
   candidate.result = state.take_result();
+  candidate.straight = state.take_straight();
   return candidate;
 }
 
@@ -66,7 +68,7 @@ void run_nearest_size(State& state) {
   Candidate mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
   if (!mixed.has_done) {
     state.report = std::move(mixed.report);
-    return state.adopt(std::move(mixed.result));
+    return state.adopt(std::move(mixed.result), std::move(mixed.straight));
   }
   Candidate thirds = attempt(state, start, Approach::size_by_threes);
   judge(mixed);
@@ -86,7 +88,7 @@ void run_nearest_size(State& state) {
   report.notices.push_back(std::string(taken) + ": sizes are off by a factor of " + rounded(std::exp(better.distance)) +
                            " on average, not " + rounded(std::exp(other.distance)) + "; the worst shape is " +
                            rounded(better.worst_shape) + ", not " + rounded(other.worst_shape));
-  state.adopt(std::move(better.result));
+  state.adopt(std::move(better.result), std::move(better.straight));
 }
 
 }  // namespace hextwist
