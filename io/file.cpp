@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace hextwist::io {
@@ -142,6 +144,28 @@ Output& Output::operator<<(double value) {
   char* at = room(32);
   used_ = static_cast<std::size_t>(std::to_chars(at, at + 32, value).ptr - buffer_.get());
   return *this;
+}
+
+Output& Output::number(double value, std::size_t width) {
+  if (std::abs(value) < 1e-99) return *this << '0';
+  std::array<char, 128> text;
+  char* const begin = text.data();
+  const auto fits = [&](const char* stop) { return stop <= begin + width; };
+  char* end = std::to_chars(begin, begin + text.size(), value).ptr;
+  if (fits(end)) return *this << std::string_view(begin, end);
+  // With an exponent or without, whichever has room for more digits.
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto format : {std::chars_format::scientific, std::chars_format::fixed})
+    for (int digits = 18; digits > 0; --digits) {
+      const auto [stop, error] = std::to_chars(begin, begin + text.size(), value, format, digits);
+      if (error != std::errc{} || !fits(stop)) continue;
+      double rounded = 0;
+      std::from_chars(begin, stop, rounded);
+      if (std::abs(rounded - value) < std::abs(nearest - value)) nearest = rounded;
+      break;
+    }
+  end = std::to_chars(begin, begin + text.size(), nearest).ptr;
+  return *this << std::string_view(begin, end);
 }
 
 void Output::raw_large(const void* bytes, std::size_t n) {

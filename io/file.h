@@ -85,6 +85,9 @@ class Output {
   Output& operator<<(std::int32_t value) { return *this << std::int64_t{value}; }
   Output& operator<<(std::size_t value) { return *this << static_cast<std::int64_t>(value); }
   Output& operator<<(double value);
+  /// A number for readers that take at most `width` characters of one (16 or more) and exponents of two digits: as
+  /// near to the value as fits, which is the value itself but for some that are small. Below 1e-99 it is 0.
+  Output& number(double value, std::size_t width);
 
   void raw(const void* bytes, std::size_t n) {
     if (n > capacity - used_) return raw_large(bytes, n);

@@ -20,14 +20,18 @@
 namespace hextwist::io {
 
 MeshFile read_gmsh(const Bytes& bytes);
-void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                std::vector<std::string>& notices);
 MeshFile read_abaqus(const std::filesystem::path& file);
-void write_abaqus(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+void write_abaqus(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                  std::vector<std::string>& notices);
 MeshFile read_medit(const Bytes& bytes);
-void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                 std::vector<std::string>& notices);
 MeshFile read_vtk(const Bytes& bytes);
 MeshFile read_vtu(const Bytes& bytes);
-void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options);
+void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+               std::vector<std::string>& notices);
 
 MeshFile read_exodus(const std::filesystem::path& file);
 void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options);
@@ -143,6 +147,8 @@ constexpr int face_of_file_corners(const std::array<int, 4>& corners) {
 inline std::int64_t id_of(std::span<const std::int64_t> ids, Index index) {
   return ids.empty() ? std::int64_t{index} + 1 : ids[index];
 }
+/// For formats without fields.
+void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
 /// x y z of all points, in their memory.
 inline std::span<const double> coordinates(std::span<const Vec3> points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));

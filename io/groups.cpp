@@ -126,6 +126,13 @@ std::string component_name(const std::string& name, int c, int n) {
 
 }  // namespace
 
+void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  if (mesh.fields.empty()) return;
+  std::string names;
+  for (const Field& field : mesh.fields) names += (names.empty() ? "'" : ", '") + field.name + "'";
+  notices.push_back(std::string(format) + " has no fields: " + names + " left out");
+}
+
 std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep) {
   std::vector<Field> result;
   for (const Field& field : fields) {

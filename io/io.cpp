@@ -11,23 +11,25 @@ MeshFile read_whole(const std::filesystem::path& file) {
   return read(io::read_bytes(file));
 }
 
-template <void (*write)(io::Output&, const Mesh&, const Association&, const WriteOptions&)>
+using Notices = std::vector<std::string>;
+
+template <void (*write)(io::Output&, const Mesh&, const Association&, const WriteOptions&, Notices&)>
 void write_whole(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
-                 const WriteOptions& options) {
+                 const WriteOptions& options, Notices& notices) {
   io::Output out(file, options.overwrite);
-  write(out, mesh, association, options);
+  write(out, mesh, association, options, notices);
   out.commit();
 }
 
-void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&,
-                  const WriteOptions& options) {
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&, const WriteOptions& options,
+                  Notices&) {
   io::write_exodus(file, mesh, options);
 }
 
 struct Format {
   std::string_view extension;
   MeshFile (*read)(const std::filesystem::path&);
-  void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&);
+  void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&);
 };
 
 constexpr Format formats[] = {
@@ -74,14 +76,16 @@ MeshFile read_mesh(const std::filesystem::path& file) {
   return format->read(file);
 }
 
-void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
-                const WriteOptions& options) {
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
+                                    const WriteOptions& options) {
   const Format* format = format_of(file);
   if (!format || !format->write)
     throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
   static const Association nothing;
+  Notices notices;
   try {
-    format->write(file, mesh, association ? *association : nothing, options);
+    format->write(file, mesh, association ? *association : nothing, options, notices);
+    return notices;
   } catch (const Error& error) {
     // Errors about the mesh lack the file's name.
     const std::string what = error.what();

@@ -14,9 +14,10 @@
 //   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
 //
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
-// skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode.
-// Quads, lines and points in a file are sides, edges and members of sets; those that are not, and triangles, are
-// dropped with a notice.
+// skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode, but
+// for .inp: CalculiX reads 20 characters of a number, so small coordinates are rounded in the 14th digit or later, and
+// those below 1e-99 are 0. Quads, lines and points in a file are sides, edges and members of sets; those that are not,
+// and triangles, are dropped with a notice.
 #pragma once
 
 #include <filesystem>
@@ -51,9 +52,10 @@ struct WriteOptions {
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole
-/// or as it was. association may be null. Throws Error naming the file and the reason.
-void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
-                const WriteOptions& options = {});
+/// or as it was. association may be null. Returns what the format could not keep, one line each. Throws Error naming
+/// the file and the reason.
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
+                                    const WriteOptions& options = {});
 
 /// Extensions that can be read or written, for messages: ".msh .e ...".
 std::string readable_extensions();

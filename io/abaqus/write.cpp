@@ -30,6 +30,20 @@ std::string one_line(std::string name) {
   return name;
 }
 
+/// CalculiX reads 20 characters of a number and takes the rest for blanks; Abaqus as many.
+constexpr std::size_t number_width = 20;
+/// The highest id that Abaqus takes; CalculiX reads ten characters of one into 32 bits.
+constexpr std::int64_t highest_id = 999'999'999;
+
+/// Ids as the file has them: those of the mesh, or counted from 1 where they are too large.
+std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind,
+                                          std::vector<std::string>& notices) {
+  if (ids.empty() || ids.back() <= highest_id) return ids;
+  notices.push_back(std::string(kind) + " id " + std::to_string(ids.back()) + " is more than Abaqus takes: " + kind +
+                    (kind[0] == 'n' ? "s" : "es") + " are counted from 1 in the file");
+  return {};
+}
+
 /// Numbers, sixteen in a line, as many as Abaqus takes.
 template <class Id>
 void write_ids(Output& out, std::size_t n, Id&& id) {
@@ -38,7 +52,11 @@ void write_ids(Output& out, std::size_t n, Id&& id) {
 
 }  // namespace
 
-void write_abaqus(Output& out, const Mesh& mesh, const Association&, const WriteOptions&) {
+void write_abaqus(Output& out, const Mesh& mesh, const Association&, const WriteOptions&,
+                  std::vector<std::string>& notices) {
+  say_no_fields(mesh, "Abaqus", notices);
+  const auto node_ids = ids_in_file(mesh.node_ids, "node", notices);
+  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", notices);
   out << "*HEADING\nhextwist\n** hextwist mesh\n";
   Labels labels;
   const auto begin = [&](const char* kind, const char* keyword, const auto& group) {
@@ -49,27 +67,29 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
   out << "*NODE, NSET=NALL\n";
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     const Vec3& p = mesh.points[n];
-    out << node_id(mesh, n) << ", " << p.x() << ", " << p.y() << ", " << p.z() << '\n';
+    out << id_of(node_ids, n);
+    for (const double x : p) (out << ", ").number(x, number_width);
+    out << '\n';
   }
   out << "*ELEMENT, TYPE=C3D8, ELSET=EALL\n";
   for (Index h = 0; h < mesh.n_hexes(); ++h) {
-    out << hex_id(mesh, h);
-    for (const int c : file_corner) out << ", " << node_id(mesh, mesh.hexes[h][c]);
+    out << id_of(hex_ids, h);
+    for (const int c : file_corner) out << ", " << id_of(node_ids, mesh.hexes[h][c]);
     out << '\n';
   }
   for (const Block& block : mesh.blocks) {
     begin("block", "*ELSET, ELSET=", block);
-    write_ids(out, block.hexes.size(), [&](std::size_t i) { return hex_id(mesh, block.hexes[i]); });
+    write_ids(out, block.hexes.size(), [&](std::size_t i) { return id_of(hex_ids, block.hexes[i]); });
   }
   for (const NodeSet& set : mesh.node_sets) {
     begin("nodeset", "*NSET, NSET=", set);
-    write_ids(out, set.nodes.size(), [&](std::size_t i) { return node_id(mesh, set.nodes[i]); });
+    write_ids(out, set.nodes.size(), [&](std::size_t i) { return id_of(node_ids, set.nodes[i]); });
   }
   std::array<int, 6> number{};
   for (int s = 0; s < 6; ++s) number[abaqus_face[s]] = s + 1;
   for (const SideSet& set : mesh.side_sets) {
     begin("sideset", "*SURFACE, TYPE=ELEMENT, NAME=", set);
-    for (const Side& side : set.sides) out << hex_id(mesh, side.hex) << ", S" << number[side.face] << '\n';
+    for (const Side& side : set.sides) out << id_of(hex_ids, side.hex) << ", S" << number[side.face] << '\n';
   }
 }
 

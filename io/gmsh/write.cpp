@@ -319,7 +319,8 @@ void write_fields(const Writer& to, const Mesh& mesh) {
 
 }  // namespace
 
-void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options) {
+void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                std::vector<std::string>&) {
   if (options.gmsh_version != 22 && options.gmsh_version != 41)
     throw Error("Gmsh version " + std::to_string(options.gmsh_version) + " is neither 22 nor 41");
   const bool v4 = options.gmsh_version == 41;

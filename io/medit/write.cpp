@@ -14,7 +14,11 @@ std::vector<NamedGroup> names(const std::vector<Group>& groups) {
 
 }  // namespace
 
-void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions&) {
+void write_medit(Output& out, const Mesh& mesh, const Association& association, const WriteOptions&,
+                 std::vector<std::string>& notices) {
+  if (!mesh.node_ids.empty()) notices.push_back("MEDIT has no ids: nodes are counted from 1 in the file");
+  if (!mesh.hex_ids.empty()) notices.push_back("MEDIT has no ids: hexes are counted from 1 in the file");
+  say_no_fields(mesh, "MEDIT", notices);
   out << "MeshVersionFormatted 2\nDimension 3\n# hextwist mesh\n";
 
   std::vector<int> volume(mesh.hexes.size());

@@ -166,7 +166,8 @@ void add_field_data(Arrays& arrays, const std::string& made_names, const Mesh& m
 
 }  // namespace
 
-void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options) {
+void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+               std::vector<std::string>&) {
   const auto n_nodes = mesh.points.size(), n_hexes = mesh.hexes.size();
   Arrays arrays(out, options.binary);
 

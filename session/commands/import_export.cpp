@@ -114,8 +114,10 @@ void do_export(Execution& run) {
   const MeshedModel& meshed = *run.meshed;
   if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
   run.stage("write");
-  write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association,
-             {.overwrite = run.command.has("overwrite")});
+  for (const std::string& line :
+       write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association,
+                  {.overwrite = run.command.has("overwrite")}))
+    run.note(line);
   run.say(file.text + ": " + counted(meshed.mesh.n_hexes(), EntityKind::hex) + " written");
 }
 
