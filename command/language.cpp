@@ -25,7 +25,7 @@ const std::vector<CommandSpec> table = {
      "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block that "
      "nothing is left of goes. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
      "a hex belong to its blocks.",
-     {{"id", Kind::integer, 1, max_group_id, false, "number of the block"},
+     {{"id", Kind::integer, 0, max_group_id, false, "number of the block"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"},
       {"type", Kind::word, 0, 0, false, "hex8, which every element is"}},
@@ -131,9 +131,9 @@ const std::vector<CommandSpec> table = {
      "nodeset <id> {{node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ... [name <text>]|add {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ... [name <text>]"
      "|remove {node|edge|face|hex|vertex|curve|surface|volume|block|sideset|nodeset|group} <range> ...|name <text>}",
      "define a node set",
-     "Adds the nodes of the entities to the set, those on their rim too, or takes them out of it. A new node belongs to "
-     "a set when all nodes of the edge, face or hex that it splits do.",
-     {{"id", Kind::integer, 1, max_group_id, false, "number of the set"},
+     "Adds the nodes of the entities to the set, those on their rim too, or takes them out of it. New nodes belong "
+     "to it on the curves and surfaces and in the volumes that it is meant to hold.",
+     {{"id", Kind::integer, 0, max_group_id, false, "number of the set"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},
      {"nodeset 3 curve 4", "nodeset 3 add node 7 9 name \"rim\"", "nodeset 2 curve 1 to 4 vertex 3 node 8", "nodeset 3 remove node in vertex all", "nodeset 3 name \"edge\""}},
@@ -235,7 +235,7 @@ const std::vector<CommandSpec> table = {
      "Adds the sides of hexes at the faces, or takes them out of the set. A face between two hexes has two sides: "
      "'forward' (the default) is that of the volume with the lower id (within a volume, of the hex with the lower id), "
      "'reverse' the other; 'wrt' takes those of the hexes named.",
-     {{"id", Kind::integer, 1, max_group_id, false, "number of the set"},
+     {{"id", Kind::integer, 0, max_group_id, false, "number of the set"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"which", Kind::range, 0, 0, false, "whose side of the faces"},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},

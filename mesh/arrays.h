@@ -20,7 +20,8 @@ enum class Per { node, hex };
 /// What nodes and hexes get that a refinement makes (refine/carry.cpp).
 enum class Fresh {
   inherited,  ///< nodes: interpolated between the old nodes that they lie between; hexes: what their parent has; sides
-              ///< and hexes of lists: those that make up the old ones; nodes of lists: all around which are in it
+              ///< and hexes of lists: those that make up the old ones; nodes of lists: refine/node_sets.h
+  nearest,    ///< the same, but nodes: what the nearest of these has
   id,         ///< numbers that follow the highest old one
   blank,      ///< what T{} is, unless a rule of its own knows better
   own         ///< by a rule of its own: what the refinement is about
@@ -33,13 +34,13 @@ struct ArrayTag {
   std::size_t width = 1;         ///< array items per node or hex
   std::string_view values = {};  ///< name of the values beside a list
   std::string_view field = {};   ///< of those arrays of which there are several: which
-  int id = 0;                    ///< the same
+  int id = -1;                   ///< the same, of groups
 
-  bool is_one_of_several() const { return id > 0 || !field.empty(); }
+  bool is_one_of_several() const { return id >= 0 || !field.empty(); }
   /// "points", "blocks/3", "node_fields/heat".
   std::string full_name() const {
     if (!is_one_of_several()) return std::string(name);
-    return std::string(name) + "/" + (id > 0 ? std::to_string(id) : std::string(field));
+    return std::string(name) + "/" + (id >= 0 ? std::to_string(id) : std::string(field));
   }
 };
 
@@ -94,7 +95,7 @@ inline auto& items_of(auto& group) {
     return group.values;
 }
 
-/// Gives a mesh the groups and fields of another, still without members and values.
+/// Gives a mesh the groups and fields of another, still without members and values, and what it has no arrays for.
 inline void copy_heads(const Mesh& from, Mesh& to) {
   const auto copy = [](const auto& groups, auto& heads) {
     heads.clear();
@@ -103,13 +104,15 @@ inline void copy_heads(const Mesh& from, Mesh& to) {
       if constexpr (requires { group.id; })
         heads.back() = {group.id, group.name, {}};
       else
-        heads.back() = {group.name, group.on, group.components, {}};
+        heads.back() = {group.name, group.on, group.components, {}, group.integer};
+      if constexpr (requires { group.meant; }) heads.back().meant = group.meant;
     }
   };
   copy(from.blocks, to.blocks);
   copy(from.node_sets, to.node_sets);
   copy(from.side_sets, to.side_sets);
   copy(from.fields, to.fields);
+  to.extras = from.extras;
 }
 
 namespace arrays_internal {
@@ -171,11 +174,13 @@ void for_each_array(const F& f, M&... mesh) {
     const bool on_nodes = first.on == Field::On::node;
     f(ArrayTag{.name = on_nodes ? "node_fields" : "hex_fields",
                .per = on_nodes ? Per::node : Per::hex,
+               .fresh = first.integer ? Fresh::nearest : Fresh::inherited,
                .width = static_cast<std::size_t>(first.components),
                .field = first.name},
       first.values, others.values...);
   };
   arrays_internal::for_each_group(field, mesh.fields...);
+  f(ArrayTag{"file_hexes", Per::hex}, mesh.file_hexes...);
 }
 template <class F, arrays_internal::Is<Association>... A>
 void for_each_array(const F& f, A&... of) {

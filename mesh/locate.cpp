@@ -11,31 +11,6 @@ namespace {
 
 constexpr double inside_slack = 1e-12;  // of the unit cube: neighbours must not leave a crack between them
 
-/// Newton's method for the place of p; false when it does not get there.
-bool invert(std::span<const Vec3, 8> corners, const Vec3& p, Vec3& at) {
-  at.setConstant(0.5);
-  const double size2 = (corners[7] - corners[0]).squaredNorm() + (corners[6] - corners[1]).squaredNorm();
-  for (int i = 0; i < 20; ++i) {
-    const Vec3 miss = p - trilinear_point(corners, at);
-    if (miss.squaredNorm() <= 1e-28 * size2) return true;
-    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-    for (int e = 0; e < n_hex_edges; ++e) {
-      const int axis = e >> 2, low = edge_corner(e, 0);
-      double weight = 1;
-      for (int other = 0; other < 3; ++other)
-        if (other != axis) weight *= low >> other & 1 ? at[other] : 1 - at[other];
-      jacobian.col(axis) += weight * (corners[edge_corner(e, 1)] - corners[low]);
-    }
-    const Vec3 step = jacobian.partialPivLu().solve(miss);
-    if (!step.allFinite()) return false;
-    at += step;
-    // Far outside the hex, where its map need not be one to one.
-    if (at.minCoeff() < -2 || at.maxCoeff() > 3) return false;
-    if (step.squaredNorm() < 1e-30) return true;
-  }
-  return (p - trilinear_point(corners, at)).squaredNorm() <= 1e-20 * size2;
-}
-
 }  // namespace
 
 Vec3 trilinear_point(std::span<const Vec3, 8> x, const Vec3& at) {
@@ -44,9 +19,40 @@ Vec3 trilinear_point(std::span<const Vec3, 8> x, const Vec3& at) {
   return (1 - at.z()) * along_y(0) + at.z() * along_y(4);
 }
 
+std::array<Vec3, 3> trilinear_derivatives(std::span<const Vec3, 8> corners, const Vec3& at) {
+  std::array<Vec3, 3> columns = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (int e = 0; e < n_hex_edges; ++e) {
+    const int axis = e >> 2, low = edge_corner(e, 0);
+    double weight = 1;
+    for (int other = 0; other < 3; ++other)
+      if (other != axis) weight *= low >> other & 1 ? at[other] : 1 - at[other];
+    columns[axis] += weight * (corners[edge_corner(e, 1)] - corners[low]);
+  }
+  return columns;
+}
+
+bool find_natural_coordinates(std::span<const Vec3, 8> corners, const Vec3& p, Vec3& at) {
+  at.setConstant(0.5);
+  const double size2 = (corners[7] - corners[0]).squaredNorm() + (corners[6] - corners[1]).squaredNorm();
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 miss = p - trilinear_point(corners, at);
+    if (miss.squaredNorm() <= 1e-28 * size2) return true;
+    Eigen::Matrix3d jacobian;
+    const auto columns = trilinear_derivatives(corners, at);
+    for (int axis = 0; axis < 3; ++axis) jacobian.col(axis) = columns[axis];
+    const Vec3 step = jacobian.partialPivLu().solve(miss);
+    if (!step.allFinite()) return false;
+    at += step;
+    if (at.minCoeff() < -2 || at.maxCoeff() > 3) return false;
+    if (step.squaredNorm() < 1e-30) return true;
+  }
+  return (p - trilinear_point(corners, at)).squaredNorm() <= 1e-20 * size2;
+}
+
 HexPlace closest_place(std::span<const Vec3, 8> corners, const Vec3& p) {
   HexPlace place;
-  if (invert(corners, p, place.at) && place.at.minCoeff() >= -inside_slack && place.at.maxCoeff() <= 1 + inside_slack) {
+  if (find_natural_coordinates(corners, p, place.at) && place.at.minCoeff() >= -inside_slack &&
+      place.at.maxCoeff() <= 1 + inside_slack) {
     place.at = place.at.cwiseMax(0.0).cwiseMin(1.0);
     return place;
   }

@@ -16,6 +16,11 @@ struct HexPlace {
 
 /// Point of a hex at a place in its unit cube.
 Vec3 trilinear_point(std::span<const Vec3, 8> corners, const Vec3& at);
+/// The place in its unit cube where p lies, found by Newton's method: outside of 0 .. 1 for a point that is outside of
+/// the hex. False where the method does not get there, or leaves -2 .. 3, where the map need not be one to one.
+bool find_natural_coordinates(std::span<const Vec3, 8> corners, const Vec3& p, Vec3& at);
+/// Columns: how the point changes with each coordinate.
+std::array<Vec3, 3> trilinear_derivatives(std::span<const Vec3, 8> corners, const Vec3& at);
 /// Closest place in one hex: the inverse of the trilinear map by Newton's method for points inside, the closest of the
 /// six bilinear faces for those outside.
 HexPlace closest_place(std::span<const Vec3, 8> corners, const Vec3& p);

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "hextwist/base/types.h"
+#include "hextwist/geom/owner.h"
 
 namespace HEXTWIST_API hextwist {
 
@@ -23,7 +25,7 @@ struct Side {
   auto operator<=>(const Side&) const = default;
 };
 
-/// Named groups. Ids are positive and unique per kind; members ascending, each once. Groups of a kind may overlap,
+/// Named groups. Ids are not negative and unique per kind; members ascending, each once. Groups of a kind may overlap,
 /// and nothing need belong to any.
 struct Block {
   int id = 0;
@@ -35,6 +37,9 @@ struct NodeSet {
   int id = 0;
   std::string name;
   std::vector<Index> nodes;
+  /// Curves, surfaces, volumes that it is meant to hold all nodes of (association/meant.h), ascending: what is new on
+  /// them joins it.
+  std::vector<Owner> meant = {};
   bool operator==(const NodeSet&) const = default;
 };
 struct SideSet {
@@ -51,8 +56,12 @@ struct Field {
   On on = On::node;
   int components = 1;
   std::vector<double> values;
+  /// Classes, flags, numbers of things: what is new gets the value of something near, never one between two.
+  bool integer = false;
   bool operator==(const Field&) const = default;
 };
+
+struct FileExtras;  // io/extras.h
 
 struct Mesh {
   std::vector<Vec3> points;
@@ -64,6 +73,10 @@ struct Mesh {
   std::vector<NodeSet> node_sets;
   std::vector<SideSet> side_sets;
   std::vector<Field> fields;
+  /// What the file said for which there is no array here (time steps, ...), null where that is nothing; and, for
+  /// finding it, the hex of the file (0-based) that each hex lies in.
+  std::shared_ptr<const FileExtras> extras;
+  std::vector<Index> file_hexes;
 
   Index n_nodes() const { return static_cast<Index>(points.size()); }
   Index n_hexes() const { return static_cast<Index>(hexes.size()); }

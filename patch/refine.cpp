@@ -1,6 +1,9 @@
 #include "hextwist/patch/refine_known.h"
 
+#include <algorithm>
+
 #include "hextwist/base/memory.h"
+#include "hextwist/mesh/association/meant.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/sizing/levelling.h"
 
@@ -31,7 +34,16 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
 }
 
 RefineResult refine(const MeshedModel& input, const Request& request, const Progress& progress) {
-  return refine_whole(input, nullptr, request, progress);
+  const auto& sets = input.mesh.node_sets;
+  if (input.association.empty() || std::ranges::all_of(sets, [](const NodeSet& set) { return !set.meant.empty(); }))
+    return refine_whole(input, nullptr, request, progress);
+  // A session has seen to that when it took the mesh.
+  MeshedModel known = input;
+  std::vector<std::string> notices;
+  find_meant_entities(known.mesh, known.association, notices);
+  RefineResult result = refine_whole(known, nullptr, request, progress);
+  result.report.notices.insert(result.report.notices.begin(), notices.begin(), notices.end());
+  return result;
 }
 
 RefineResult refine(const MeshedModel& input, const Measured& known, const Request& request, const Progress& progress) {

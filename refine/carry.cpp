@@ -6,6 +6,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/arrays.h"
+#include "hextwist/refine/node_sets.h"
 #include "hextwist/refine/origin.h"
 
 namespace hextwist {
@@ -110,18 +111,6 @@ std::vector<Side> carried_sides(const std::vector<Side>& old_sides, const Split&
   return carried;
 }
 
-std::vector<Index> carried_nodes(const std::vector<Index>& old_nodes, const Mesh& old_mesh, const Split& split) {
-  std::vector<std::uint8_t> member(static_cast<std::size_t>(split.n_nodes));
-  for (const Index n : old_nodes) member[n] = 1;
-  for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
-    member[node] = std::ranges::all_of(origin.nodes(), [&](Index n) { return member[n] != 0; });
-  });
-  std::vector<Index> carried = old_nodes;
-  for (Index n = split.lineage.n_old_nodes; n < split.n_nodes; ++n)
-    if (member[n]) carried.push_back(n);
-  return carried;
-}
-
 /// Owners of the nodes on cut edges and faces: volume of their hex, unless the face or the edge is on the CAD.
 void carry_node_owners(const Association& old, const Split& split, Association& association) {
   const Lineage& lineage = split.lineage;
@@ -211,6 +200,35 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
   }
 }
 
+/// Values of nodes, `width` for each.
+template <class T>
+std::vector<T> carried_values(const std::vector<T>& old, std::size_t width, Fresh fresh, const Mesh& old_mesh,
+                              const Split& split) {
+  std::vector<T> now = of_old_nodes(old, static_cast<std::size_t>(split.n_nodes) * width);
+  if constexpr (std::same_as<T, double> || std::same_as<T, Vec3>) {
+    const auto value = [&](const Origin& origin, int i, std::size_t c) -> const T& {
+      return old[static_cast<std::size_t>(origin.node[i]) * width + c];
+    };
+    if (fresh == Fresh::inherited)
+      for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
+        for (std::size_t c = 0; c < width; ++c) {
+          T sum{};
+          if constexpr (std::same_as<T, Vec3>) sum.setZero();
+          for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * value(origin, i, c);
+          now[static_cast<std::size_t>(node) * width + c] = sum;
+        }
+      });
+    if (fresh == Fresh::nearest)
+      for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
+        const auto nearest =
+            std::max_element(origin.weight.begin(), origin.weight.begin() + origin.n) - origin.weight.begin();
+        for (std::size_t c = 0; c < width; ++c)
+          now[static_cast<std::size_t>(node) * width + c] = value(origin, static_cast<int>(nearest), c);
+      });
+  }
+  return now;
+}
+
 /// Makes the arrays of the refinement from the old ones.
 struct Carry {
   const Mesh& old_mesh;
@@ -229,18 +247,7 @@ struct Carry {
         std::copy_n(old.data() + static_cast<std::size_t>(parent[h]) * width, width, now.data() + h * width);
       });
     }
-    now = of_old_nodes(old, static_cast<std::size_t>(split.n_nodes) * width);
-    if constexpr (std::same_as<T, double> || std::same_as<T, Vec3>)
-      if (tag.fresh == Fresh::inherited)
-        for_each_new_node(old_mesh, split.lineage, [&](Index node, const Origin& origin) {
-          for (std::size_t c = 0; c < width; ++c) {
-            T sum{};
-            if constexpr (std::same_as<T, Vec3>) sum.setZero();
-            for (int i = 0; i < origin.n; ++i)
-              sum += origin.weight[i] * old[static_cast<std::size_t>(origin.node[i]) * width + c];
-            now[static_cast<std::size_t>(node) * width + c] = sum;
-          }
-        });
+    now = carried_values(old, width, tag.fresh, old_mesh, split);
   }
   void operator()(const ArrayTag& tag, const IsList auto& old, const IsList auto& now) const {
     using Item = std::remove_cvref_t<decltype(old.items[0])>;
@@ -248,7 +255,7 @@ struct Carry {
     if constexpr (std::same_as<Item, Side>)
       now.items = carried_sides(old.items, split);
     else if constexpr (std::same_as<Item, Index>)
-      now.items = tag.per == Per::hex ? carried_hexes(old.items, split) : carried_nodes(old.items, old_mesh, split);
+      if (tag.per == Per::hex) now.items = carried_hexes(old.items, split);  // node sets come when owners are known
   }
 
  private:
@@ -273,17 +280,24 @@ struct Carry {
 
 }  // namespace
 
+std::vector<Vec3> carried_points(const std::vector<Vec3>& of_old_nodes, const Mesh& old_mesh, const Split& split) {
+  return carried_values(of_old_nodes, 1, Fresh::inherited, old_mesh, split);
+}
+
 Carried carry(const Mesh& old_mesh, const Association& old_association, Split& split) {
   Carried carried;
   carried.mesh.hexes = std::move(split.hexes);
   copy_heads(old_mesh, carried.mesh);
   const Carry carry_array{old_mesh, split};
   for_each_array(carry_array, old_mesh, carried.mesh);
-  if (old_association.empty()) return carried;
-  for_each_array(carry_array, old_association, carried.association);
-  carry_node_owners(old_association, split, carried.association);
-  carry_curve_edges(old_association, split.lineage, carried.association);
-  carry_surface_faces(old_association, split, carried.mesh, carried.association);
+  if (!old_association.empty()) {
+    for_each_array(carry_array, old_association, carried.association);
+    carry_node_owners(old_association, split, carried.association);
+    carry_curve_edges(old_association, split.lineage, carried.association);
+    carry_surface_faces(old_association, split, carried.mesh, carried.association);
+  }
+  std::vector<std::vector<Index>> sets = carried_node_sets(old_mesh, old_association, split, carried.association);
+  for (std::size_t i = 0; i < sets.size(); ++i) carried.mesh.node_sets[i].nodes = std::move(sets[i]);
   return carried;
 }
 

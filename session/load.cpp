@@ -7,7 +7,9 @@
 #include "hextwist/base/union_find.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/association/meant.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/untangle.h"
 #include "hextwist/sizing/levelling.h"
@@ -51,6 +53,14 @@ MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const 
   return {std::move(mesh), std::move(model), std::move(result.association)};
 }
 
+/// What the node sets are meant to hold.
+void find_meant(const Transaction& run, MeshedModel& meshed) {
+  std::vector<std::string> notices;
+  for (NodeSet& set : meshed.mesh.node_sets) set.meant.clear();  // of another model
+  find_meant_entities(meshed.mesh, meshed.association, notices);
+  for (const std::string& line : notices) run.note(line);
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue) {
@@ -77,7 +87,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     return validate(mesh);
   }();
   const std::vector<Index> inverted = inverted_among(violations);
-  const std::vector<Vec3> points_before = inverted.empty() ? std::vector<Vec3>() : mesh.points;
+  const Mesh before = inverted.empty() ? Mesh() : mesh;
   bool tangled = !inverted.empty();
   if (tangled && state.untangle) {
     run.stage("untangle");
@@ -118,7 +128,11 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     const std::string left = record_violations(run.record(), result.mesh, validate(result.mesh));
     if (!left.empty()) throw Error(what + ": " + left + " (after untangling)");
   }
-  if (!inverted.empty()) run.note(what + ": " + untangled_text(result.mesh, points_before, inverted));
+  if (!inverted.empty()) {
+    evaluate_where_moved(before, result.mesh);
+    run.note(what + ": " + untangled_text(result.mesh, before.points, inverted));
+  }
+  find_meant(run, result);
   replace_and_measure(run, std::move(result));
 }
 
@@ -128,11 +142,12 @@ void load_meshed(Transaction& run, MeshedModel meshed) {
   std::string wrong = record_violations(run.record(), meshed.mesh, violations);
   if (const auto inverted = inverted_among(violations); !inverted.empty() && run.state.untangle) {
     run.stage("untangle");
-    const std::vector<Vec3> before = meshed.mesh.points;
+    const Mesh before = meshed.mesh;
     record_violations(run.record(), meshed.mesh, {});
     if (untangle_mesh(run, meshed.mesh, meshed.association, meshed.model.get(), inverted, true)) {
       wrong = record_violations(run.record(), meshed.mesh, validate(meshed.mesh));
-      run.note(untangled_text(meshed.mesh, before, inverted));
+      evaluate_where_moved(before, meshed.mesh);
+      run.note(untangled_text(meshed.mesh, before.points, inverted));
     } else {
       wrong += "; untangling did not help";
     }
@@ -140,6 +155,7 @@ void load_meshed(Transaction& run, MeshedModel meshed) {
   if (!wrong.empty()) throw Error(wrong);
   if (const auto broken = check_association(meshed.mesh, meshed.association, *meshed.model); !broken.empty())
     throw Error(broken.front());
+  find_meant(run, meshed);
   replace_and_measure(run, std::move(meshed));
 }
 

@@ -10,6 +10,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/level_sizes_internal.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
@@ -92,6 +93,8 @@ void LevelRun::adopt(LevelStep step) {
   std::vector<Index> pinned = request.finish.fixed;
   std::ranges::sort(pinned);
   Index n_dropped = 0;
+  std::vector<Vec3> straight;  // where fields have been evaluated
+  if (has_nodal_fields(state.input.mesh)) straight = step.mesh.mesh.points;
   Overlay overlay = put_on(from.overlay, state.input.mesh, state.input.association, pinned, step, n_dropped);
   if (n_dropped > 0)
     state.note(counted(n_dropped, "node") + " that had been smoothed went back, as hexes around changed");
@@ -111,7 +114,7 @@ void LevelRun::adopt(LevelStep step) {
   result.came_from = std::move(step.origin);
   result.old_node = std::move(step.old_node);
   state.is_renumbered = has_levels(request);
-  state.adopt(std::move(result));
+  state.adopt(std::move(result), std::move(straight));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
@@ -45,6 +46,8 @@ MeshedModel State::pass(Cut cut) {
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
   raise_levels(parts.lineage, request.finish.level_field, next.mesh);
+  if (!request.finish.dry_run && has_nodal_fields(input.mesh))
+    straight_ = straight_.empty() ? next.mesh.points : carried_points(straight_, from.mesh, parts);
   if (!request.finish.dry_run) {
     begin("place");
     if (next.model && !next.association.empty()) {
@@ -85,8 +88,9 @@ void State::keep() {
   current_ = &result_.refined;
 }
 
-void State::adopt(RefineResult result) {
+void State::adopt(RefineResult result, std::vector<Vec3> straight) {
   ++n_passes_;
+  straight_ = std::move(straight);
   result_ = std::move(result);
   current_ = &result_.refined;
 }
@@ -120,6 +124,14 @@ void State::smooth_band(bool fix_boundary) {
   note("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " + std::to_string(smoothed.sweeps) + " sweeps");
 }
 
+void State::evaluate_fields() {
+  if (straight_.empty()) return;
+  begin("carry");
+  Mesh& mesh = result_.refined.mesh;
+  const auto is_elsewhere = [&](Index n) { return mesh.points[n] != straight_[n]; };
+  evaluate_nodal_fields(input.mesh, mesh, indices_where(mesh.n_nodes(), is_elsewhere), result_.origin, mesh.fields);
+}
+
 void State::smooth_between_passes() {
   if (request.finish.dry_run) return;
   if (!request.finish.smooth) {
@@ -143,6 +155,7 @@ RefineResult run_passes(State& state, Approach approach) {
   else
     state.run(*make_technique(approach, state));
   if (state.request.finish.smooth && !state.request.finish.dry_run) state.smooth_band();
+  state.evaluate_fields();
   state.stages.begin("verify", 0.9);
   return state.take_result();
 }

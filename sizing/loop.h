@@ -38,8 +38,11 @@ class State {
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
   void run(Technique& technique);
-  /// Goes on with a result of the same request that was made apart.
-  void adopt(RefineResult result);
+  /// Goes on with a result of the same request that was made apart, and its straight places.
+  void adopt(RefineResult result, std::vector<Vec3> straight);
+  std::vector<Vec3> take_straight() { return std::move(straight_); }
+  /// Gives nodal fields their values at the places where nodes are in the end.
+  void evaluate_fields();
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
@@ -61,6 +64,9 @@ class State {
   std::vector<Index> new_hexes() const;
 
   const MeshedModel* current_;
+  /// Where nodes would be if all were straight between those of the pass before: there, nodal fields have their values
+  /// already. Empty where there are no such fields, or no passes.
+  std::vector<Vec3> straight_;
   RefineResult result_;
   Lineage lineage_;  // of the last pass
   int n_passes_ = 0;

@@ -313,7 +313,7 @@ class Assembly {
                                " values instead of " + std::to_string(n * width));
         continue;
       }
-      Field field{array.name, node ? Field::On::node : Field::On::hex, array.components, {}};
+      Field field{array.name, node ? Field::On::node : Field::On::hex, array.components, {}, array.is_integer()};
       const std::size_t n_kept = node ? n : out_.mesh.hexes.size();
       reserve_large(field.values, n_kept * width);
       array.visit([&](auto numbers) {

@@ -204,7 +204,11 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   }
   const auto add_fields = [&](Field::On on) {
     for (const Field& field : mesh.fields)
-      if (field.on == on) arrays.add<double>(field.name, field.values, field.components);
+      if (field.on == on && field.integer)
+        arrays.add_each(field.name, field.values.size(), field.components,
+                        [&values = field.values](std::size_t i) { return static_cast<std::int64_t>(values[i]); });
+      else if (field.on == on)
+        arrays.add<double>(field.name, field.values, field.components);
   };
   add_fields(Field::On::node);
   out << "</PointData>\n<CellData>\n";

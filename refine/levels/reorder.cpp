@@ -93,16 +93,20 @@ MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_ord
   mesh.node_ids = old.node_ids;
   mesh.hex_ids = old.hex_ids;
   for (const Block& block : old.blocks) mesh.blocks.push_back({block.id, block.name, hexes.members(block.hexes)});
-  for (const NodeSet& set : old.node_sets) mesh.node_sets.push_back({set.id, set.name, nodes.members(set.nodes)});
+  for (const NodeSet& set : old.node_sets)
+    mesh.node_sets.push_back({set.id, set.name, nodes.members(set.nodes), set.meant});
   for (const SideSet& set : old.side_sets) {
     mesh.side_sets.push_back(set);
     for (Side& side : mesh.side_sets.back().sides) side.hex = hexes(side.hex);
     std::ranges::sort(mesh.side_sets.back().sides);
   }
   for (const Field& field : old.fields)
-    mesh.fields.push_back({field.name, field.on, field.components,
-                           (field.on == Field::On::node ? nodes : hexes)
-                               .values(field.values, static_cast<std::size_t>(field.components))});
+    mesh.fields.push_back(
+        {field.name, field.on, field.components,
+         (field.on == Field::On::node ? nodes : hexes).values(field.values, static_cast<std::size_t>(field.components)),
+         field.integer});
+  mesh.extras = old.extras;
+  mesh.file_hexes = hexes.values(old.file_hexes);
   if (!meshed.association.empty()) result.association = reordered(meshed.association, mesh, nodes, hexes);
   return result;
 }

@@ -3,45 +3,17 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/quality/quality.h"
-#include "hextwist/refine/origin.h"
 
 namespace hextwist {
 namespace {
 
-/// Calls body(node, origin) for the nodes of a pass that were not there before.
-template <class Body>
-void for_each_fresh_node(const LevelPass& pass, std::span<const Index> old_node, const Body& body) {
-  const Lineage& lineage = pass.lineage;
-  const auto fresh = [&](Index node, const Origin& origin) {
-    if (old_node[node] < 0) body(node, origin);
-  };
-  parallel_each(lineage.edges.size(), [&](std::size_t i) { for_each_node(lineage, lineage.edges[i], fresh); });
-  parallel_each(lineage.faces.size(), [&](std::size_t i) { for_each_node(lineage, lineage.faces[i], fresh); });
-  parallel_each(lineage.hexes.size(), [&](std::size_t i) {
-    CutHex hex = lineage.hexes[i];
-    hex.hex = static_cast<Index>(i);  // where its nodes are in pass.corners
-    for_each_node(lineage, hex, pass.corners, fresh);
-  });
-}
-
-std::vector<double> nodal_values(const LevelChange& change, const Field& field) {
-  const auto width = static_cast<std::size_t>(field.components);
-  std::vector<double> values;
-  resize_for_overwrite(values, change.now.points.size() * width);
-  parallel_each(change.now.points.size(), [&](std::size_t n) {
-    if (change.old_node[n] < 0) return;
-    for (std::size_t c = 0; c < width; ++c) values[n * width + c] = field.values[change.old_node[n] * width + c];
-  });
-  for (const auto& pass : change.stack)
-    for_each_fresh_node(*pass, change.old_node, [&](Index node, const Origin& origin) {
-      for (std::size_t c = 0; c < width; ++c) {
-        double sum = 0;
-        for (int i = 0; i < origin.n; ++i) sum += origin.weight[i] * values[origin.node[i] * width + c];
-        values[node * width + c] = sum;
-      }
-    });
-  return values;
+/// Per hex now a hex before that it is, lies in or is made of.
+std::vector<Index> hexes_before(const LevelOrigin& origin) {
+  std::vector<Index> result(origin.kind.size());
+  parallel_each(result.size(), [&](std::size_t h) { result[h] = origin.before(static_cast<Index>(h)).front(); });
+  return result;
 }
 
 /// Volumes that hex fields are averaged and shared out with; 0 where nobody asks.
@@ -76,6 +48,12 @@ std::vector<double> hex_values(const LevelChange& change, const Volumes& volume,
   std::vector<double> rows(static_cast<std::size_t>(origin.several.size()) * width);
   parallel_each(static_cast<std::size_t>(origin.several.size()), [&](std::size_t row) {
     const std::span<const Index> hexes = origin.several[static_cast<Index>(row)];
+    if (field.integer && !extensive) {
+      const double* const volumes = &volume.before[origin.several.first[row]];
+      const auto largest = static_cast<std::size_t>(std::max_element(volumes, volumes + hexes.size()) - volumes);
+      for (std::size_t c = 0; c < width; ++c) rows[row * width + c] = value(hexes[largest], c);
+      return;
+    }
     for (std::size_t c = 0; c < width; ++c) {
       // From the first value, so that the average of equal ones is just that.
       double sum = 0, total = 0;
@@ -110,10 +88,25 @@ std::vector<Field> transferred_fields(const LevelChange& change, std::span<const
     return std::ranges::find(extensive, field.name) != extensive.end();
   };
   const Volumes volume = volumes(change, std::ranges::any_of(change.before.fields, is_extensive));
-  for (const Field& field : change.before.fields)
-    fields.push_back({field.name, field.on, field.components,
-                      field.on == Field::On::node ? nodal_values(change, field)
-                                                  : hex_values(change, volume, field, is_extensive(field))});
+  for (const Field& field : change.before.fields) {
+    fields.push_back({field.name, field.on, field.components, {}, field.integer});
+    if (field.on == Field::On::hex) {
+      fields.back().values = hex_values(change, volume, field, is_extensive(field));
+      continue;
+    }
+    const auto width = static_cast<std::size_t>(field.components);
+    fields.back().values.resize(change.now.points.size() * width);
+    parallel_each(change.now.points.size(), [&](std::size_t n) {
+      if (const Index old = change.old_node[n]; old >= 0)
+        std::copy_n(&field.values[static_cast<std::size_t>(old) * width], width, &fields.back().values[n * width]);
+    });
+  }
+  const auto is_elsewhere = [&](Index n) {
+    return change.old_node[n] < 0 || change.before.points[change.old_node[n]] != change.now.points[n];
+  };
+  if (has_nodal_fields(change.before))
+    evaluate_nodal_fields(change.before, change.now, indices_where(change.now.n_nodes(), is_elsewhere),
+                          hexes_before(change.origin), fields);
   return fields;
 }
 

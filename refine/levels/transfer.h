@@ -17,10 +17,10 @@ struct LevelChange {
 };
 
 /// The fields of `before` on `now`. Guarantees:
-///  1. nodes: a node that was there keeps its values; others are interpolated, level by level, between the nodes of the
-///     edge, face or cell that they were put on (so what is linear stays so in straight-sided cells);
+///  1. nodes: a node that was there, at the same place, keeps its values; others get those of `before` at their place
+///     (mesh/nodal_fields.h), so what is linear stays so;
 ///  2. hexes: those of the same hex and of the hex that it lies in are copied; where there were several, the average by
-///     volume, exact when all are equal;
+///     volume, exact when all are equal; of whole numbers that of the largest;
 ///  3. hex fields named in `extensive` keep their sum instead: they are shared out by volume downwards and summed up.
 std::vector<Field> transferred_fields(const LevelChange& change, std::span<const std::string> extensive);
 

@@ -5,6 +5,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/mesh/association/meant.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/commands/sets.h"
 
@@ -91,6 +92,26 @@ void note_overlaps(const Execution& run, const std::vector<Group>& groups, Items
   }
 }
 
+/// What a node set is meant to hold: CAD entities that it was made of, and what the nodes of anything else say.
+std::vector<Owner> meant(const Execution& run, const NodeSet& set) {
+  std::vector<Owner> entities = set.meant;
+  bool only_cad = true;
+  for (const Item* range : run.command.find_all("range")) {
+    only_cad = only_cad && is_cad(range->kind);
+    if (is_cad(range->kind) && range->kind != EntityKind::vertex && !run.command.has("remove"))
+      for (const Index i : run.chosen(*range)) entities.push_back({dimension(range->kind), i + 1});
+  }
+  const auto& [mesh, model, association] = *run.meshed;
+  sort_unique(entities);
+  if (!only_cad) {
+    std::vector<Owner> left_out;
+    entities = union_of(entities, meant_entities(mesh, association, set.nodes, &left_out));
+    std::erase_if(left_out, [&](Owner entity) { return std::ranges::binary_search(entities, entity); });
+    if (!left_out.empty()) run.note(left_out_text(set, entities, left_out));
+  }
+  return held_entities(mesh, association, set.nodes, entities);
+}
+
 std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, int id) {
   const Command& command = run.command;
   return with_groups(lists, kind, [&](auto& groups, auto items) {
@@ -107,6 +128,7 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
     auto& own = (*group).*items;
     const std::size_t before = own.size();
     own = remove ? difference(own, given) : union_of(own, given);
+    if constexpr (requires { group->meant; }) group->meant = meant(run, *group);
     if (const Item* text = command.find("text")) group->name = text->text;
     const std::size_t after = own.size();
     const std::string line = named + ": " + members_text(kind, before) + " -> " + std::to_string(after);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
@@ -93,6 +94,7 @@ void do_smooth(Execution& run) {
     sweeps += report.sweeps;
     at_rest = at_rest && report.converged;
   }
+  evaluate_where_moved(run.meshed->mesh, meshed.mesh);
   run.close_stage();
   const std::vector<Index> moved = indices_where(
       meshed.mesh.n_nodes(), [&](Index n) { return meshed.mesh.points[n] != run.meshed->mesh.points[n]; });

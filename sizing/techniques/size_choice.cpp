@@ -21,6 +21,7 @@ constexpr double poor_shape = 0.1;
 
 struct Candidate {
   RefineResult result;
+  std::vector<Vec3> straight;
   Report report;
   double distance = 0;  ///< average of |log(actual / wished size)| at the target
   double worst_shape = 0;
@@ -34,13 +35,13 @@ Candidate attempt(const State& from, const Report& start, Approach approach) {
   State state(from.input, from.request, candidate.report, from.progress);
   if (approach == Approach::size_by_levels) {
     run_levels(state);
-    candidate.result = state.take_result();
-    return candidate;
+  } else {
+    const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
+    state.run(*technique);
+    candidate.has_done = technique->has_done();
   }
-  const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
-  state.run(*technique);
-  candidate.has_done = technique->has_done();
   candidate.result = state.take_result();
+  candidate.straight = state.take_straight();
   return candidate;
 }
 
@@ -123,7 +124,7 @@ void run_nearest_size(State& state) {
                       start);
   }
   state.report = std::move(taken.report);
-  state.adopt(std::move(taken.result));
+  state.adopt(std::move(taken.result), std::move(taken.straight));
 }
 
 }  // namespace hextwist
