@@ -89,9 +89,10 @@ const std::vector<CommandSpec> table = {
       {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit} <file> [overwrite] [=block <blocks>] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [=block <blocks>] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
-     "something fails, as it was. An existing file is kept unless 'overwrite' is said.",
+     "something fails, as it was. An existing file is kept unless 'overwrite' is said. "
+     "'levels' writes the base of the mesh and what was refined of it (not the mesh), so that 'coarsen' can go on another day.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
       {"blocks", Kind::range, 0, 0, false, ""},
       {"dimension", Kind::integer, 3, 3, false, ""}},
@@ -109,10 +110,11 @@ const std::vector<CommandSpec> table = {
      {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3"}},
     {"help", "help [<command>]", "list the commands, or show one",
      "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
-    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|geometry|step|brep|iges} <file> [=heal|=noheal|=no_heal] "
+    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|levels|geometry|step|brep|iges} <file> [=heal|=noheal|=no_heal] "
      "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies]", "read a mesh or CAD",
      "'mesh' and 'geometry' choose the format by the file's extension; the other words insist on one. CAD comes first, "
-     "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one.",
+     "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one. "
+     "'levels' brings back what 'export levels' wrote, with the mesh; where that mesh is there already, with the results of a solver, its fields stay.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
       {"angle", Kind::number, 0, 180, false, ""},
       {"blocks", Kind::range, 0, 0, false, ""}},

@@ -17,6 +17,9 @@
 
 namespace HEXTWIST_API hextwist {
 
+/// A levelling in which nothing is cut yet.
+std::shared_ptr<const Levelling> levelling_of(std::shared_ptr<const MeshedModel> base);
+
 struct AdaptOptions {
   /// Levels (Transition::regular): pieces of a transition are never cut again, and what was cut can become coarser.
   /// False: exactly the flagged hexes are cut, whatever they are.

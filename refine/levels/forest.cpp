@@ -112,18 +112,27 @@ Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hex
   return forest;
 }
 
+MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed) {
+  const Mesh& base = forest.base->mesh;
+  grown = *bare(base);
+  grown.marks = with_gradation(forest);
+  LevelledMesh built = build_levels(*forest.base, grown.marks, {}, {.fixed = fixed});
+  grown.stack = std::move(built.stack);
+  grown.pieces = level_pieces(grown.stack, base.n_hexes());
+  grown.next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
+  grown.next_hex_id += built.mesh.mesh.n_hexes() - grown.pieces.first[1];  // as change() gives them
+  return std::move(built.mesh);
+}
+
 Forest grown(Forest forest, const std::vector<Index>& fixed) {
   if (forest.grown) return forest;
-  const Mesh& base = forest.base->mesh;
-  const std::shared_ptr<GrownForest> grown = bare(base);
-  forest.grown = grown;
-  if (forest.is_bare()) return forest;
-  grown->marks = with_gradation(forest);
-  LevelledMesh built = build_levels(*forest.base, grown->marks, {}, {.fixed = fixed});
-  grown->stack = std::move(built.stack);
-  grown->pieces = level_pieces(grown->stack, base.n_hexes());
-  grown->next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
-  grown->next_hex_id += built.mesh.mesh.n_hexes() - grown->pieces.first[1];  // as change() gives them
+  if (forest.is_bare()) {
+    forest.grown = bare(forest.base->mesh);
+    return forest;
+  }
+  auto made = std::make_shared<GrownForest>();
+  grown_mesh(forest, *made, fixed);
+  forest.grown = std::move(made);
   return forest;
 }
 

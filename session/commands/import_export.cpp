@@ -6,6 +6,7 @@
 
 #include "hextwist/io/io.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/levels_file.h"
 #include "hextwist/session/load.h"
 #include "hextwist/sizing/stages.h"
 
@@ -96,6 +97,12 @@ void do_import(Execution& run) {
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, false);
+  if (word.name == "levels") {
+    run.stage("read levels");
+    forget_members(run.state, !run.state.has_cad);
+    read_levels(run, file.text);
+    return say_mesh(run, file.text);
+  }
   constexpr std::array<std::string_view, 4> cad = {"geometry", "step", "brep", "iges"};
   const bool is_cad = std::ranges::find(cad, word.name) != cad.end();
   forget_members(run.state, is_cad || !run.state.has_cad);
@@ -114,6 +121,10 @@ void do_export(Execution& run) {
   const MeshedModel& meshed = *run.meshed;
   if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
   run.stage("write");
+  if (word.name == "levels") {
+    write_levels(run, file.text, run.command.has("overwrite"));
+    return run.say(file.text + ": levels of " + counted(meshed.mesh.n_hexes(), EntityKind::hex) + " written");
+  }
   for (const std::string& line :
        write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association,
                   {.overwrite = run.command.has("overwrite")}))

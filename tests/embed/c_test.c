@@ -351,6 +351,24 @@ static void hexes_are_adapted(void) {
   flags[17] = 0; /* nothing to do */
   CHECK(hextwist_adapt_flags(session, flags, n, NULL, &origin) == HEXTWIST_OK && origin && origin[n - 1] == n - 1);
   hextwist_free_array(origin);
+  int8_t* changes = calloc((size_t)n, 1);
+  changes[17] = 1;
+  int8_t* kind = NULL;
+  int32_t *first = NULL, *hexes = NULL;
+  CHECK(hextwist_adapt_levels(session, changes, n, NULL, &kind, &first, &hexes) == HEXTWIST_OK && kind && first && hexes);
+  hextwist_mesh* finer = hextwist_mesh_of(session);
+  const int64_t n_finer = hextwist_n_hexes(finer);
+  CHECK(first[n_finer] >= n_finer && kind[0] == 0 && hexes[first[0]] == 0);
+  hextwist_free_array(kind), hextwist_free_array(first), hextwist_free_array(hexes);
+  changes = realloc(changes, (size_t)n_finer);
+  memset(changes, -1, (size_t)n_finer);
+  CHECK(hextwist_adapt_levels(session, changes, n_finer, NULL, NULL, NULL, NULL) == HEXTWIST_OK);
+  hextwist_mesh_free(finer);
+  finer = hextwist_mesh_of(session);
+  CHECK(hextwist_n_hexes(finer) == n);
+  hextwist_mesh_free(finer);
+  CHECK(hextwist_adapt_levels(session, NULL, n, NULL, &kind, NULL, NULL) == HEXTWIST_FAILED && kind == NULL);
+  free(changes);
   free(sizes), free(flags);
   hextwist_mesh_free(sized);
   hextwist_mesh_free(adapted);

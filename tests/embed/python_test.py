@@ -267,6 +267,25 @@ class Adapting(unittest.TestCase):
             session.adapt(flags.astype(float))
 
 
+    def test_levels_go_both_ways(self):
+        session = hextwist.Session()
+        session.cmd("create brick x 4 interval 4")
+        before = session.mesh
+        up = np.zeros(64, dtype=int)
+        up[21] = 2
+        kind, first, hexes = session.adapt_levels(up)
+        fine = session.mesh
+        self.assertEqual((kind.shape, first.shape), ((fine.n_hexes,), (fine.n_hexes + 1,)))
+        self.assertEqual((hexes[first[:-1]][kind > 0] == 21).sum(), 729)
+        self.assertGreaterEqual(fine.quality("scaled jacobian").min(), 0.405)
+        kind, first, hexes = session.adapt_levels(np.full(fine.n_hexes, -2))
+        self.assertTrue((session.mesh.points == before.points).all())
+        self.assertEqual(sorted(hexes), sorted(set(hexes)), "every hex of before is named once")
+        self.assertEqual(len(hexes), fine.n_hexes)
+        with self.assertRaisesRegex(hextwist.Error, "64 hexes"):
+            session.adapt_levels([1, 2])
+
+
 class Callbacks(unittest.TestCase):
     def test_get_lines_and_stages(self):
         lines, stages = [], []

@@ -1,6 +1,8 @@
 // A stranger's project finds the installed library by CMake and by pkg-config, builds against it and refines with it.
 #include <gtest/gtest.h>
+
 #include <unistd.h>
+#include <sstream>
 
 #include <algorithm>
 
@@ -29,6 +31,27 @@ TEST_F(SlowConsumer, builds_the_example_through_find_package) {
   const Outcome built = build_with_cmake(prefix, examples / "minimal", folder);
   ASSERT_EQ(built.status, 0) << built.output;
   expect_minimal_refines(folder / "minimal");
+}
+
+TEST_F(SlowConsumer, a_front_moves_through_a_mesh_and_leaves_nothing_behind) {
+  const auto folder = output_folder() / "build";
+  const Outcome built = build_with_cmake(prefix, examples / "moving_front", folder);
+  ASSERT_EQ(built.status, 0) << built.output;
+  const Outcome ran = run(quoted(folder / "moving_front") + " 2 10");
+  ASSERT_EQ(ran.status, 0) << ran.output;
+  std::istringstream lines(ran.output);
+  std::string line;
+  std::getline(lines, line);  // titles
+  int n_steps = 0;
+  for (double step = 0, hexes = 0, fresh = 0, worst = 0, off = 0, seconds = 0;
+       std::getline(lines, line) && std::istringstream(line) >> step >> hexes >> fresh >> worst >> off >> seconds;
+       ++n_steps) {
+    EXPECT_LE(hexes, 1.05 * fresh) << line;
+    EXPECT_GE(worst, 0.405) << line;
+    EXPECT_LE(off, 1e-12) << line;
+  }
+  EXPECT_EQ(n_steps, 10);
+  EXPECT_NE(ran.output.find("coarsened: 1000 hexes"), std::string::npos) << ran.output;
 }
 
 TEST_F(SlowConsumer, builds_the_C_example_through_find_package) {

@@ -1,6 +1,7 @@
 // Levels in a session: any number of refinements in any order keep the quality of one, and can be taken back.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 
 #include "hextwist/mesh/quality/quality.h"
@@ -222,6 +223,69 @@ TEST(SessionLevels, changes_of_a_solver_go_both_ways_with_fields) {
   f.session.adapt(std::vector<std::int8_t>(mesh_of(f).hexes.size(), -2));
   EXPECT_EQ(mesh_of(f).hexes, base.mesh.hexes);
   EXPECT_EQ(mesh_of(f).points, base.mesh.points);
+}
+
+TEST(SessionLevels, are_written_and_read_so_that_another_run_goes_on) {
+  for (const char* part : {"", "cam", "inclusion"}) {
+    SCOPED_TRACE(part);
+    Fixture f;
+    const auto begin = [&](Session& session) {
+      if (*part) session.take(test::shipped(part), true);
+    };
+    if (*part)
+      begin(f.session);
+    else
+      f.session.run("create brick x 5 interval 5");
+    const MeshedModel base = f.session.meshed();
+    f.session.run("refine hex 63; refine hex in surface 1; refine curve 2 depth 1 smooth; coarsen surface 1");
+    const std::string file = (test::folder() / ("part" + std::string(part) + ".levels")).string();
+    const std::string mesh = (test::folder() / ("part" + std::string(part) + ".vtu")).string();
+    f.session.run("export levels \"" + file + "\" overwrite; export vtk \"" + mesh + "\" overwrite");
+
+    Fixture other;
+    begin(other.session);
+    if (!*part) other.session.run("create brick x 5 interval 5");
+    other.session.import_mesh(mesh);
+    other.session.run("import levels \"" + file + "\"");
+    EXPECT_TRUE(test::same_bits({f.session.meshed().mesh, other.session.meshed().model, f.session.meshed().association},
+                                other.session.meshed()));
+    // Both go on alike.
+    for (Fixture* one : {&f, &other}) one->session.run("refine hex in vertex 1; coarsen curve 2");
+    EXPECT_EQ(f.session.meshed().mesh, other.session.meshed().mesh);
+    other.session.run("coarsen hex all levels 9");
+    EXPECT_EQ(other.session.meshed().mesh.hexes, base.mesh.hexes);
+    EXPECT_EQ(other.session.meshed().mesh.points, base.mesh.points);
+
+    // Of another mesh, damaged, and none at all.
+    EXPECT_NE(error_of(other, "refine hex in vertex 1; import levels \"" + file + "\"").find("another mesh"),
+              std::string::npos);
+    std::string bytes;
+    {
+      std::ifstream in(file, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+      std::string broken = bytes;
+      if (i % 2)
+        broken.resize(random() % bytes.size());
+      else
+        for (int k = 0; k < 3; ++k)
+          broken[broken.size() - 1 - random() % 20000 % broken.size()] ^= static_cast<char>(1 + random() % 255);
+      const auto damaged = test::folder() / "damaged.levels";
+      std::ofstream(damaged, std::ios::binary) << broken;
+      Fixture reader;
+      begin(reader.session);
+      if (!*part) reader.session.run("create brick x 5 interval 5");
+      reader.session.run("reset block");
+      const MeshedModel before = reader.session.meshed();
+      error_of(reader, "import levels \"" + damaged.string() + "\"");  // refused, or a place that is rounded
+      EXPECT_TRUE(test::conformal(reader.session.meshed().mesh));
+    }
+  }
+  Fixture bare;
+  bare.session.run("create brick x 2 interval 2");
+  EXPECT_EQ(error_of(bare, "export levels \"nothing.levels\""), "there are no levels to export: this mesh is a base");
 }
 
 TEST(SessionLevels, what_cannot_be_is_refused) {

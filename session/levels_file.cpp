@@ -1,0 +1,262 @@
+#include "hextwist/session/levels_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+#include "hextwist/io/file.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/association/association.h"
+#include "hextwist/refine/levels/reorder.h"
+#include "hextwist/session/load.h"
+#include "hextwist/sizing/levelling.h"
+
+namespace hextwist {
+namespace {
+
+constexpr std::string_view first_line = "hextwist levels 1\n";
+
+class PieceWriter {
+ public:
+  explicit PieceWriter(const std::filesystem::path& file) : out_(file, std::ios::binary) { out_ << first_line; }
+
+  template <class T>
+  void add(const std::string& name, const std::vector<T>& items) {
+    out_ << name << ' ' << sizeof(T) << ' ' << items.size() << '\n';
+    out_.write(reinterpret_cast<const char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(T)));
+    out_ << '\n';
+  }
+  bool close() {
+    out_ << "end 0 0\n";
+    out_.close();
+    return !out_.fail();
+  }
+
+ private:
+  std::ofstream out_;
+};
+
+/// What stands in a file, by name.
+class PieceReader {
+ public:
+  explicit PieceReader(const std::filesystem::path& file) : bytes_(io::read_bytes(file)) {
+    const std::string_view text(bytes_.data.get(), bytes_.size);
+    if (!text.starts_with(first_line)) fail("is no file of levels (version 1)");
+    std::size_t at = first_line.size();
+    for (;;) {
+      const std::size_t end = text.find('\n', at);
+      if (end == std::string_view::npos) fail("ends too soon, at byte " + std::to_string(at));
+      const std::string_view line = text.substr(at, end - at);
+      const std::size_t gap = line.find(' '), second = line.find(' ', gap + 1);
+      Piece piece{};
+      if (second == std::string_view::npos || !number(line.substr(gap + 1, second - gap - 1), piece.width) ||
+          !number(line.substr(second + 1), piece.count))
+        fail("has no name, width and count at byte " + std::to_string(at));
+      const std::string name(line.substr(0, gap));
+      at = end + 1;
+      if (name == "end") return;
+      if (piece.width == 0 || piece.width > 16 || piece.count > (text.size() - at) / piece.width)
+        fail("ends too soon, in " + name);
+      piece.data = text.data() + at;
+      if (!pieces_.emplace(name, piece).second) fail("has " + name + " twice");
+      at += piece.width * piece.count + 1;
+      if (at > text.size()) fail("ends too soon, after " + name);
+    }
+  }
+
+  template <class T>
+  std::vector<T> get(const std::string& name) const {
+    const auto found = pieces_.find(name);
+    if (found == pieces_.end()) fail("has no " + name);
+    const Piece& piece = found->second;
+    if (piece.width != sizeof(T)) fail("has items of " + std::to_string(piece.width) + " bytes in " + name);
+    std::vector<T> items(piece.count);
+    if (piece.count > 0) std::memcpy(static_cast<void*>(items.data()), piece.data, piece.count * sizeof(T));
+    return items;
+  }
+  bool has(const std::string& name) const { return pieces_.contains(name); }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(bytes_.name + " " + what); }
+
+ private:
+  struct Piece {
+    const char* data;
+    std::size_t width, count;
+  };
+  static bool number(std::string_view text, std::size_t& value) {
+    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return bad == std::errc() && end == text.data() + text.size();
+  }
+  io::Bytes bytes_;
+  std::map<std::string, Piece> pieces_;
+};
+
+struct OwnerRow {
+  std::int32_t dim, id;
+  bool operator==(const OwnerRow&) const = default;
+};
+std::vector<OwnerRow> owner_rows(const Association& association) {
+  std::vector<OwnerRow> rows;
+  for (const Owner& owner : association.node_owner) rows.push_back({owner.dim, owner.id});
+  return rows;
+}
+
+/// A file that is gone in the end.
+struct Scratch {
+  std::filesystem::path file;
+  explicit Scratch(const std::filesystem::path& beside) : file(beside.string() + ".base.vtu") {}
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+};
+
+MeshedModel read_base(Transaction& run, const PieceReader& in) {
+  const auto bytes = in.get<char>("base");
+  const Scratch scratch(std::filesystem::temp_directory_path() /
+                        ("hextwist-" + std::to_string(reinterpret_cast<std::uintptr_t>(&run))));
+  std::ofstream(scratch.file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  MeshFile read = read_mesh(scratch.file);
+  MeshedModel base;
+  if (run.state.has_cad) {
+    AssociateResult on_cad =
+        associate(read.mesh, *run.meshed->model, &read.tags, {.relative_tolerance = run.state.tolerance});
+    base = {std::move(read.mesh), run.meshed->model, std::move(on_cad.association)};
+  } else {
+    FacetResult skin = associate_with_own_skin(read.mesh, {.feature_angle = run.state.feature_angle});
+    base = {std::move(read.mesh), std::move(skin.model), std::move(skin.association)};
+  }
+  if (owner_rows(base.association) != in.get<OwnerRow>("base_owners"))
+    in.fail("is of a mesh on other CAD: its nodes do not lie on the same entities");
+  base.association.node_parameters = in.get<Parameters>("base_parameters");
+  if (base.association.node_parameters.size() != base.mesh.points.size()) in.fail("has too few base_parameters");
+  return base;
+}
+
+LevelMarks read_marks(const PieceReader& in, const Mesh& base) {
+  LevelMarks marks;
+  CellNumber n_cells = base.n_hexes();
+  for (int k = 0; in.has("cells_" + std::to_string(k)); ++k, n_cells *= n_cell_children) {
+    check_levels(k + 1, base.n_hexes());
+    CellMarks level{in.get<CellNumber>("cells_" + std::to_string(k)),
+                    in.get<std::uint8_t>("corners_" + std::to_string(k))};
+    if (level.cell.empty() || level.cell.size() != level.corners.size() || level.cell.front() < 0 ||
+        level.cell.back() >= n_cells ||
+        std::ranges::adjacent_find(level.cell, std::greater_equal{}) != level.cell.end() ||
+        std::ranges::count(level.corners, 0) > 0)
+      in.fail("has cells of level " + std::to_string(k) + " that cannot be");
+    marks.push_back(std::move(level));
+  }
+  if (closed(marks) != marks) in.fail("has cells of which the larger ones around are missing");
+  return marks;
+}
+
+bool is_permutation(const std::vector<Index>& order, Index n) {
+  if (order.empty()) return true;
+  std::vector<std::uint8_t> seen(static_cast<std::size_t>(n), 0);
+  for (const Index i : order) {
+    if (i < 0 || i >= n || seen[i]) return false;
+    seen[i] = 1;
+  }
+  return static_cast<Index>(order.size()) == n;
+}
+
+/// Throws Error unless both are the same mesh, but for rounded places.
+void check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
+  const double close = 1e-5 * box(mesh).diagonal();
+  bool same = mesh.n_nodes() == other.n_nodes() && mesh.hexes == other.hexes;
+  for (Index n = 0; same && n < mesh.n_nodes(); ++n)
+    same = node_id(mesh, n) == node_id(other, n) && (mesh.points[n] - other.points[n]).norm() <= close;
+  for (Index h = 0; same && h < mesh.n_hexes(); ++h) same = hex_id(mesh, h) == hex_id(other, h);
+  if (!same) in.fail("is of another mesh than the one that is there: ids, places or hexes differ");
+}
+
+}  // namespace
+
+void write_levels(const Transaction& run, const std::filesystem::path& file, bool overwrite) {
+  if (!run.state.levelling) throw Error("there are no levels to export: this mesh is a base");
+  Levelling levelling = *run.state.levelling;
+  levelling.forest = grown(std::move(levelling.forest));
+  const MeshedModel& base = *levelling.forest.base;
+  const GrownForest& forest = *levelling.forest.grown;
+  io::Replacement replacement(file, overwrite);
+  const Scratch scratch(replacement.temporary());
+  write_mesh(scratch.file, base.mesh, &base.association, {.write_quality = false});
+  const io::Bytes vtu = io::read_bytes(scratch.file);
+  PieceWriter out(replacement.temporary());
+  out.add("base", std::vector<char>(vtu.data.get(), vtu.data.get() + vtu.size));
+  out.add("base_parameters", base.association.node_parameters);
+  out.add("base_owners", owner_rows(base.association));
+  for (std::size_t k = 0; k < levelling.forest.wished.size(); ++k) {
+    out.add("cells_" + std::to_string(k), levelling.forest.wished[k].cell);
+    out.add("corners_" + std::to_string(k), levelling.forest.wished[k].corners);
+  }
+  const Mesh& mesh = run.meshed->mesh;
+  std::vector<std::int64_t> node_ids, hex_ids;
+  for (Index n = 0; n < mesh.n_nodes(); ++n) node_ids.push_back(node_id(mesh, n));
+  for (Index h = 0; h < mesh.n_hexes(); ++h) hex_ids.push_back(hex_id(mesh, h));
+  out.add("node_ids", node_ids);
+  out.add("hex_ids", hex_ids);
+  out.add("node_order", forest.node_order);
+  out.add("hex_order", forest.hex_order);
+  out.add("next_ids", std::vector<std::int64_t>{forest.next_node_id, forest.next_hex_id});
+  out.add("smoothed", levelling.overlay.nodes);
+  out.add("smoothed_points", levelling.overlay.points);
+  out.add("smoothed_parameters", levelling.overlay.parameters);
+  if (!out.close()) replacement.fail("cannot be written (disk full?)");
+  replacement.commit();
+}
+
+void read_levels(Transaction& run, const std::filesystem::path& file) {
+  const PieceReader in(file);
+  Levelling levelling;
+  Forest& forest = levelling.forest;
+  forest.base = std::make_shared<const MeshedModel>(read_base(run, in));
+  forest.wished = read_marks(in, forest.base->mesh);
+  auto made = std::make_shared<GrownForest>();
+  MeshedModel mesh = grown_mesh(forest, *made);
+  made->node_order = in.get<Index>("node_order");
+  made->hex_order = in.get<Index>("hex_order");
+  const Index n_nodes = mesh.mesh.n_nodes(), n_hexes = mesh.mesh.n_hexes();
+  if (!is_permutation(made->node_order, n_nodes) || !is_permutation(made->hex_order, n_hexes))
+    in.fail("has orders of nodes or hexes that do not fit its cells");
+  mesh = reordered(mesh, made->node_order, made->hex_order);
+  mesh.mesh.node_ids = in.get<std::int64_t>("node_ids");
+  mesh.mesh.hex_ids = in.get<std::int64_t>("hex_ids");
+  const auto next = in.get<std::int64_t>("next_ids");
+  const auto ascend = [](const std::vector<std::int64_t>& ids, Index n) {
+    return static_cast<Index>(ids.size()) == n && ids.front() > 0 &&
+           std::ranges::adjacent_find(ids, std::greater_equal{}) == ids.end();
+  };
+  if (!ascend(mesh.mesh.node_ids, n_nodes) || !ascend(mesh.mesh.hex_ids, n_hexes) || next.size() != 2 ||
+      next[0] <= mesh.mesh.node_ids.back() || next[1] <= mesh.mesh.hex_ids.back())
+    in.fail("has ids that do not fit its cells");
+  if (mesh.mesh.node_ids.back() == n_nodes && forest.base->mesh.node_ids.empty()) mesh.mesh.node_ids = {};
+  made->next_node_id = next[0];
+  made->next_hex_id = next[1];
+  forest.grown = made;
+
+  Overlay& overlay = levelling.overlay;
+  overlay = {in.get<Index>("smoothed"), in.get<Vec3>("smoothed_points"), in.get<Parameters>("smoothed_parameters")};
+  const auto fits = [&](Index n) { return n >= 0 && n < n_nodes; };
+  if (overlay.nodes.size() != overlay.points.size() || overlay.nodes.size() != overlay.parameters.size() ||
+      !std::ranges::all_of(overlay.nodes, fits) ||
+      std::ranges::adjacent_find(overlay.nodes, std::greater_equal{}) != overlay.nodes.end() ||
+      !std::ranges::all_of(overlay.points, [](const Vec3& p) { return p.allFinite(); }))
+    in.fail("has smoothed nodes that cannot be");
+  for (std::size_t i = 0; i < overlay.nodes.size(); ++i) {
+    mesh.mesh.points[overlay.nodes[i]] = overlay.points[i];
+    mesh.association.node_parameters[overlay.nodes[i]] = overlay.parameters[i];
+  }
+  const Mesh& there = run.meshed->mesh;
+  if (there.n_hexes() > 0) {
+    check_same(in, mesh.mesh, there);
+    mesh.mesh.fields = there.fields;
+  }
+  load_meshed(run, std::move(mesh));
+  run.state.tags = nullptr;
+  run.state.levelling = std::make_shared<const Levelling>(std::move(levelling));
+}
+
+}  // namespace hextwist
