@@ -57,7 +57,7 @@ class PieceReader {
       const std::string name(line.substr(0, gap));
       at = end + 1;
       if (name == "end") return;
-      if (piece.width == 0 || piece.width > 16 || piece.count > (text.size() - at) / piece.width)
+      if (piece.width == 0 || piece.width > 32 || piece.count > (text.size() - at) / piece.width)
         fail("ends too soon, in " + name);
       piece.data = text.data() + at;
       if (!pieces_.emplace(name, piece).second) fail("has " + name + " twice");
