@@ -143,6 +143,8 @@ TEST(gmsh_files, groups_only_leaves_all_else_out) {
     write_mesh(file, bare, &tags, options);
     const std::string script = "/usr/bin/python3 -c \"import meshio; m = meshio.read('" + file.string() +
                                "'); assert sum(len(c.data) for c in m.cells if c.type == 'hexahedron') == 18\" ";
+    // In binary files of version 2.2 it also wants node ids without gaps.
+    if (mode.version == 22 && mode.binary) continue;
     if (std::system("/usr/bin/python3 -c 'import meshio' > /dev/null 2>&1") == 0) {
       EXPECT_EQ(std::system((script + "> /dev/null 2>&1").c_str()), 0) << file;
     }
