@@ -17,6 +17,7 @@ set(HEXTWIST_HEADERS
   mesh/quality/quality.h
   mesh/smooth/smooth.h
   mesh/validate/validate.h
+  io/extras.h
   io/io.h
   refine/levels/level_origin.h
   sizing/request.h

@@ -89,14 +89,17 @@ const std::vector<CommandSpec> table = {
       {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [=block <blocks>] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [=block <blocks>] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
-     "something fails, as it was. An existing file is kept unless 'overwrite' is said. "
-     "'levels' writes the base of the mesh and what was refined of it (not the mesh), so that 'coarsen' can go on another day.",
+     "something fails, as it was. An existing file is kept unless 'overwrite' is said. 'text' or 'binary' where a format has "
+     "both (.msh, .vtu); 'version' of .msh; 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
+     "programs want it. 'levels' writes the base of the mesh and what was refined of it (not the mesh), so that 'coarsen' "
+     "can go on another day.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
+      {"version", Kind::number, 2.2, 4.1, false, "of .msh: 2.2 or 4.1; default 4.1"},
       {"blocks", Kind::range, 0, 0, false, ""},
       {"dimension", Kind::integer, 3, 3, false, ""}},
-     {"export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
+     {"export gmsh \"part.msh\" text version 2.2 groups only", "export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
     {"group",
      "group {<name>|<word>|<id>} {add|equals|remove|xor} {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> ...",
      "collect entities under a name",

@@ -44,6 +44,29 @@ constexpr Format formats[] = {
     {".vtu", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };
 
+/// What only another format has.
+void say_left_out(const FileExtras& extras, std::string_view extension, Notices& notices) {
+  if (extension != ".inp") {
+    std::vector<std::string> what;
+    for (const auto& [block, type] : extras.element_types)
+      if (type != "C3D8" && std::ranges::find(what, type) == what.end()) what.push_back(type);
+    if (!what.empty()) notices.push_back("element types are left out, which only .inp has: " + joined(what, ", "));
+    what.clear();
+    for (const AbaqusCard& card : extras.cards)
+      if (const std::string name = card.text.substr(0, card.text.find_first_of(",\r\n"));
+          std::ranges::find(what, name) == what.end())
+        what.push_back(name);
+    if (what.size() > 5) what.resize(5), what.emplace_back("...");
+    if (!what.empty())
+      notices.push_back(counted(std::ssize(extras.cards), "card") +
+                        " left out, which only .inp has: " + joined(what, ", "));
+  }
+  if (extension != ".msh" && !extras.periodic.empty())
+    notices.push_back("pairs of nodes of " +
+                      counted(std::ssize(extras.periodic), "periodic entity", "periodic entities") +
+                      " left out, which only .msh has");
+}
+
 const Format* format_of(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   for (const Format& format : formats)
@@ -83,6 +106,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mes
     throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
   static const Association nothing;
   Notices notices;
+  if (options.extras) say_left_out(*options.extras, format->extension, notices);
   try {
     format->write(file, mesh, association ? *association : nothing, options, notices);
     return notices;

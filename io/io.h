@@ -3,14 +3,18 @@
 //   .msh        Gmsh 2.2 and 4.1, text and binary (1.0 is read as well)
 //               Entity tags are owners. Physical groups: 3D are blocks, 2D side sets, 1D and 0D node sets; a node set
 //               is written as a group of curves if it is exactly their nodes, else of points. Where a set takes part of
-//               an entity, the part becomes an entity of its own; the section $HextwistParts, which Gmsh skips, says of
-//               what. Version 2.2 says owners by elements only: nodes on an entity without elements lose theirs.
+//               an entity, the part becomes an entity of its own; the section $HextwistParts behind the elements, which
+//               others skip, says of what. $Periodic is carried through refinement. Version 2.2 says owners by elements
+//               only: nodes on an entity without elements lose theirs.
 //   .e .exo .g .gen   Exodus II; blocks, node sets, side sets, names, ids, fields of the last time step
 //               Blocks that overlap or leave hexes out: the first block of a hex is its element block, blocks that lost
 //               hexes that way are written whole as element sets. No owners.
 //   .vtk        VTK legacy, text and binary (read only)
 //   .vtu        VTK XML: ids, owners, blocks, quality and fields as point and cell data, sets as field data
-//   .inp        Abaqus and CalculiX: C3D8*, *NSET, *ELSET, *SURFACE; parts and instances are read. No owners, no fields
+//   .inp        Abaqus and CalculiX: elements with eight corners, whose types are kept by blocks, *NSET, *ELSET,
+//   *SURFACE;
+//               parts and instances are read, their sets are named instance.set. All other cards (sections, materials,
+//               steps, ...) are kept, with the sets that they name (FileExtras). No owners, no fields
 //   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
 //
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
@@ -24,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/io/extras.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
 
@@ -35,6 +40,7 @@ struct MeshFile {
   Mesh mesh;
   Association tags;
   std::vector<std::string> notices;
+  FileExtras extras;
 };
 
 /// Reads by extension (case ignored). Node and hex ids are those of the file where it has any (in .msh the tags of
@@ -44,10 +50,13 @@ struct MeshFile {
 MeshFile read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
-  bool binary = true;         ///< where the format has both
-  int gmsh_version = 41;      ///< 22 or 41
-  bool overwrite = true;      ///< false: throw Error if the file exists
-  bool write_quality = true;  ///< .vtu: shape and scaled Jacobian as cell data
+  bool binary = true;                  ///< where the format has both
+  int gmsh_version = 41;               ///< 22 or 41
+  bool overwrite = true;               ///< false: throw Error if the file exists
+  bool write_quality = true;           ///< .vtu: shape and scaled Jacobian as cell data
+  bool groups_only = false;            ///< .msh: only elements in physical groups, as Gmsh writes them by default
+  const Model* model = nullptr;        ///< .msh: the CAD of the association; lines then run as its curves do
+  const FileExtras* extras = nullptr;  ///< of the file that the mesh, or what it was refined from, was read from
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole

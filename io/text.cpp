@@ -82,13 +82,13 @@ std::size_t Cursor::check_count(std::int64_t n, std::size_t bytes, std::string_v
   return count;
 }
 
+std::string Cursor::where(const char* place) const {
+  if (binary) return std::string(name) + ", byte " + std::to_string(place - begin);
+  return std::string(name) + ":" + std::to_string(1 + std::count(begin, std::min(place, end), '\n'));
+}
+
 void Cursor::fail_at(const char* place, const std::string& what) const {
-  std::string where(name);
-  if (binary)
-    where += ", byte " + std::to_string(place - begin);
-  else
-    where += ":" + std::to_string(1 + std::count(begin, std::min(place, end), '\n'));
-  throw Error(where + ": " + what);
+  throw Error(where(place) + ": " + what);
 }
 
 void Cursor::fail_truncated(std::string_view what) const {

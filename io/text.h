@@ -98,6 +98,10 @@ class Cursor {
   /// ends in a message and not in a huge allocation; also that it fits an Index.
   std::size_t check_count(std::int64_t n, std::size_t bytes, std::string_view what) const;
 
+  /// "file:line", or "file, byte n".
+  std::string where(const char* place) const;
+  /// Does the last line end? If not, the file may be cut short.
+  bool last_line_ends() const { return begin == end || end[-1] == '\n'; }
   [[noreturn]] void fail(const std::string& what) const { fail_at(at, what); }
   [[noreturn]] void fail_at(const char* place, const std::string& what) const;
   [[noreturn]] void fail_truncated(std::string_view what) const;

@@ -64,6 +64,7 @@ void Session::take(Mesh mesh, std::shared_ptr<const Model> model, const Associat
     run.state.cad_file.clear();
     load_mesh(run, std::move(mesh), std::move(model), tags, "mesh");
     run.state.tags = tags ? std::make_shared<const Association>(*tags) : nullptr;
+    run.state.extras = nullptr;
   });
 }
 
@@ -76,6 +77,7 @@ void Session::take(MeshedModel meshed, bool has_cad, const std::vector<std::stri
     run.state.has_cad = has_cad;
     run.state.cad_file.clear();
     run.state.tags = nullptr;
+    run.state.extras = nullptr;
   });
 }
 
@@ -85,6 +87,7 @@ void Session::take_mesh(Mesh mesh, const Association* tags) {
     forget_members(run.state, !run.state.has_cad);
     load_mesh(run, std::move(mesh), run.state.has_cad ? run.meshed->model : nullptr, tags, "mesh");
     run.state.tags = tags ? std::make_shared<const Association>(*tags) : nullptr;
+    run.state.extras = nullptr;
   });
 }
 

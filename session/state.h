@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hextwist/command/group.h"
+#include "hextwist/io/extras.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/patch/verify.h"
 #include "hextwist/sizing/fields/size_field.h"
@@ -22,9 +23,10 @@ enum class Glue { automatic, on, off };
 /// What is known of mesh and model, and is brought back with them by `undo`. Cheap to copy: the heavy parts are shared
 /// and never change.
 struct ModelState {
-  std::shared_ptr<const Association> tags;  ///< what the mesh file said; null once the mesh was refined
-  std::filesystem::path cad_file;           ///< empty: the model did not come from a file
-  bool has_cad = false;                     ///< false: no model, or the skin of the mesh
+  std::shared_ptr<const Association> tags;   ///< what the mesh file said; null once the mesh was refined
+  std::shared_ptr<const FileExtras> extras;  ///< what the mesh file said beyond; null: nothing
+  std::filesystem::path cad_file;            ///< empty: the model did not come from a file
+  bool has_cad = false;                      ///< false: no model, or the skin of the mesh
   bool glued = false;
   Measured measured;
   double cad_volume = 0;

@@ -3,8 +3,10 @@
 // The front is a sphere of radius 2.2 in a grid of 10 x 10 x 10. A solver would say which hexes need to be finer and
 // which may be coarser; here those are the ones that the sphere meets, and all others. Fields go along: "x" is linear
 // and stays so.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "hextwist/hextwist.h"
@@ -15,18 +17,16 @@ using namespace hextwist;
 
 constexpr double radius = 2.2;
 
-/// Does the sphere meet the ball around a hex?
+/// Does the sphere pass between the corners of a hex?
 bool meets(const Mesh& mesh, const Hex& hex, const Vec3& centre) {
-  Vec3 middle = Vec3::Zero();
-  for (const Index n : hex) middle += mesh.points[n] / 8;
-  double reach = 0;
-  for (const Index n : hex) reach = std::max(reach, (mesh.points[n] - middle).norm());
-  return std::abs((middle - centre).norm() - radius) <= reach;
+  const auto is_outside = [&](Index n) { return (mesh.points[n] - centre).norm() > radius; };
+  const auto n_outside = std::ranges::count_if(hex, is_outside);
+  return n_outside > 0 && n_outside < 8;
 }
 
-/// Finer where the front is, coarser where it is not, until nothing changes.
+/// Finer where the front is, coarser where it is not: by one level a call.
 void follow(Session& session, const Vec3& centre, int n_levels) {
-  for (;;) {
+  for (int call = 0; call <= n_levels; ++call) {
     const Mesh& mesh = session.meshed().mesh;
     const auto level = std::ranges::find(mesh.fields, "level", &Field::name);
     std::vector<std::int8_t> changes(mesh.hexes.size());

@@ -13,16 +13,14 @@ RADIUS = 2.2
 
 
 def meets(mesh, centre):
-    """Per hex: does the sphere meet the ball around it?"""
-    corners = mesh.points[mesh.hexes]
-    middles = corners.mean(axis=1)
-    reach = np.linalg.norm(corners - middles[:, None, :], axis=2).max(axis=1)
-    return np.abs(np.linalg.norm(middles - centre, axis=1) - RADIUS) <= reach
+    """Per hex: does the sphere pass between its corners?"""
+    outside = (np.linalg.norm(mesh.points - centre, axis=1) > RADIUS)[mesh.hexes]
+    return outside.any(axis=1) & ~outside.all(axis=1)
 
 
 def follow(session, centre, levels):
-    """Finer where the front is, coarser where it is not, until nothing changes."""
-    while True:
+    """Finer where the front is, coarser where it is not: by one level a call."""
+    for _ in range(levels + 1):
         mesh = session.mesh
         level = mesh.hex_fields.get("level", np.zeros(mesh.n_hexes))
         at_front = meets(mesh, centre)

@@ -22,31 +22,51 @@ struct AbaqusMember {
 
 /// *NSET, *ELSET, *SURFACE. Ids are plain numbers; everything else is resolved when all is read.
 struct AbaqusSet {
+  enum Kind { nodes, elements, surface, node_surface } kind;
+  std::string name;  ///< as written
+  const char* at;
+  std::string instance = {};  ///< of assembly sets
+  std::vector<std::int64_t> ids = {};
+  std::vector<std::array<std::int64_t, 3>> ranges = {};                    ///< first, last, step of GENERATE
+  std::vector<AbaqusMember> members = {};                                  ///< names of sets, or Instance.17
+  std::vector<std::pair<AbaqusMember, std::string>> surface_members = {};  ///< set or element, face label
+  std::string elset = {};  ///< of node sets: the nodes of these elements as well
+};
+
+/// Words of a card that name parts of the mesh.
+struct AbaqusNamed {
   enum Kind { nodes, elements, surface } kind;
-  std::string name;      ///< as written
-  std::string instance;  ///< of assembly sets
-  std::vector<std::int64_t> ids;
-  std::vector<AbaqusMember> members;                                  ///< names of sets, or Instance.17
-  std::vector<std::pair<AbaqusMember, std::string>> surface_members;  ///< set or element, face label
+  std::size_t begin, end;  ///< in the card's text
+  bool by_keyword;
+};
+/// A card that is no mesh, with its data lines.
+struct AbaqusRawCard {
+  std::string keyword, text;
+  std::vector<AbaqusNamed> named;
   const char* at;
 };
 
-/// What stands between *PART and *END PART, or *ASSEMBLY and *END ASSEMBLY, or outside of both.
+/// What stands between *PART and *END PART, *INSTANCE and *END INSTANCE, *ASSEMBLY and *END ASSEMBLY, or outside of
+/// all: a name space of its own.
 struct AbaqusScope {
+  enum Kind { model, part, instance, assembly } kind = model;
   std::string name;
+  const char* at = nullptr;
   std::vector<std::int64_t> node_ids;
   std::vector<Vec3> points;
   std::vector<Run> node_runs;
   std::vector<std::int64_t> hex_ids, hex_nodes;
   std::vector<const char*> hex_at;
+  std::vector<std::pair<std::size_t, std::string>> hex_types;  ///< from which hex on
   std::vector<std::int64_t> quad_ids, quad_nodes;
   std::vector<std::int64_t> other_ids;  ///< beams, triangles, ...
   std::vector<AbaqusSet> sets;
+  std::vector<AbaqusRawCard> cards;
 };
 
 struct AbaqusInstance {
-  std::string name;
-  AbaqusScope* part;
+  const AbaqusScope* part;
+  const AbaqusScope* own;  ///< what stands in *INSTANCE; its name is the instance's
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vec3 shift = Vec3::Zero();
 };
@@ -54,17 +74,58 @@ struct AbaqusInstance {
 struct AbaqusContents {
   std::vector<std::unique_ptr<Bytes>> sources;       ///< the file and what it includes; positions point into these
   std::vector<std::unique_ptr<AbaqusScope>> scopes;  ///< first: outside of parts and the assembly
-  AbaqusScope* assembly = nullptr;
+  const AbaqusScope* assembly = nullptr;
   std::vector<AbaqusInstance> instances;
   /// From comments of our own: kind, name of the set in upper case -> id and real name.
   std::map<std::pair<std::string, std::string>, std::pair<int, std::string>> real_names;
-  std::map<std::string, std::int64_t> n_dropped;
+  std::map<std::string, std::int64_t> n_dropped;  ///< elements, by type
+  std::string heading;
+  std::vector<std::string> notices;
   bool ours = false;
+  std::array<std::int64_t, 2> announced = {0, 0};  ///< nodes and hexes, where a comment of ours says so
 
   [[noreturn]] void fail(const char* at, const std::string& what) const;
+  /// "file:line"
+  std::string where(const char* at) const;
 };
 
-MeshFile assemble_abaqus(AbaqusContents&& contents);
+/// A scope as it stands in the mesh; two for an instance, its part and what it has itself.
+struct AbaqusPlaced {
+  std::string name;  ///< of the instance; sets are name.set; empty: outside of parts
+  std::array<const AbaqusScope*, 2> scopes = {nullptr, nullptr};
+  /// Its own ids, lowest and highest, and what is added to them in the mesh. No other place has ids between.
+  struct Numbers {
+    std::int64_t low = 1, high = 0, shift = 0;
+    /// In the mesh; 0 for what is not between.
+    std::int64_t operator()(std::int64_t id) const { return id >= low && id <= high ? id + shift : 0; }
+  };
+  Numbers nodes = {}, elements = {};
+  std::vector<char> repeated_nodes = {},
+                    repeated_hexes = {};  ///< of the second scope: the first has the same; empty: none
+};
+
+/// The mesh without its sets, and how to find parts of it.
+struct AbaqusParts {
+  std::vector<AbaqusPlaced> placed;  ///< the model itself, then instances, then the assembly if there is one
+  Ids nodes, hexes;
+  std::vector<Quad> quads;
+  std::vector<Side> quad_sides;
+  std::map<std::int64_t, Index> quad_of_id;
+  std::vector<int> type_of_hex;
+  std::vector<std::string> types;
+};
+AbaqusParts place_abaqus(const AbaqusContents& contents, MeshFile& out);
+/// Sets, types and cards.
+void add_abaqus_sets(const AbaqusContents& contents, const AbaqusParts& parts, MeshFile& out);
+/// Which words of a card name parts of the mesh, and of what kind.
+void find_names(AbaqusRawCard& card);
+/// The line of a text that a place is in, with its end.
+std::pair<std::size_t, std::size_t> line_around(std::string_view text, std::size_t at);
+/// Takes lines out of a card.
+void cut_out(AbaqusCard& card, std::size_t begin, std::size_t end);
+/// Cards that speak of single nodes or elements in a way that no refinement could follow.
+bool depends_on_numbers(std::string_view keyword);
+
 std::string upper_case(std::string_view text);
 
 }  // namespace hextwist::io

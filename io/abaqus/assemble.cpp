@@ -1,10 +1,8 @@
-// Parts, instances and sets of an Abaqus file become a mesh.
+// Parts, instances and the assembly of an Abaqus file in one numbering.
 //
-// Element sets are blocks (their hexes) and side sets (their quads), node sets and surfaces of nodes are node sets,
-// surfaces of elements side sets; ids count them in the order of the file. A second instance whose ids are taken gets
-// ids above all others. Sets of parts that stand several times are named instance.set.
+// Each part, each instance and the assembly count nodes and elements for themselves. Where ids are taken already, they
+// are counted on from the highest so far, and a notice says so.
 #include <limits>
-#include <set>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/abaqus/abaqus_internal.h"
@@ -12,283 +10,229 @@
 namespace hextwist::io {
 namespace {
 
-/// A part as it stands in the mesh.
-struct Placed {
-  std::string instance;
-  const AbaqusScope* scope;
-  std::int64_t node_shift = 0, element_shift = 0;
-};
-
-/// Members of a set: indices of the mesh.
-struct Members {
-  std::vector<Index> nodes, hexes;
-  std::vector<Side> sides;
-};
-
 class Assembly {
  public:
-  explicit Assembly(AbaqusContents&& contents) : in_(std::move(contents)) {}
+  Assembly(const AbaqusContents& contents, MeshFile& out) : in_(contents), out_(out) {}
 
-  MeshFile result() {
-    for (const auto& scope : in_.scopes) sort_unique(scope->other_ids);
+  AbaqusParts result() {
     place();
     elements();
-    for (const Placed& placed : placed_)
-      for (const AbaqusSet& set : placed.scope->sets) add_set(placed, set);
-    if (in_.assembly && !placed_by_scope(in_.assembly))
-      for (const AbaqusSet& set : in_.assembly->sets) add_set({"", in_.assembly, 0, 0}, set);
-    finish_sets();
     for (const auto& [type, n] : in_.n_dropped)
-      out_.notices.push_back("dropped " + std::to_string(n) + " elements of type " + type);
-    if (n_missing_) out_.notices.push_back("sets name " + std::to_string(n_missing_) + " nodes or elements not there");
-    return std::move(out_);
+      out_.notices.push_back("dropped " + counted(n, "element") + " of type " + type);
+    return std::move(parts_);
   }
 
  private:
-  bool placed_by_scope(const AbaqusScope* scope) const {
-    return std::ranges::any_of(placed_, [&](const Placed& placed) { return placed.scope == scope; });
+  void place() {
+    add({"", {in_.scopes[0].get(), nullptr}}, {});
+    std::vector<const AbaqusScope*> unused;
+    for (const auto& scope : in_.scopes) {
+      if (scope->kind != AbaqusScope::part) continue;
+      const bool used = std::ranges::find(in_.instances, scope.get(), &AbaqusInstance::part) != in_.instances.end();
+      if (in_.instances.empty())  // no assembly: each part once
+        add({scope->name, {scope.get(), nullptr}}, {});
+      else if (!used && !scope->node_ids.empty())
+        out_.notices.push_back("part '" + scope->name + "' has no instance: its " +
+                               counted(std::ssize(scope->hex_ids), "hex", "hexes") + " are left out");
+    }
+    for (const AbaqusInstance& instance : in_.instances)
+      add({instance.own->name, {instance.part, instance.own}}, instance);
+    if (in_.assembly) add({"", {in_.assembly, nullptr}}, {});
+    say_shifts();
+    number();
   }
 
-  /// Puts all instances (or, without any, all parts) side by side in one numbering.
-  void place() {
-    std::vector<AbaqusInstance> instances = in_.instances;
-    if (instances.empty())
-      for (const auto& scope : in_.scopes)
-        if (scope.get() != in_.scopes[0].get() && scope.get() != in_.assembly)
-          instances.push_back({scope->name, scope.get()});
-    std::vector<std::int64_t> node_ids, hex_ids;
-    std::vector<const char*> node_at;
-    std::int64_t highest_node = 0, highest_element = 0;
-    const auto add = [&](const AbaqusInstance& instance) {
-      const AbaqusScope& part = *instance.part;
-      Placed placed{instance.name, &part};
-      const auto shift = [](const std::vector<std::int64_t>& ids, std::int64_t highest) {
-        return !ids.empty() && std::ranges::min(ids) <= highest ? highest : std::int64_t{0};
-      };
-      placed.node_shift = shift(part.node_ids, highest_node);
-      auto all = part.hex_ids;
-      for (const auto* more : {&part.quad_ids, &part.other_ids}) all.insert(all.end(), more->begin(), more->end());
-      placed.element_shift = shift(all, highest_element);
-      for (std::size_t i = 0; i < part.node_ids.size(); ++i) {
-        node_ids.push_back(part.node_ids[i] + placed.node_shift);
-        node_origin_.emplace_back(&part, i);
-        const bool still = instance.turn.isIdentity(0) && instance.shift.isZero(0);
-        out_.mesh.points.push_back(still ? part.points[i] : Vec3(instance.turn * part.points[i] + instance.shift));
-      }
-      for (std::size_t i = 0; i < part.hex_ids.size(); ++i) hex_ids.push_back(part.hex_ids[i] + placed.element_shift);
-      for (const auto id : node_ids) highest_node = std::max(highest_node, id);
-      for (const auto id : all) highest_element = std::max(highest_element, id + placed.element_shift);
-      placed_.push_back(placed);
-    };
-    add({"", in_.scopes[0].get()});
-    for (const AbaqusInstance& instance : instances) add(instance);
-    if (in_.assembly && !in_.assembly->hex_ids.empty())
-      add({"", in_.assembly});
-    else if (in_.assembly && !in_.assembly->node_ids.empty())
-      out_.notices.push_back("dropped " + std::to_string(in_.assembly->node_ids.size()) +
-                             " nodes of the assembly (reference points)");
-    if (hex_ids.empty()) throw Error(in_.sources[0]->name + ": there is no hex in the file");
+  static bool has_ids(const AbaqusScope& scope) { return !scope.node_ids.empty() || !scope.hex_ids.empty(); }
 
-    nodes_ = Ids(std::move(node_ids), "node", [&](std::size_t i, const std::string& what) {
+  /// Which nodes or hexes of *INSTANCE its part has too: some programs write the mesh in both places.
+  template <class Same>
+  std::vector<char> repeated(const std::vector<std::int64_t>& first, const std::vector<std::int64_t>& second,
+                             const Same& same) {
+    std::vector<std::pair<std::int64_t, std::size_t>> known;
+    for (std::size_t i = 0; i < first.size(); ++i) known.emplace_back(first[i], i);
+    std::ranges::sort(known);
+    std::vector<char> result(second.size(), 0);
+    for (std::size_t i = 0; i < second.size(); ++i) {
+      const auto at = std::ranges::lower_bound(known, std::pair(second[i], std::size_t{0}));
+      result[i] = at != known.end() && at->first == second[i] && same(at->second, i);  // else found by Ids
+    }
+    return result;
+  }
+
+  void add(AbaqusPlaced placed, const AbaqusInstance& position) {
+    const auto& [first, second] = placed.scopes;
+    if (second && has_ids(*first) && has_ids(*second)) {
+      placed.repeated_nodes = repeated(first->node_ids, second->node_ids, [a = first, b = second](auto i, auto k) {
+        return a->points[i] == b->points[k];
+      });
+      placed.repeated_hexes = repeated(first->hex_ids, second->hex_ids, [a = first, b = second](auto i, auto k) {
+        return std::equal(&a->hex_nodes[8 * i], &a->hex_nodes[8 * i] + 8, &b->hex_nodes[8 * k]);
+      });
+    }
+    placed.nodes = numbers(placed, highest_[0], [](const AbaqusScope& scope, const auto& f) { f(scope.node_ids); });
+    placed.elements = numbers(placed, highest_[1], [](const AbaqusScope& scope, const auto& f) {
+      for (const auto* ids : {&scope.hex_ids, &scope.quad_ids, &scope.other_ids}) f(*ids);
+    });
+    const bool still = position.turn.isIdentity(0) && position.shift.isZero(0);
+    for (const AbaqusScope* scope : placed.scopes) {
+      if (!scope) continue;
+      const auto& skip_nodes = scope == second ? placed.repeated_nodes : no_skip_;
+      const auto& skip_hexes = scope == second ? placed.repeated_hexes : no_skip_;
+      for (std::size_t i = 0; i < scope->node_ids.size(); ++i) {
+        if (!skip_nodes.empty() && skip_nodes[i]) continue;
+        node_ids_.push_back(scope->node_ids[i] + placed.nodes.shift);
+        node_origin_.emplace_back(scope, i);
+        out_.mesh.points.push_back(still ? scope->points[i] : Vec3(position.turn * scope->points[i] + position.shift));
+      }
+      for (std::size_t i = 0; i < scope->hex_ids.size(); ++i)
+        if (skip_hexes.empty() || !skip_hexes[i]) {
+          hex_ids_.push_back(scope->hex_ids[i] + placed.elements.shift);
+          hex_origin_.push_back(scope->hex_at[i]);
+        }
+    }
+    parts_.placed.push_back(std::move(placed));
+  }
+
+  /// The ids of a place, which are counted in.
+  template <class Each>
+  AbaqusPlaced::Numbers numbers(const AbaqusPlaced& placed, std::int64_t& highest, const Each& each) const {
+    std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0;
+    for (const AbaqusScope* scope : placed.scopes)
+      if (scope)
+        each(*scope, [&](const std::vector<std::int64_t>& ids) {
+          for (const std::int64_t id : ids) low = std::min(low, id), high = std::max(high, id);
+        });
+    if (low > high) return {};
+    const std::int64_t by = low <= highest ? highest : 0;
+    // Ids that are too large by themselves are found later, with their line.
+    if (by > 0 && high > highest_readable_id - by)
+      in_.fail(placed.scopes[0]->at, "id " + std::to_string(high) + " of " + name(placed) +
+                                         " is too large to be counted on from " + std::to_string(by));
+    highest = std::max(highest, std::min(high, highest_readable_id) + by);
+    return {low, high, by};
+  }
+  static std::string name(const AbaqusPlaced& placed) {
+    if (placed.name.empty()) return "the assembly";
+    return (placed.scopes[1] ? "instance '" : "part '") + placed.name + "'";
+  }
+
+  void say_shifts() const {
+    std::string text;
+    std::int64_t n = 0;
+    for (const AbaqusPlaced& placed : parts_.placed)
+      if (placed.nodes.shift > 0 || placed.elements.shift > 0) {
+        if (++n > 3) continue;
+        text += (n > 1 ? ", of " : "of ") + name(placed);
+        const auto add = [&](const char* what, std::int64_t by) {
+          if (by > 0) text += std::string(" ") + what + " by " + std::to_string(by);
+        };
+        add("nodes", placed.nodes.shift);
+        add("elements", placed.elements.shift);
+      }
+    if (n > 3) text += " and " + std::to_string(n - 3) + " more";
+    if (n > 0) out_.notices.push_back("ids that occur in several places of the file are moved: " + text);
+  }
+
+  void number() {
+    if (hex_ids_.empty()) throw Error(in_.sources[0]->name + ": there is no hex in the file");
+    const auto few = [&](const char* what, std::size_t n, std::int64_t announced) {
+      if (static_cast<std::int64_t>(n) < announced)
+        throw Error(in_.sources[0]->name + ": " + std::to_string(n) + " of the " + std::to_string(announced) + " " +
+                    what + " that the file announces: it is cut short");
+    };
+    few("nodes", node_ids_.size(), in_.announced[0]);
+    few("hexes", hex_ids_.size(), in_.announced[1]);
+    parts_.nodes = Ids(std::move(node_ids_), "node", [&](std::size_t i, const std::string& what) {
       const auto [part, k] = node_origin_[i];
       const auto run = std::ranges::upper_bound(part->node_runs, k, {}, &Run::first) - 1;
       const char* at = run->at;
       for (std::size_t line = run->first; line < k; ++line) at = std::strchr(at, '\n') + 1;
       in_.fail(at, what);
     });
-    nodes_.sort(out_.mesh.points);
-    out_.mesh.node_ids = nodes_.stored();
-    hexes_ = Ids(std::move(hex_ids), "element", [&](std::size_t i, const std::string& what) {
-      for (const Placed& placed : placed_) {
-        if (i < placed.scope->hex_at.size()) in_.fail(placed.scope->hex_at[i], what);
-        i -= placed.scope->hex_at.size();
-      }
-      throw Error(in_.sources[0]->name + ": " + what);
-    });
-    out_.mesh.hex_ids = hexes_.stored();
+    parts_.nodes.sort(out_.mesh.points);
+    out_.mesh.node_ids = parts_.nodes.stored();
+    parts_.hexes = Ids(std::move(hex_ids_), "element",
+                       [&](std::size_t i, const std::string& what) { in_.fail(hex_origin_[i], what); });
+    out_.mesh.hex_ids = parts_.hexes.stored();
   }
 
   void elements() {
-    for (const Placed& placed : placed_) {
-      const AbaqusScope& part = *placed.scope;
-      for (std::size_t i = 0; i < part.hex_ids.size(); ++i) {
-        Hex& hex = out_.mesh.hexes.emplace_back();
-        for (std::size_t c = 0; c < 8; ++c) {
-          const std::int64_t id = part.hex_nodes[8 * i + c];
-          const Index node = nodes_.find(id + placed.node_shift);
-          if (node < 0)
-            in_.fail(part.hex_at[i], "element " + std::to_string(part.hex_ids[i]) + " names node " +
-                                         std::to_string(id) + ", which is not there");
-          hex[file_corner[c]] = node;
-        }
-      }
-    }
-    hexes_.sort(out_.mesh.hexes);
-    std::vector<Quad> quads;
-    for (const Placed& placed : placed_)
-      for (std::size_t i = 0; i < placed.scope->quad_ids.size(); ++i) {
-        Quad quad;
-        bool there = true;
-        for (std::size_t c = 0; c < 4; ++c) {
-          quad[c] = nodes_.find(placed.scope->quad_nodes[4 * i + c] + placed.node_shift);
-          there = there && quad[c] >= 0;
-        }
-        if (!there) continue;
-        quads.push_back(quad);
-        quad_of_id_.emplace(placed.scope->quad_ids[i] + placed.element_shift, static_cast<Index>(quads.size() - 1));
-      }
-    quad_sides_ = oriented_sides(out_.mesh, quads);
-    if (const auto lost = std::ranges::count(quad_sides_, -1, &Side::hex))
+    out_.mesh.hexes.reserve(hex_origin_.size());
+    parts_.type_of_hex.reserve(hex_origin_.size());
+    for (const AbaqusPlaced& placed : parts_.placed)
+      for (const AbaqusScope* scope : placed.scopes)
+        if (scope) hexes(placed, *scope);
+    parts_.hexes.sort(out_.mesh.hexes);
+    parts_.hexes.sort(parts_.type_of_hex);
+    for (const AbaqusPlaced& placed : parts_.placed)
+      for (const AbaqusScope* scope : placed.scopes)
+        if (scope) quads(placed, *scope);
+    parts_.quad_sides = oriented_sides(out_.mesh, parts_.quads);
+    if (const auto lost = std::ranges::count(parts_.quad_sides, -1, &Side::hex))
       out_.notices.push_back("dropped " + std::to_string(lost) + " quads that are no side of a hex");
   }
 
-  const Placed* find_instance(std::string_view name) const {
-    for (const Placed& placed : placed_)
-      if (same_word(placed.instance, name)) return &placed;
-    return nullptr;
+  int type_number(const std::string& type) {
+    const auto at = std::ranges::find(parts_.types, type);
+    if (at == parts_.types.end()) {
+      parts_.types.push_back(type);
+      return static_cast<int>(parts_.types.size()) - 1;
+    }
+    return static_cast<int>(at - parts_.types.begin());
   }
 
-  void add_node(const Placed& placed, std::int64_t id, Members& to) {
-    const Index node = nodes_.find(id + placed.node_shift);
-    if (node >= 0)
-      to.nodes.push_back(node);
-    else
-      ++n_missing_;
-  }
-  void add_element(const Placed& placed, std::int64_t id, Members& to) {
-    const Index hex = hexes_.find(id + placed.element_shift);
-    if (hex >= 0) {
-      to.hexes.push_back(hex);
-    } else if (const auto quad = quad_of_id_.find(id + placed.element_shift); quad != quad_of_id_.end()) {
-      if (quad_sides_[quad->second].hex >= 0) to.sides.push_back(quad_sides_[quad->second]);
-    } else if (!std::ranges::binary_search(placed.scope->other_ids, id)) {
-      ++n_missing_;
-    }
-  }
-
-  /// Members of a set with the sets that it names, to any depth.
-  void resolve(const Placed& placed, const AbaqusSet& set, Members& to, int depth = 0) {
-    if (depth > 50) in_.fail(set.at, "set " + shown(set.name) + " contains itself");
-    const Placed* home = &placed;
-    if (!set.instance.empty()) {
-      home = find_instance(set.instance);
-      if (!home) in_.fail(set.at, "there is no instance " + shown(set.instance));
-    }
-    for (const std::int64_t id : set.ids)
-      set.kind == AbaqusSet::nodes ? add_node(*home, id, to) : add_element(*home, id, to);
-    for (const AbaqusMember& member : set.members) resolve_member(*home, set.kind, member, to, depth);
-  }
-  void resolve_member(const Placed& placed, AbaqusSet::Kind kind, const AbaqusMember& member, Members& to, int depth) {
-    const Placed* home = &placed;
-    std::string name = member.text;
-    if (const auto dot = name.find('.'); dot != std::string::npos)
-      if (const Placed* instance = find_instance(std::string_view(name).substr(0, dot))) {
-        home = instance;
-        name.erase(0, dot + 1);
+  void hexes(const AbaqusPlaced& placed, const AbaqusScope& scope) {
+    const bool skip = &scope == placed.scopes[1] && !placed.repeated_hexes.empty();
+    std::size_t run = 0;
+    int type = 0;
+    for (std::size_t i = 0; i < scope.hex_ids.size(); ++i) {
+      if (run < scope.hex_types.size() && scope.hex_types[run].first == i)
+        type = type_number(scope.hex_types[run++].second);
+      if (skip && placed.repeated_hexes[i]) continue;
+      parts_.type_of_hex.push_back(type);
+      Hex& hex = out_.mesh.hexes.emplace_back();
+      for (std::size_t c = 0; c < 8; ++c) {
+        const std::int64_t id = scope.hex_nodes[8 * i + c];
+        const Index node = find_node(placed, id);
+        if (node < 0)
+          in_.fail(scope.hex_at[i], "element " + std::to_string(scope.hex_ids[i]) + " names node " +
+                                        std::to_string(id) + ", which is not there");
+        hex[file_corner[c]] = node;
       }
-    std::int64_t id = 0;
-    const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-    if (error == std::errc{} && stop == name.data() + name.size()) {
-      kind == AbaqusSet::nodes ? add_node(*home, id, to) : add_element(*home, id, to);
-      return;
     }
-    bool found = false;
-    for (const AbaqusSet& other : home->scope->sets)
-      if (other.kind == kind && same_word(other.name, name)) {
-        found = true;
-        resolve(*home, other, to, depth + 1);
+  }
+  void quads(const AbaqusPlaced& placed, const AbaqusScope& scope) {
+    for (std::size_t i = 0; i < scope.quad_ids.size(); ++i) {
+      Quad quad;
+      for (std::size_t c = 0; c < 4; ++c) {
+        const std::int64_t id = scope.quad_nodes[4 * i + c];
+        quad[c] = find_node(placed, id);
+        if (quad[c] < 0)
+          in_.fail(scope.at ? scope.at : in_.sources[0]->data.get(), "element " + std::to_string(scope.quad_ids[i]) +
+                                                                         " names node " + std::to_string(id) +
+                                                                         ", which is not there");
       }
-    if (!found) in_.fail(member.at, "there is no set " + shown(member.text));
-  }
-
-  void add_set(const Placed& placed, const AbaqusSet& set) {
-    Members members;
-    if (set.kind == AbaqusSet::surface)
-      for (const auto& [member, face] : set.surface_members) add_surface(placed, member, face, members);
-    else
-      resolve(placed, set, members);
-    std::size_t times = 0;
-    for (const Placed& other : placed_) times += other.scope == placed.scope;
-    std::string name = times > 1 ? placed.instance + "." + set.name : set.name;
-    const std::array<const char*, 3> kinds = {"nodeset", "block", "sideset"};
-    const std::string key = upper_case(name);
-    if (in_.ours && !in_.real_names.contains({kinds[set.kind], key})) return;  // NALL, EALL
-    auto& to = sets_[{set.kind, key}];
-    if (to.order == 0) to = {sets_.size(), name, {}};
-    for (auto [from, into] : {std::pair(&members.nodes, &to.members.nodes), {&members.hexes, &to.members.hexes}})
-      into->insert(into->end(), from->begin(), from->end());
-    to.members.sides.insert(to.members.sides.end(), members.sides.begin(), members.sides.end());
-  }
-
-  void add_surface(const Placed& placed, const AbaqusMember& member, const std::string& face, Members& to) {
-    Members elements;
-    resolve_member(placed, AbaqusSet::elements, member, elements, 0);
-    to.sides.insert(to.sides.end(), elements.sides.begin(), elements.sides.end());  // quads: SPOS, SNEG
-    if (elements.hexes.empty()) return;
-    if (face.empty()) {
-      // Without a face: those that are on the skin.
-      if (!skin_.n_hexes) skin_ = {out_.mesh.n_hexes(), boundary_sides(faces(out_.mesh))};
-      sort_unique(elements.hexes);
-      for (const Side& side : skin_.sides)
-        if (std::ranges::binary_search(elements.hexes, side.hex)) to.sides.push_back(side);
-      return;
-    }
-    const int number = face.size() == 2 && face[0] == 'S' ? face[1] - '0' : 0;
-    if (number < 1 || number > 6) in_.fail(member.at, "face " + shown(face) + " of a hex; known are S1 to S6");
-    for (const Index h : elements.hexes) to.sides.push_back({h, abaqus_face[number - 1]});
-  }
-
-  void finish_sets() {
-    std::vector<std::pair<std::size_t, std::pair<AbaqusSet::Kind, std::string>>> order;
-    for (const auto& [key, set] : sets_) order.emplace_back(set.order, key);
-    std::ranges::sort(order);
-    Mesh& mesh = out_.mesh;
-    for (const auto& [position, key] : order) {
-      auto& [unused, name, members] = sets_[key];
-      sort_unique(members.nodes);
-      sort_unique(members.hexes);
-      sort_unique(members.sides);
-      const auto real = [&](const char* kind, auto& groups) -> auto& {
-        const auto known = in_.real_names.find({kind, key.second});
-        auto& group = group_of_id(groups, known == in_.real_names.end() ? free_id(groups) : known->second.first);
-        group.name = known == in_.real_names.end() ? name : known->second.second;
-        return group;
-      };
-      if (key.first == AbaqusSet::nodes) real("nodeset", mesh.node_sets).nodes = std::move(members.nodes);
-      if (key.first == AbaqusSet::surface) real("sideset", mesh.side_sets).sides = std::move(members.sides);
-      if (key.first != AbaqusSet::elements) continue;
-      const bool quads = !members.sides.empty();
-      if (!members.hexes.empty() || (in_.ours && !quads)) real("block", mesh.blocks).hexes = std::move(members.hexes);
-      if (quads) real("sideset", mesh.side_sets).sides = std::move(members.sides);
+      const auto at =
+          parts_.quad_of_id.emplace(scope.quad_ids[i] + placed.elements.shift, static_cast<Index>(parts_.quads.size()));
+      if (at.second) parts_.quads.push_back(quad);
     }
   }
+  Index find_node(const AbaqusPlaced& placed, std::int64_t id) const { return parts_.nodes.find(placed.nodes(id)); }
 
-  struct Collected {
-    std::size_t order = 0;
-    std::string name;
-    Members members;
-  };
-  struct Skin {
-    Index n_hexes = 0;
-    std::vector<Side> sides;
-  };
-
-  AbaqusContents in_;
-  MeshFile out_;
-  std::vector<Placed> placed_;
+  const AbaqusContents& in_;
+  MeshFile& out_;
+  AbaqusParts parts_;
+  std::array<std::int64_t, 2> highest_ = {0, 0};  // ids of nodes, of elements
+  std::vector<std::int64_t> node_ids_, hex_ids_;
   std::vector<std::pair<const AbaqusScope*, std::size_t>> node_origin_;
-  Ids nodes_, hexes_;
-  std::map<std::int64_t, Index> quad_of_id_;
-  std::vector<Side> quad_sides_;
-  std::map<std::pair<AbaqusSet::Kind, std::string>, Collected> sets_;
-  Skin skin_;
-  std::int64_t n_missing_ = 0;
+  std::vector<const char*> hex_origin_;
+  const std::vector<char> no_skip_;
 };
 
 }  // namespace
 
-MeshFile assemble_abaqus(AbaqusContents&& contents) {
-  return Assembly(std::move(contents)).result();
+AbaqusParts place_abaqus(const AbaqusContents& contents, MeshFile& out) {
+  return Assembly(contents, out).result();
 }
 
 }  // namespace hextwist::io

@@ -1,7 +1,9 @@
 // Abaqus .inp (Abaqus Keywords Guide; CalculiX and others write the same): keywords to AbaqusContents.
 #include <Eigen/Geometry>
+#include <limits>
 #include <numbers>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/abaqus/abaqus_internal.h"
 
 namespace hextwist::io {
@@ -13,15 +15,19 @@ std::string upper_case(std::string_view text) {
   return result;
 }
 
-void AbaqusContents::fail(const char* at, const std::string& what) const {
+std::string AbaqusContents::where(const char* at) const {
   for (const auto& source : sources)
-    if (at >= source->data.get() && at <= source->data.get() + source->size) Cursor(*source).fail_at(at, what);
-  throw Error(sources[0]->name + ": " + what);
+    if (at >= source->data.get() && at <= source->data.get() + source->size) return Cursor(*source).where(at);
+  return sources[0]->name;
+}
+
+void AbaqusContents::fail(const char* at, const std::string& what) const {
+  throw Error(where(at) + ": " + what);
 }
 
 namespace {
 
-enum class Shape { hex, quad, other, refused, no_geometry };
+enum class Shape { hex, quad, other, refused };
 
 /// Element types by what they are made of. Names: C3D8R, AC3D20, S4R, T3D2, ...
 Shape shape_of(const std::string& type) {
@@ -58,12 +64,20 @@ class Parser {
         continue;
       }
       if (cursor.left() > 1 && cursor.at[1] == '*') {
-        comment(cursor.line());
+        const char* at = cursor.at;
+        comment(cursor.line(), at);
         continue;
       }
       begun_ = true;
       keyword(cursor);
     }
+    if (!cursor.last_line_ends())
+      out_.notices.push_back(cursor.where(cursor.end) + ": the last line has no end; the file may be cut short");
+  }
+  void finish() {
+    for (const auto& scope : out_.scopes) sort_unique(scope->other_ids);
+    if (out_.announced[1] > 0 && !ended_)
+      throw Error(out_.sources[0]->name + ": the file ends before '** hextwist end': it is cut short");
   }
 
  private:
@@ -112,8 +126,9 @@ class Parser {
     return *value;
   }
 
-  /// Our own comments give sets their ids and real names: "** hextwist block 3 STEEL steel (hot)".
-  void comment(std::string_view line) {
+  /// Our own comments give sets their ids and real names: "** hextwist block 3 STEEL steel (hot)". The first announces
+  /// "mesh <nodes> <hexes>", the last is "end".
+  void comment(std::string_view line, const char* at) {
     constexpr std::string_view mark = "** hextwist ";
     if (!line.starts_with(mark)) return;
     out_.ours = true;
@@ -124,37 +139,100 @@ class Parser {
       word = line.substr(0, end);
       line.remove_prefix(std::min(end + 1, line.size()));
     }
-    int id = 0;
-    if (std::from_chars(words[1].data(), words[1].data() + words[1].size(), id).ec == std::errc{} && id > 0)
-      out_.real_names[{std::string(words[0]), upper_case(words[2])}] = {id, std::string(line)};
+    if (words[0] == "end") ended_ = true;
+    const auto first = number(words[1]);
+    if (words[0] == "mesh") out_.announced = {first.value_or(0), number(words[2]).value_or(0)};
+    if (words[0] != "block" && words[0] != "nodeset" && words[0] != "sideset") return;
+    if (!first || *first < 1 || *first > std::numeric_limits<int>::max())
+      out_.fail(at, std::string(words[0]) + " id " + shown(words[1]) + " is not between 1 and 2147483647");
+    out_.real_names[{std::string(words[0]), upper_case(words[2])}] = {static_cast<int>(*first), std::string(line)};
+  }
+
+  AbaqusScope& open_scope(AbaqusScope::Kind kind, const Keyword& keyword, const std::string& name) {
+    if (kind == AbaqusScope::assembly && out_.assembly) out_.fail(keyword.at, "a second *ASSEMBLY");
+    for (const auto& other : out_.scopes)
+      if (kind != AbaqusScope::assembly && other->kind == kind && same_word(other->name, name))
+        out_.fail(keyword.at, "a second *" + keyword.name + " " + shown(name));
+    scope_ = out_.scopes.emplace_back(std::make_unique<AbaqusScope>()).get();
+    scope_->kind = kind;
+    scope_->name = name;
+    scope_->at = keyword.at;
+    return *scope_;
+  }
+  void close_scope(bool instance) {
+    scope_ = out_.scopes[0].get();
+    for (const auto& scope : out_.scopes)
+      if (instance && scope->kind == AbaqusScope::assembly) scope_ = scope.get();
   }
 
   void keyword(Cursor& cursor) {
     const Keyword keyword = split(cursor);
     const std::string& name = keyword.name;
+    const std::string* given = keyword.find("NAME");
     if (name == "NODE")
       nodes(cursor, keyword);
     else if (name == "ELEMENT")
       elements(cursor, keyword);
     else if (name == "NSET" || name == "ELSET")
       set(cursor, keyword);
-    else if (name == "SURFACE")
+    else if (name == "SURFACE" && is_mesh_surface(keyword))
       surface(cursor, keyword);
-    else if (name == "PART" || name == "ASSEMBLY") {
-      out_.scopes.push_back(std::make_unique<AbaqusScope>());
-      scope_ = out_.scopes.back().get();
-      if (const std::string* part = keyword.find("NAME")) scope_->name = *part;
-      if (name == "ASSEMBLY") out_.assembly = scope_;
-    } else if (name == "END PART" || name == "END ASSEMBLY")
-      scope_ = out_.scopes[0].get();
+    else if (name == "PART")
+      open_scope(AbaqusScope::part, keyword, given ? *given : "");
+    else if (name == "ASSEMBLY")
+      out_.assembly = &open_scope(AbaqusScope::assembly, keyword, given ? *given : "");
+    else if (name == "END PART" || name == "END ASSEMBLY" || name == "END INSTANCE")
+      close_scope(name == "END INSTANCE");
     else if (name == "INSTANCE")
       instance(cursor, keyword);
     else if (name == "INCLUDE")
       include(keyword, cursor);
+    else if (name == "HEADING")
+      heading(cursor);
     else if (name == "NGEN" || name == "NFILL" || name == "NCOPY" || name == "ELGEN" || name == "ELCOPY" ||
              name == "SYSTEM" || name == "NMAP")
       out_.fail(keyword.at, "*" + name + " is not supported: nodes or elements would be missing or misplaced");
-    // All else is no mesh; its data lines are skipped.
+    else
+      card(cursor, keyword);
+  }
+
+  /// All else is no mesh: kept as it stands, with its data lines.
+  void card(Cursor& cursor, const Keyword& keyword) {
+    AbaqusRawCard card{keyword.name, {}, {}, keyword.at};
+    const char* from = keyword.at;
+    const auto add = [&] {
+      card.text.append(from, cursor.at);
+      std::erase(card.text, '\r');
+      if (!card.text.ends_with('\n')) card.text += '\n';
+    };
+    add();
+    while (cursor.more()) {
+      from = cursor.at;
+      if (*from == '*' && (cursor.left() < 2 || from[1] != '*')) break;
+      if (const std::string_view line = cursor.line(); line.starts_with("**"))
+        comment(line, from);
+      else
+        add();
+    }
+    if (depends_on_numbers(keyword.name)) {
+      out_.notices.push_back(out_.where(keyword.at) + ": *" + keyword.name +
+                             " is left out: it speaks of single nodes or elements");
+      return;
+    }
+    find_names(card);
+    scope_->cards.push_back(std::move(card));
+  }
+
+  void heading(Cursor& cursor) {
+    while (cursor.at < cursor.end && *cursor.at != '*')
+      if (const std::string line(cursor.line()); !trimmed(line).empty()) out_.heading += line + "\n";
+    if (out_.heading == "hextwist\n") out_.heading.clear();
+  }
+
+  /// Surfaces of other types (sections through the model, ...) are cards.
+  static bool is_mesh_surface(const Keyword& keyword) {
+    const std::string* type = keyword.find("TYPE");
+    return !type || same_word(*type, "ELEMENT") || same_word(*type, "NODE");
   }
 
   /// At a data line: not at the end, a keyword or a comment (those are skipped).
@@ -162,7 +240,8 @@ class Parser {
     while (cursor.more()) {
       if (*cursor.at != '*') return true;
       if (cursor.left() < 2 || cursor.at[1] != '*') return false;
-      comment(cursor.line());
+      const char* at = cursor.at;
+      comment(cursor.line(), at);
       interrupted = true;
     }
     return false;
@@ -206,13 +285,10 @@ class Parser {
       expected = cursor.at;
     }
     if (const std::string* set = keyword.find("NSET"))
-      to.sets.push_back({AbaqusSet::nodes,
-                         *set,
-                         "",
-                         {to.node_ids.begin() + static_cast<std::ptrdiff_t>(first), to.node_ids.end()},
-                         {},
-                         {},
-                         keyword.at});
+      to.sets.push_back({.kind = AbaqusSet::nodes,
+                         .name = *set,
+                         .at = keyword.at,
+                         .ids = {to.node_ids.begin() + static_cast<std::ptrdiff_t>(first), to.node_ids.end()}});
   }
 
   void elements(Cursor& cursor, const Keyword& keyword) {
@@ -243,17 +319,20 @@ class Parser {
         }
         if (shape == Shape::hex) to.hex_at.push_back(at);
       } else {
+        // Its nodes may be of instances ("part-1.3"), and it is not kept: only where it ends matters.
         while (more) {
           if (line_ends(cursor) && !data_line(cursor, ignored)) break;
-          cursor.integer("a node");
-          more = comma(cursor);
+          more = trimmed(cursor.line()).ends_with(',');
+          if (more && (cursor.at == cursor.end || *cursor.at == '*')) break;
         }
+        continue;
       }
       skip_inline(cursor);
       if (!line_ends(cursor)) cursor.fail("element " + std::to_string(id) + " has more nodes than a " + type);
     }
     if (const std::string* set = keyword.find("ELSET"))
-      to.sets.push_back({AbaqusSet::elements, *set, "", ids, {}, {}, keyword.at});
+      to.sets.push_back({.kind = AbaqusSet::elements, .name = *set, .at = keyword.at, .ids = ids});
+    if (shape == Shape::hex && !ids.empty()) to.hex_types.emplace_back(to.hex_ids.size(), type);
     auto& kept = shape == Shape::hex ? to.hex_ids : shape == Shape::quad ? to.quad_ids : to.other_ids;
     kept.insert(kept.end(), ids.begin(), ids.end());
     if (shape == Shape::other) out_.n_dropped[type] += std::ssize(ids);
@@ -280,16 +359,11 @@ class Parser {
   }
 
   void set(Cursor& cursor, const Keyword& keyword) {
-    AbaqusSet set{keyword.name == "NSET" ? AbaqusSet::nodes : AbaqusSet::elements,
-                  required(keyword, keyword.name),
-                  "",
-                  {},
-                  {},
-                  {},
-                  keyword.at};
+    AbaqusSet set{.kind = keyword.name == "NSET" ? AbaqusSet::nodes : AbaqusSet::elements,
+                  .name = required(keyword, keyword.name),
+                  .at = keyword.at};
     if (const std::string* instance = keyword.find("INSTANCE")) set.instance = *instance;
-    if (const std::string* elset = keyword.find("ELSET"); elset && set.kind == AbaqusSet::nodes)
-      out_.fail(keyword.at, "*NSET with ELSET= is not supported");
+    if (const std::string* elset = keyword.find("ELSET"); elset && set.kind == AbaqusSet::nodes) set.elset = *elset;
     const bool generate = keyword.find("GENERATE") != nullptr;
     bool ignored = false;
     while (data_line(cursor, ignored)) {
@@ -309,24 +383,21 @@ class Parser {
       if (!generate) continue;
       if (range.size() < 2) out_.fail(start, "GENERATE needs a first and a last id");
       const std::int64_t step = range.size() > 2 ? range[2] : 1;
-      if (step < 1 || (range[1] - range[0]) / step > 1'000'000'000)
-        out_.fail(start, "a range that cannot be generated");
-      for (std::int64_t id = range[0]; id <= range[1]; id += step) set.ids.push_back(id);
+      if (step < 1 || range[0] < 1 || range[0] > range[1]) out_.fail(start, "a range that cannot be generated");
+      set.ranges.push_back({range[0], range[1], step});
     }
     scope_->sets.push_back(std::move(set));
   }
 
   void surface(Cursor& cursor, const Keyword& keyword) {
     const std::string* type = keyword.find("TYPE");
-    const std::string kind = type ? upper_case(*type) : "ELEMENT";
-    AbaqusSet set{AbaqusSet::surface, required(keyword, "NAME"), "", {}, {}, {}, keyword.at};
-    if (kind == "NODE") set.kind = AbaqusSet::nodes;
+    const bool of_nodes = type && same_word(*type, "NODE");
+    AbaqusSet set{.kind = of_nodes ? AbaqusSet::node_surface : AbaqusSet::surface,
+                  .name = required(keyword, "NAME"),
+                  .at = keyword.at};
+    if (const std::string* instance = keyword.find("INSTANCE")) set.instance = *instance;
     bool ignored = false;
     while (data_line(cursor, ignored)) {
-      if (kind != "ELEMENT" && kind != "NODE") {
-        cursor.line();
-        continue;
-      }
       AbaqusMember member;
       std::string face;
       int i = 0;
@@ -335,22 +406,23 @@ class Parser {
         if (i == 1) face = upper_case(word);
         ++i;
       });
-      if (kind == "ELEMENT")
+      if (!of_nodes)
         set.surface_members.emplace_back(member, face);
       else if (const auto id = number(member.text))
         set.ids.push_back(*id);
       else
         set.members.push_back(member);
     }
-    if (kind == "ELEMENT" || kind == "NODE") scope_->sets.push_back(std::move(set));
+    scope_->sets.push_back(std::move(set));
   }
 
   void instance(Cursor& cursor, const Keyword& keyword) {
     const std::string name = upper_case(required(keyword, "PART"));
-    AbaqusInstance instance{required(keyword, "NAME"), nullptr};
+    const AbaqusScope* part = nullptr;
     for (const auto& scope : out_.scopes)
-      if (upper_case(scope->name) == name && scope.get() != out_.assembly) instance.part = scope.get();
-    if (!instance.part) out_.fail(keyword.at, "there is no part " + shown(name));
+      if (scope->kind == AbaqusScope::part && upper_case(scope->name) == name) part = scope.get();
+    if (!part) out_.fail(keyword.at, "there is no part " + shown(name));
+    AbaqusInstance instance{part, &open_scope(AbaqusScope::instance, keyword, required(keyword, "NAME"))};
     // A translation, then two points of an axis and an angle in degrees.
     bool ignored = false;
     for (int line = 0; line < 2 && data_line(cursor, ignored); ++line) {
@@ -370,7 +442,7 @@ class Parser {
       instance.turn = Eigen::AngleAxisd(x[6] * std::numbers::pi / 180, (b - a).normalized()).toRotationMatrix();
       instance.shift = instance.turn * (instance.shift - a) + a;
     }
-    out_.instances.push_back(std::move(instance));
+    out_.instances.push_back(instance);
   }
 
   void include(const Keyword& keyword, const Cursor& cursor) {
@@ -381,15 +453,21 @@ class Parser {
 
   AbaqusContents& out_;
   AbaqusScope* scope_;
-  bool begun_ = false;
+  bool begun_ = false, ended_ = false;
 };
 
 }  // namespace
 
 MeshFile read_abaqus(const std::filesystem::path& file) {
   AbaqusContents contents;
-  Parser(contents).read(std::make_unique<Bytes>(read_bytes(file)));
-  return assemble_abaqus(std::move(contents));
+  Parser parser(contents);
+  parser.read(std::make_unique<Bytes>(read_bytes(file)));
+  parser.finish();
+  MeshFile out;
+  out.notices = std::move(contents.notices);
+  const AbaqusParts parts = place_abaqus(contents, out);
+  add_abaqus_sets(contents, parts, out);
+  return out;
 }
 
 }  // namespace hextwist::io

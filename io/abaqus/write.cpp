@@ -1,5 +1,6 @@
-// Abaqus .inp: nodes, C3D8 elements, sets and surfaces, without parts, as Abaqus and CalculiX both read it. Comments
-// keep ids and names that Abaqus has no room for. Fields and owners are left out.
+// Abaqus .inp: nodes, elements, sets and surfaces, without parts, as Abaqus and CalculiX both read it, and the cards of
+// the file that was read. Comments keep ids and names that Abaqus has no room for. Fields and owners are left out.
+#include <limits>
 #include <set>
 
 #include "hextwist/io/abaqus/abaqus_internal.h"
@@ -7,22 +8,32 @@
 namespace hextwist::io {
 namespace {
 
-/// Labels: letters, digits, '_' and '-', beginning with a letter, unique whatever the case, at most 80 characters.
+/// Labels of one kind of set: letters, digits, '_' and '-', beginning with a letter, unique whatever the case, at most
+/// 80 characters.
 class Labels {
  public:
-  std::string make(const char* kind, int id, const std::string& name) {
+  const std::string& make(const char* kind, int id, const std::string& name, std::vector<std::string>& changed) {
     std::string label;
     for (const char c : name.substr(0, 60))
       label += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
     if (label.empty() || !std::isalpha(static_cast<unsigned char>(label[0])))
       label = upper_case(kind) + "_" + std::to_string(id) + (label.empty() ? "" : "_" + label);
     while (!taken_.insert(upper_case(label)).second) label += "_" + std::to_string(id);
-    return label;
+    if (!name.empty() && label != name) changed.push_back("'" + name + "' is " + label);
+    return of_id_[id] = label;
+  }
+  bool has(const char* label) const { return taken_.contains(label); }
+  const std::string* of(std::int64_t id) const {
+    const auto at = id > std::numeric_limits<int>::max() ? of_id_.end() : of_id_.find(static_cast<int>(id));
+    return at == of_id_.end() ? nullptr : &at->second;
   }
 
  private:
-  std::set<std::string> taken_ = {"NALL", "EALL"};
+  std::set<std::string> taken_;
+  std::map<int, std::string> of_id_;
 };
+/// By Reference::Kind.
+using AllLabels = std::array<Labels, 3>;
 
 std::string one_line(std::string name) {
   for (char& c : name)
@@ -50,47 +61,136 @@ void write_ids(Output& out, std::size_t n, Id&& id) {
   for (std::size_t i = 0; i < n; ++i) out << id(i) << (i % 16 == 15 || i + 1 == n ? "\n" : ", ");
 }
 
+/// Hexes by their element type, C3D8 where nothing says otherwise.
+std::vector<std::pair<std::string, std::vector<Index>>> hexes_by_type(const Mesh& mesh, const FileExtras& extras,
+                                                                      std::vector<std::string>& notices) {
+  const auto usual = extras.element_types.find(0);
+  std::vector<std::string> types = {usual == extras.element_types.end() ? "C3D8" : usual->second};
+  std::vector<int> type_of_hex(mesh.hexes.size(), -1);
+  Index n_unclear = 0;
+  for (const auto& [id, type] : extras.element_types) {
+    if (id == 0) continue;
+    const auto block = std::ranges::find(mesh.blocks, id, &Block::id);
+    if (block == mesh.blocks.end()) {
+      notices.push_back("block " + std::to_string(id) + ", of elements " + type + ", is gone: its hexes are " +
+                        types[0]);
+      continue;
+    }
+    const auto number = static_cast<int>(std::ranges::find(types, type) - types.begin());
+    if (number == std::ssize(types)) types.push_back(type);
+    for (const Index h : block->hexes)
+      if (type_of_hex[h] < 0)
+        type_of_hex[h] = number;
+      else
+        n_unclear += type_of_hex[h] != number;
+  }
+  if (n_unclear > 0)
+    notices.push_back(counted(n_unclear, "hex", "hexes") +
+                      " of several blocks with different element types: the first counts");
+  std::vector<std::pair<std::string, std::vector<Index>>> result;
+  for (const std::string& type : types) result.push_back({type, {}});
+  for (Index h = 0; h < mesh.n_hexes(); ++h) result[std::max(type_of_hex[h], 0)].second.push_back(h);
+  std::erase_if(result, [](const auto& one) { return one.second.empty(); });
+  return result;
+}
+
+/// Cards with the labels that their sets have now, without those and the lines that are about nothing any more.
+void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const AllLabels& labels,
+                 std::vector<std::string>& notices) {
+  using Reference = AbaqusCard::Reference;
+  for (AbaqusCard card : extras.cards) {
+    const std::string keyword = upper_case(card.text.substr(0, card.text.find_first_of(",\r\n")));
+    bool whole = true;
+    std::size_t n_lines = 0;
+    // From the end, so that places before stay.
+    for (std::size_t k = card.references.size(); k-- > 0;) {
+      if (k >= card.references.size()) continue;  // its line is gone
+      const Reference at = card.references[k];
+      std::string now;
+      if (at.kind == Reference::node && find_node(mesh, at.id) >= 0) now = std::to_string(at.id);
+      if (at.kind == Reference::hex && find_hex(mesh, at.id) >= 0) now = std::to_string(at.id);
+      if (at.kind <= Reference::side_set)
+        if (const std::string* label = labels[at.kind].of(at.id)) now = *label;
+      if (!now.empty()) {
+        card.text.replace(at.begin, at.end - at.begin, now);
+        continue;
+      }
+      whole = whole && !at.by_keyword;
+      const auto [begin, end] = line_around(card.text, at.begin);
+      if (!at.by_keyword) cut_out(card, begin, end), ++n_lines;
+    }
+    if (!whole)
+      notices.push_back(card.where + ": " + keyword + " is left out: what it is about is gone");
+    else if (n_lines > 0)
+      notices.push_back(card.where + ": " + counted(static_cast<std::int64_t>(n_lines), "line") + " of " + keyword +
+                        " left out: what they are about is gone");
+    if (whole) out << card.text;
+  }
+}
+
 }  // namespace
 
-void write_abaqus(Output& out, const Mesh& mesh, const Association&, const WriteOptions&,
+void write_abaqus(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
                   std::vector<std::string>& notices) {
+  static const FileExtras nothing;
+  const FileExtras& extras = options.extras ? *options.extras : nothing;
   say_no_fields(mesh, "Abaqus", notices);
   const auto node_ids = ids_in_file(mesh.node_ids, "node", notices);
   const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", notices);
-  out << "*HEADING\nhextwist\n** hextwist mesh\n";
-  Labels labels;
-  const auto begin = [&](const char* kind, const char* keyword, const auto& group) {
-    const std::string label = labels.make(kind, group.id, group.name);
-    out << "** hextwist " << kind << ' ' << group.id << ' ' << label << ' ' << one_line(group.name) << '\n'
-        << keyword << label << '\n';
-  };
-  out << "*NODE, NSET=NALL\n";
+  AllLabels labels;
+  std::vector<std::string> changed;
+  for (const Block& block : mesh.blocks)
+    labels[AbaqusCard::Reference::block].make("block", block.id, block.name, changed);
+  for (const NodeSet& set : mesh.node_sets)
+    labels[AbaqusCard::Reference::node_set].make("nodeset", set.id, set.name, changed);
+  for (const SideSet& set : mesh.side_sets)
+    labels[AbaqusCard::Reference::side_set].make("sideset", set.id, set.name, changed);
+  if (!changed.empty())
+    notices.push_back("names that Abaqus cannot have are others in the file: " +
+                      joined(std::span(changed).first(std::min(changed.size(), std::size_t{3})), ", ") +
+                      (changed.size() > 3 ? " and " + std::to_string(changed.size() - 3) + " more" : ""));
+
+  out << "*HEADING\n" << (extras.heading.empty() ? "hextwist\n" : extras.heading);
+  out << "** hextwist mesh " << mesh.points.size() << ' ' << mesh.hexes.size() << '\n';
+  out << (labels[AbaqusCard::Reference::node_set].has("NALL") ? "*NODE\n" : "*NODE, NSET=NALL\n");
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     const Vec3& p = mesh.points[n];
     out << id_of(node_ids, n);
     for (const double x : p) (out << ", ").number(x, number_width);
     out << '\n';
   }
-  out << "*ELEMENT, TYPE=C3D8, ELSET=EALL\n";
-  for (Index h = 0; h < mesh.n_hexes(); ++h) {
-    out << id_of(hex_ids, h);
-    for (const int c : file_corner) out << ", " << id_of(node_ids, mesh.hexes[h][c]);
-    out << '\n';
+  for (const auto& [type, hexes] : hexes_by_type(mesh, extras, notices)) {
+    out << "*ELEMENT, TYPE=" << type << (labels[AbaqusCard::Reference::block].has("EALL") ? "\n" : ", ELSET=EALL\n");
+    for (const Index h : hexes) {
+      out << id_of(hex_ids, h);
+      for (const int c : file_corner) out << ", " << id_of(node_ids, mesh.hexes[h][c]);
+      out << '\n';
+    }
   }
+  const auto begin = [&](const char* kind, const char* keyword, const auto& group, AbaqusCard::Reference::Kind which) {
+    const std::string& label = *labels[which].of(group.id);
+    out << "** hextwist " << kind << ' ' << group.id << ' ' << label << ' ' << one_line(group.name) << '\n'
+        << keyword << label << '\n';
+  };
   for (const Block& block : mesh.blocks) {
-    begin("block", "*ELSET, ELSET=", block);
+    begin("block", "*ELSET, ELSET=", block, AbaqusCard::Reference::block);
     write_ids(out, block.hexes.size(), [&](std::size_t i) { return id_of(hex_ids, block.hexes[i]); });
   }
   for (const NodeSet& set : mesh.node_sets) {
-    begin("nodeset", "*NSET, NSET=", set);
+    begin("nodeset", "*NSET, NSET=", set, AbaqusCard::Reference::node_set);
     write_ids(out, set.nodes.size(), [&](std::size_t i) { return id_of(node_ids, set.nodes[i]); });
+    if (const std::string& label = *labels[AbaqusCard::Reference::node_set].of(set.id);
+        std::ranges::binary_search(extras.node_surfaces, set.id))
+      out << "*SURFACE, TYPE=NODE, NAME=" << label << '\n' << label << ", 1.\n";
   }
   std::array<int, 6> number{};
   for (int s = 0; s < 6; ++s) number[abaqus_face[s]] = s + 1;
   for (const SideSet& set : mesh.side_sets) {
-    begin("sideset", "*SURFACE, TYPE=ELEMENT, NAME=", set);
+    begin("sideset", "*SURFACE, TYPE=ELEMENT, NAME=", set, AbaqusCard::Reference::side_set);
     for (const Side& side : set.sides) out << id_of(hex_ids, side.hex) << ", S" << number[side.face] << '\n';
   }
+  write_cards(out, mesh, extras, labels, notices);
+  out << "** hextwist end\n";
 }
 
 }  // namespace hextwist::io

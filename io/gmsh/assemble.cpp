@@ -55,6 +55,7 @@ class Assembly {
     for (const auto& [name, n] : in_.n_dropped)
       notice("dropped " + std::to_string(n) + " elements of type " + name + ", which are no side or edge of a hex");
     tidy(file_.tags);
+    file_.extras.periodic = std::move(in_.periodic);
     return std::move(file_);
   }
 
@@ -66,7 +67,7 @@ class Assembly {
   void each_group(int dim, std::size_t i, F&& f) const {
     const GmshElements& elements = in_.elements[dim];
     if (!elements.physical.empty()) {
-      if (elements.physical[i] != 0) f(elements.physical[i]);
+      if (elements.physical[i] != 0) f(elements.physical[i]);  // 0: none
       return;
     }
     const auto found = in_.entity_physicals.find({dim, elements.entity[i]});
@@ -79,7 +80,7 @@ class Assembly {
   }
   /// Members of all groups of a dimension, including those that have a name only. `member` maps an element to one.
   template <class Member, class F>
-  std::map<int, std::vector<Member>> members(int dim, F&& member) const {
+  std::map<int, std::vector<Member>> members(int dim, F&& member) {
     std::map<int, std::vector<Member>> groups;
     for (const auto& [group, name] : in_.physical_names)
       if (group.dim == dim && group.id > 0) groups[group.id];
@@ -99,6 +100,16 @@ class Assembly {
         if (const auto i = element_of_tag(dim, tag); i >= 0) member(static_cast<std::size_t>(i), to);
     }
     for (auto& [id, items] : groups) sort_unique(items);
+    if (const auto zero = groups.find(0); zero != groups.end()) {
+      // Ids are positive here.
+      const int id = groups.rbegin()->first < std::numeric_limits<int>::max() ? groups.rbegin()->first + 1 : 0;
+      if (id < 1) cursor_.fail("physical group 0 of dimension " + std::to_string(dim) + ": there is no id left for it");
+      notice("physical group 0 of dimension " + std::to_string(dim) + " is " + std::to_string(id) + " here");
+      in_.physical_names[{dim, id}] = group_name(dim, 0);
+      auto items = std::move(zero->second);
+      groups.erase(zero);
+      groups[id] = std::move(items);
+    }
     return groups;
   }
   /// Position in the file's order.

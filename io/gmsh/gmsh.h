@@ -50,6 +50,7 @@ struct GmshContents {
   std::map<Owner, Owner> parents;  ///< of entities that are parts of others, or only carry a group ("nobody")
   std::vector<std::pair<Owner, std::vector<std::int64_t>>> more_members;  ///< element tags of physical groups
   std::vector<GmshData> data;
+  std::vector<PeriodicPairs> periodic;
   std::map<std::string, std::int64_t> n_dropped;  ///< elements of other types, by name
   std::vector<std::string> notices;
 
@@ -113,6 +114,7 @@ void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source);
 void read_gmsh_elements_4(GmshContents& contents, GmshSource& source);
 void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on);
 void read_gmsh_parts(GmshContents& contents, Cursor& cursor);
+void read_gmsh_periodic(GmshContents& contents, GmshSource& source);
 
 /// Sections to a mesh.
 MeshFile assemble_gmsh(GmshContents&& contents, const Cursor& cursor);

@@ -16,8 +16,8 @@ constexpr std::array<int, 4> n_element_nodes = {1, 2, 4, 8};
 /// Makes the plan in the order of dimensions 3, 2, 1, 0.
 class Planner {
  public:
-  Planner(const Mesh& mesh, const Association& association, bool split)
-      : mesh_(mesh), tags_(association), split_(split) {}
+  Planner(const Mesh& mesh, const Association& association, bool split, const Model* model)
+      : mesh_(mesh), tags_(association), split_(split), directions_(curve_directions(mesh, association, model)) {}
 
   GmshPlan result() {
     reserve_owned_entities();
@@ -156,7 +156,7 @@ class Planner {
 
   void lines() {
     add_classes(1, classify(tags_.edge_curve, {}), {}, [&](Index i, std::vector<Index>& nodes) {
-      nodes.insert(nodes.end(), tags_.curve_edges[i].begin(), tags_.curve_edges[i].end());
+      for (const int k : {0, 1}) nodes.push_back(tags_.curve_edges[i][k ^ directions_.reversed[i]]);
     });
   }
 
@@ -269,6 +269,7 @@ class Planner {
     for (std::size_t k = 0; k < behind.size(); ++k)
       for (int c = 0; c < 4; ++c) behind[k][c] = quads.nodes[4 * k + 3 - c];
     const auto other = oriented_sides(mesh_, behind);
+    SurfaceLoops loops(tags_, directions_);
     for (const auto& run : quads.runs) {
       if (!owned(2, run.entity)) continue;
       for (std::size_t k = run.first; k < run.first + run.n; ++k) {
@@ -276,13 +277,10 @@ class Planner {
         const int front = volume_of_hex[side.hex], back = volume_of_hex[other[k].hex];
         if (owned(3, front) && (front != back || other[k] == side)) bounds(3, front, run.entity);
         if (owned(3, back) && front != back) bounds(3, back, run.entity);
-        for (int c = 0; c < 4; ++c) {
-          const auto [a, b] = std::minmax(behind[k][c], behind[k][(c + 1) % 4]);
-          if (const Index at = position_in(tags_.curve_edges, Edge{a, b}); at >= 0)
-            bounds(2, run.entity, tags_.edge_curve[at]);
-        }
+        loops.add(run.entity, Quad{behind[k][3], behind[k][2], behind[k][1], behind[k][0]});
       }
     }
+    for (PlannedEntity& surface : plan_.entities[2]) surface.boundary = loops.of(surface.tag);
   }
   /// Which entities bound which, as far as the elements show it; owned entities only.
   void boundaries() {
@@ -298,19 +296,22 @@ class Planner {
     for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i)
       for (const Index n : tags_.curve_edges[i])
         if (const Owner vertex = owner(tags_, n); vertex.dim == 0) bounds(1, tags_.edge_curve[i], vertex.id);
-    for (auto& entities : plan_.entities)
-      for (PlannedEntity& entity : entities) sort_unique(entity.boundary);
+    for (const int dim : {1, 3})
+      for (PlannedEntity& entity : plan_.entities[dim]) sort_unique(entity.boundary);
     for (PlannedEntity& curve : plan_.entities[1]) {
       // From one vertex to another, or back to the same.
       if (curve.boundary.size() == 1) curve.boundary.push_back(curve.boundary[0]);
       if (curve.boundary.size() > 2) curve.boundary.clear();
       if (curve.boundary.size() == 2) curve.boundary[1] = -curve.boundary[1];
+      if (const auto ends = directions_.ends.find(curve.tag); ends != directions_.ends.end())
+        curve.boundary = {ends->second[0], -ends->second[1]};
     }
   }
 
   const Mesh& mesh_;
   const Association& tags_;
   const bool split_;
+  const CurveDirections directions_;
   GmshPlan plan_;
   std::array<int, 4> next_tag_ = {1, 1, 1, 1};
   std::array<std::vector<int>, 4> group_ids_;
@@ -331,8 +332,8 @@ std::size_t GmshPlan::n_elements() const {
   return n;
 }
 
-GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split) {
-  return Planner(mesh, association, split).result();
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model) {
+  return Planner(mesh, association, split, model).result();
 }
 
 }  // namespace hextwist::io

@@ -1,6 +1,8 @@
 // What a Gmsh file of a mesh will hold: entities, elements and physical groups, before they are put in a format.
 #pragma once
 
+#include <map>
+
 #include "hextwist/io/format.h"
 
 namespace hextwist::io {
@@ -13,7 +15,7 @@ struct PlannedEntity {
   bool is_part = false;
   Owner parent;
   std::vector<int> physicals;
-  std::vector<int> boundary;  ///< tags of the dimension below
+  std::vector<int> boundary;  ///< tags of the dimension below, with signs as Gmsh has them
   Box box;
   bool operator<(const PlannedEntity& other) const { return tag < other.tag; }
 };
@@ -56,7 +58,43 @@ struct GmshPlan {
   }
 };
 
+/// Which way line elements and curves run: with the CAD where there is a model, else with the parameters of nodes, else
+/// any way, but all along a curve the same.
+struct CurveDirections {
+  std::vector<char> reversed;              ///< per curve edge: from its second node to its first
+  std::map<int, std::array<int, 2>> ends;  ///< per curve that is one chain between vertices: first and last
+};
+CurveDirections curve_directions(const Mesh& mesh, const Association& association, const Model* model);
+
+/// Curves around surfaces, negative where the loop runs against them; a seam occurs both ways.
+class SurfaceLoops {
+ public:
+  SurfaceLoops(const Association& association, const CurveDirections& directions)
+      : tags_(association), directions_(directions) {}
+  /// Counts in a quad of a surface.
+  void add(int surface, const Quad& cycle);
+  std::vector<int> of(int surface) const;
+
+ private:
+  const Association& tags_;
+  const CurveDirections& directions_;
+  std::map<int, std::vector<int>> curves_;
+  std::map<int, int> turns_;
+};
+
+/// Pairs of nodes on periodic entities of a mesh, from those of the file before it was refined.
+struct PlannedPeriodic {
+  int dim, entity, of;
+  std::vector<double> affine;
+  std::vector<std::array<Index, 2>> nodes;
+};
+std::vector<PlannedPeriodic> plan_periodic(const Mesh& mesh, const Association& association,
+                                           const std::vector<PeriodicPairs>& before, std::vector<std::string>& notices);
+
+/// Takes elements out of the plan that are in no physical group. Returns, ascending, the nodes that are left.
+std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split);
+
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
-GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split);
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model);
 
 }  // namespace hextwist::io

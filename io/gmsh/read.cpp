@@ -68,6 +68,8 @@ bool read_section(GmshContents& contents, Cursor& cursor, std::string_view name)
     read_gmsh_data(contents, source, Field::On::node);
   else if (name == "ElementData")
     read_gmsh_data(contents, source, Field::On::hex);
+  else if (name == "Periodic" && contents.version != 1)
+    read_gmsh_periodic(contents, source);
   else if (name == "HextwistParts")
     read_gmsh_parts(contents, cursor);
   else
@@ -205,6 +207,8 @@ MeshFile read_gmsh(const Bytes& bytes) {
   Cursor cursor(bytes);
   GmshContents contents;
   bool nodes = false, elements = false;
+  std::vector<std::string> seen;  // of those that a file has once
+  constexpr std::string_view once[] = {"PhysicalNames", "Entities", "PartitionedEntities", "Periodic", "HextwistParts"};
   while (cursor.more()) {
     const char* start = cursor.at;
     if (*start != '$') {
@@ -224,6 +228,10 @@ MeshFile read_gmsh(const Bytes& bytes) {
         const bool is_nodes = name == "Nodes" || name == "NOD" || name == "ParametricNodes";
         const bool is_elements = name == "Elements" || name == "ELM";
         if ((is_nodes && nodes) || (is_elements && elements)) cursor.fail_at(start, "a second $" + std::string(name));
+        if (std::ranges::find(once, name) != std::end(once)) {
+          if (std::ranges::find(seen, name) != seen.end()) cursor.fail_at(start, "a second $" + std::string(name));
+          seen.emplace_back(name);
+        }
         if (is_elements && !nodes) cursor.fail_at(start, "elements before nodes");
         if (!read_section(contents, cursor, name)) skip_section(cursor, name, start);
         nodes = nodes || is_nodes;

@@ -1,5 +1,6 @@
 // Nodes, elements and entities of Gmsh's formats 1, 2.2 and 4.1.
 #include <limits>
+#include <utility>
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/io/gmsh/gmsh.h"
@@ -238,6 +239,39 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
     }
   }
   if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));
+}
+
+void read_gmsh_periodic(GmshContents& contents, GmshSource& source) {
+  Cursor& cursor = source.cursor;
+  const bool v4 = contents.version == 41;
+  // Text in every file of version 2.2.
+  const bool binary = std::exchange(cursor.binary, cursor.binary && v4);
+  const auto large = [&](std::string_view what) { return source.large(what); };
+  const auto n = cursor.check_count(v4 ? large("the number of periodic entities") : cursor.integer("a number"), 6,
+                                    "periodic entities");
+  for (std::size_t i = 0; i < n; ++i) {
+    PeriodicPairs link;
+    cursor.skip_text_blanks();
+    const char* at = cursor.at;
+    link.dim = source.integer("a dimension");
+    if (link.dim < 0 || link.dim > 3) cursor.fail_at(at, "a periodic entity of dimension " + std::to_string(link.dim));
+    link.entity = source.integer("an entity");
+    link.of = source.integer("an entity");
+    std::size_t n_affine = 0;
+    if (v4) {
+      n_affine = cursor.check_count(large("the number of affine values"), cursor.binary ? 8 : 2, "affine values");
+    } else if (cursor.more() && *cursor.at == 'A') {
+      cursor.word();
+      n_affine = 16;
+    }
+    for (std::size_t k = 0; k < n_affine; ++k) link.affine.push_back(source.real("an affine value"));
+    link.nodes.resize(cursor.check_count(v4 ? large("the number of pairs") : cursor.integer("the number of pairs"), 4,
+                                         "pairs of nodes"));
+    for (auto& pair : link.nodes)
+      for (auto& node : pair) node = v4 ? large("a node") : cursor.integer("a node");
+    contents.periodic.push_back(std::move(link));
+  }
+  cursor.binary = binary;
 }
 
 }  // namespace hextwist::io

@@ -1,6 +1,7 @@
 // Gmsh's .msh 2.2 and 4.1 from a plan.
 //
-// Two sections of our own, which Gmsh and others skip, keep what its groups of whole entities cannot say:
+// A section of our own behind the elements, which Gmsh and others skip, keeps what its groups of whole entities cannot
+// say:
 //   $HextwistParts: entities that are parts of a CAD entity or of none (dimension tag parent's dimension and tag), and
 //   members of physical groups beyond the one that an element of format 2.2 can name.
 #include <limits>
@@ -113,6 +114,17 @@ void write_entities_4(const Writer& to, const GmshPlan& plan) {
   to.out << "$EndEntities\n";
 }
 
+/// The nodes and hexes of the file, ascending.
+struct Selection {
+  bool all = true;
+  std::vector<Index> nodes, hexes;  ///< else
+
+  std::size_t n_nodes(const Mesh& mesh) const { return all ? mesh.points.size() : nodes.size(); }
+  std::size_t n_hexes(const Mesh& mesh) const { return all ? mesh.hexes.size() : hexes.size(); }
+  Index node(std::size_t i) const { return all ? static_cast<Index>(i) : nodes[i]; }
+  Index hex(std::size_t i) const { return all ? static_cast<Index>(i) : hexes[i]; }
+};
+
 /// Nodes by owner, those without one on an entity of their own; and where each owner's nodes begin.
 struct NodeOrder {
   struct Run {
@@ -122,7 +134,8 @@ struct NodeOrder {
   std::vector<Run> runs;
   std::vector<Index> nodes;  ///< empty: 0, 1, 2, ...
 };
-NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const GmshPlan& plan) {
+NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const GmshPlan& plan,
+                         const Selection& selection) {
   NodeOrder order;
   std::array<std::size_t, 4> start{};  // of each dimension's entities among all
   for (int dim = 0; dim < 4; ++dim) {
@@ -130,16 +143,17 @@ NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const
     for (const PlannedEntity& entity : plan.entities[dim]) order.runs.push_back({{dim, entity.tag}, 0, 0});
   }
   std::vector<int> run_of_node;
-  resize_for_overwrite(run_of_node, mesh.points.size());
+  const std::size_t n_nodes = selection.n_nodes(mesh);
+  resize_for_overwrite(run_of_node, n_nodes);
   std::size_t run = 0;
-  for (Index n = 0; n < mesh.n_nodes(); ++n) {
-    const Owner at = owner(association, n), of = at ? at : Owner{3, plan.nobody};
-    if (n == 0 || of != order.runs[run].owner) {
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    const Owner at = owner(association, selection.node(i)), of = at ? at : Owner{3, plan.nobody};
+    if (i == 0 || of != order.runs[run].owner) {
       const auto& entities = plan.entities[of.dim];
       run = start[of.dim] + static_cast<std::size_t>(
                                 std::ranges::lower_bound(entities, of.id, {}, &PlannedEntity::tag) - entities.begin());
     }
-    run_of_node[n] = static_cast<int>(run);
+    run_of_node[i] = static_cast<int>(run);
     ++order.runs[run].n;
   }
   std::vector<std::size_t> next;
@@ -150,19 +164,21 @@ NodeOrder nodes_by_owner(const Mesh& mesh, const Association& association, const
     sum += one.n;
   }
   std::erase_if(order.runs, [](const auto& one) { return one.n == 0; });
-  if (order.runs.size() < 2) return order;
-  resize_for_overwrite(order.nodes, mesh.points.size());
-  for (Index n = 0; n < mesh.n_nodes(); ++n) order.nodes[next[run_of_node[n]]++] = n;
+  if (order.runs.size() < 2 && selection.all) return order;
+  resize_for_overwrite(order.nodes, n_nodes);
+  for (std::size_t i = 0; i < n_nodes; ++i) order.nodes[next[run_of_node[i]]++] = selection.node(i);
   return order;
 }
 
-void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& association, const GmshPlan& plan) {
-  const NodeOrder order = nodes_by_owner(mesh, association, plan);
+void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& association, const GmshPlan& plan,
+                   const Selection& selection) {
+  const NodeOrder order = nodes_by_owner(mesh, association, plan, selection);
+  const std::size_t n = selection.n_nodes(mesh);
   to.out << "$Nodes\n";
   to.large(order.runs.size());
-  to.large(mesh.points.size());
-  to.id(mesh.points.empty() ? 0 : node_id(mesh, 0));
-  to.id(mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1));
+  to.large(n);
+  to.id(n == 0 ? 0 : node_id(mesh, selection.node(0)));
+  to.id(n == 0 ? 0 : node_id(mesh, selection.node(n - 1)));
   to.end_line();
   for (const auto& run : order.runs) {
     to.integer(run.owner.dim);
@@ -223,7 +239,10 @@ std::pair<std::int64_t, std::int64_t> element_tags(const Mesh& mesh, const GmshP
   const auto add = [&](std::int64_t first, std::int64_t last) {
     low = std::min(low, first), high = std::max(high, last);
   };
-  if (!mesh.hexes.empty()) add(hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1));
+  for (std::size_t k = 0; k < plan.elements[3].size; ++k) {
+    const std::int64_t id = plan.tag(mesh, 3, k);
+    add(id, id);
+  }
   for (int dim = 0; dim < 3; ++dim)
     if (const std::size_t n = plan.elements[dim].size; n > 0) add(plan.tag(mesh, dim, 0), plan.tag(mesh, dim, n - 1));
   return {high == 0 ? 0 : low, high};
@@ -247,9 +266,10 @@ void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) 
   to.out << "$EndElements\n";
 }
 
-void write_nodes_2(const Writer& to, const Mesh& mesh) {
-  to.out << "$Nodes\n" << mesh.points.size() << '\n';
-  for (Index n = 0; n < mesh.n_nodes(); ++n) {
+void write_nodes_2(const Writer& to, const Mesh& mesh, const Selection& selection) {
+  to.out << "$Nodes\n" << selection.n_nodes(mesh) << '\n';
+  for (std::size_t i = 0; i < selection.n_nodes(mesh); ++i) {
+    const Index n = selection.node(i);
     to.integer(static_cast<int>(node_id(mesh, n)));
     for (const double x : mesh.points[n]) to.real(x);
     to.end_line();
@@ -297,17 +317,18 @@ void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) 
 }
 
 /// Gmsh's views have 1, 3 or 9 components.
-void write_fields(const Writer& to, const Mesh& mesh) {
+void write_fields(const Writer& to, const Mesh& mesh, const Selection& selection) {
   if (!mesh.fields.empty() && !mesh.hexes.empty())
     check_int32(std::max(node_id(mesh, mesh.n_nodes() - 1), hex_id(mesh, mesh.n_hexes() - 1)), "fields in ");
   for (const Field& field : split_components(mesh.fields, [](int n) { return n == 3 || n == 9; })) {
     const bool node = field.on == Field::On::node;
-    const Index n = node ? mesh.n_nodes() : mesh.n_hexes();
+    const std::size_t n = node ? selection.n_nodes(mesh) : selection.n_hexes(mesh);
     to.out << (node ? "$NodeData\n" : "$ElementData\n") << "1\n\"" << plain(field.name) << "\"\n1\n0\n3\n0\n"
            << field.components << '\n'
            << n << '\n';
     const auto width = static_cast<std::size_t>(field.components);
-    for (Index i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const Index i = node ? selection.node(k) : selection.hex(k);
       to.integer(static_cast<int>(node ? node_id(mesh, i) : hex_id(mesh, i)));
       for (std::size_t c = 0; c < width; ++c) to.real(field.values[i * width + c]);
       to.end_line();
@@ -317,14 +338,54 @@ void write_fields(const Writer& to, const Mesh& mesh) {
   }
 }
 
+void write_periodic(const Writer& to, const Mesh& mesh, const std::vector<PlannedPeriodic>& links, bool v4) {
+  if (links.empty()) return;
+  to.out << "$Periodic\n";
+  // Text in every file of version 2.2.
+  const Writer at{to.out, to.binary && v4};
+  v4 ? at.large(links.size()) : at.integer(static_cast<int>(links.size()));
+  at.end_line();
+  for (const PlannedPeriodic& link : links) {
+    for (const int tag : {link.dim, link.entity, link.of}) at.integer(tag);
+    at.end_line();
+    if (v4)
+      at.large(link.affine.size());
+    else
+      to.out << "Affine ";
+    for (const double x : link.affine) at.real(x);
+    at.end_line();
+    at.large(link.nodes.size());
+    at.end_line();
+    at.rows(link.nodes.size(), [&](std::size_t i) {
+      return std::array{id_of(mesh.node_ids, link.nodes[i][0]), id_of(mesh.node_ids, link.nodes[i][1])};
+    });
+  }
+  if (at.binary) to.out << '\n';
+  to.out << "$EndPeriodic\n";
+}
+
+/// Leaves physical groups and what they need.
+Selection groups_only(GmshPlan& plan, const Mesh& mesh, bool v4, std::vector<std::string>& notices) {
+  Selection result{false, keep_groups_only(plan, mesh, v4), plan.elements[3].items};
+  std::ranges::sort(result.hexes);
+  if (result.hexes.empty()) throw Error("there is no hex in a block, so there is nothing of groups only to write");
+  if (const auto n = mesh.hexes.size() - result.hexes.size())
+    notices.push_back(counted(static_cast<std::int64_t>(n), "hex", "hexes") + " in no block left out");
+  return result;
+}
+
 }  // namespace
 
 void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
-                std::vector<std::string>&) {
+                std::vector<std::string>& notices) {
   if (options.gmsh_version != 22 && options.gmsh_version != 41)
     throw Error("Gmsh version " + std::to_string(options.gmsh_version) + " is neither 22 nor 41");
   const bool v4 = options.gmsh_version == 41;
-  const GmshPlan plan = plan_gmsh(mesh, association, v4);
+  GmshPlan plan = plan_gmsh(mesh, association, v4, options.model);
+  const Selection selection = options.groups_only ? groups_only(plan, mesh, v4, notices) : Selection{};
+  if (!v4 && std::ranges::any_of(plan.groups, [](const PlannedGroup& group) { return !group.more.empty(); }))
+    notices.emplace_back(
+        "groups overlap, and version 2.2 says one group of each element: other programs see the first");
   const Writer to{out, options.binary};
   out << "$MeshFormat\n" << (v4 ? "4.1 " : "2.2 ") << (options.binary ? "1 8\n" : "0 8\n");
   if (options.binary) {
@@ -335,17 +396,19 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   write_names(out, plan);
   if (v4) {
     write_entities_4(to, plan);
-    write_nodes_4(to, mesh, association, plan);
-    write_parts(out, plan);
+    write_nodes_4(to, mesh, association, plan, selection);
     write_elements_4(to, mesh, plan);
   } else {
     check_int32(mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1), "version 2.2 of ");
     check_int32(element_tags(mesh, plan).second, "version 2.2 of ");
-    write_nodes_2(to, mesh);
-    write_parts(out, plan);
+    write_nodes_2(to, mesh, selection);
     write_elements_2(to, mesh, plan);
   }
-  write_fields(to, mesh);
+  // Behind the elements: some readers want nothing else before them (PETSc).
+  if (options.extras && !options.groups_only)
+    write_periodic(to, mesh, plan_periodic(mesh, association, options.extras->periodic, notices), v4);
+  write_parts(out, plan);
+  write_fields(to, mesh, selection);
 }
 
 }  // namespace hextwist::io

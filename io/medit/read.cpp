@@ -41,6 +41,8 @@ class Reader {
     std::string_view word = keyword();
     for (; !word.empty() && !same_word(word, "End"); word = keyword()) section(word);
     if (word.empty() && !done()) cursor_.fail_at(cursor_.end, "the file ends without hexes");
+    if (word.empty())
+      out_.notices.push_back(cursor_.where(cursor_.end) + ": there is no End; the file may be cut short");
     if (hexes_.references.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
     assemble();
     return std::move(out_);
@@ -81,6 +83,9 @@ class Reader {
   void section(std::string_view word) {
     if (!std::isalpha(static_cast<unsigned char>(word[0])))
       cursor_.fail_at(start_, "expected a keyword, found " + shown(word));
+    const std::string once = lower_case(word);
+    if (std::ranges::find(seen_, once) != seen_.end()) cursor_.fail_at(start_, "a second section " + std::string(word));
+    seen_.push_back(once);
     if (same_word(word, "Vertices")) return vertices();
     if (same_word(word, "Hexahedra")) return elements(hexes_, 8, "hex");
     if (same_word(word, "Quadrilaterals")) return elements(quads_, 4, "quad");
@@ -111,7 +116,6 @@ class Reader {
   }
 
   void vertices() {
-    if (!out_.mesh.points.empty()) cursor_.fail_at(start_, "a second section of vertices");
     const auto n = count("vertices", 4);
     out_.mesh.points.resize(n);
     vertex_references_.resize(n);
@@ -166,6 +170,9 @@ class Reader {
   void each_group(int dim, const std::vector<int>& references, F&& member,
                   const std::function<void(int, const std::string&, std::vector<Member>&&)>& done) {
     auto groups = comments_.groups(kinds[dim], references);
+    if (const auto n = std::ranges::count_if(references, [](int reference) { return reference < 0; }))
+      out_.notices.push_back("negative references (" + std::string(kinds[dim].group) + "s) of " +
+                             counted(n, "element") + " left out");
     std::map<int, std::vector<int>> groups_of_reference;
     std::map<int, std::vector<Member>> members;
     for (const auto& [id, entry] : groups) {
@@ -310,6 +317,7 @@ class Reader {
   Cursor cursor_;
   const char* start_ = nullptr;  // of the keyword at hand
   MeshFile out_;
+  std::vector<std::string> seen_;  // sections, each of which a file has once
   ReferenceComments comments_;
   Index n_nodes_ = -1;
   std::vector<int> vertex_references_;

@@ -55,6 +55,7 @@ void ReferenceComments::add(std::string_view comment, const Cursor& cursor) {
   const std::string kind(words.word());
   if (kind == "mesh") return;
   const int id = words.small("an id");
+  if (id < 1) cursor.fail(kind + " id " + std::to_string(id) + " is not positive");
   Entry& entry = entries[kind][id];
   entry.references.resize(words.check_count(words.integer("a number of references"), 2, "references"));
   for (int& reference : entry.references) reference = words.small("a reference");

@@ -96,6 +96,11 @@ class Assembly {
       fail(name + " is a " + type_name(type) + "; only 8-node hexes are accepted");
     if (hex || (quad && nodes.size() != 4))
       fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + (hex ? "8" : "4"));
+    constexpr std::pair<int, std::size_t> sizes[] = {{1, 1}, {3, 2}, {5, 3}, {21, 3}, {22, 6}, {23, 8}, {28, 9}};
+    for (const auto& [known, n] : sizes)
+      if (known == type && nodes.size() != n)
+        fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + std::to_string(n) +
+             ", which cells of type " + std::to_string(type) + " have");
     if (only_hexes_)  // up to here
       for (std::size_t h = 0; h < i; ++h) hex_cells_.push_back(h);
     only_hexes_ = false;
@@ -259,7 +264,8 @@ class Assembly {
     std::string_view rest = what.substr(std::min(blank + 1, what.size()));
     int id = 0;
     const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), id);
-    if (error != std::errc{} || id < 1) return;
+    if (kind != "block" && kind != "nodeset" && kind != "sideset") return;
+    if (error != std::errc{} || id < 1) fail("'" + array.name + "' has no id between 1 and 2147483647");
     rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
     const std::string name(rest.substr(std::min<std::size_t>(1, rest.size())));
     if (kind == "block" || kind == "nodeset") {
@@ -289,6 +295,13 @@ class Assembly {
       };
       std::map<int, std::vector<Index>> blocks;
       std::map<int, std::vector<Side>> sets;
+      const bool zero_is_none = name.find(':') != std::string_view::npos;  // with Gmsh and MEDIT
+      Index n_without = 0;
+      for (std::size_t h = 0; h < out_.mesh.hexes.size(); ++h)
+        n_without += value(cell_of_hex(h)) == 0 && (array->real(cell_of_hex(h)) != 0 || !zero_is_none);
+      if (n_without > 0)
+        out_.notices.push_back(std::string(name) + " of " + counted(n_without, "hex", "hexes") +
+                               " is no id of a block (1 to 2147483646): they are in none, the values are a field");
       for (std::size_t h = 0; h < out_.mesh.hexes.size(); ++h)
         if (const int id = value(cell_of_hex(h))) blocks[id].push_back(static_cast<Index>(h));
       for (std::size_t q = 0; q < quad_cells_.size(); ++q)

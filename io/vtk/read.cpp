@@ -17,7 +17,10 @@ class Reader {
     if (out_.ends.size() != out_.types.size())
       cursor_.fail_at(cursor_.end, std::to_string(out_.types.size()) + " cell types for " +
                                        std::to_string(out_.ends.size()) + " cells");
-    return assemble_vtk(std::move(out_), cursor_);
+    MeshFile file = assemble_vtk(std::move(out_), cursor_);
+    if (!cursor_.binary && !cursor_.last_line_ends())
+      file.notices.push_back(cursor_.where(cursor_.end) + ": the last line has no end; the file may be cut short");
+    return file;
   }
 
  private:
@@ -31,7 +34,11 @@ class Reader {
       cursor_.fail_at(cursor_.begin, "version " + shown(version) + " is not known, 1.0 to 5.1 are");
     cursor_.line();
     const char* at = cursor_.at;
-    const std::string_view mode = trimmed(cursor_.line());
+    std::string_view mode = trimmed(cursor_.line());
+    while (mode.empty() && cursor_.at < cursor_.end) {
+      at = cursor_.at;
+      mode = trimmed(cursor_.line());
+    }
     if (!same_word(mode, "ASCII") && !same_word(mode, "BINARY"))
       cursor_.fail_at(at, "expected ASCII or BINARY, found " + shown(mode));
     cursor_.binary = same_word(mode, "BINARY");
@@ -52,6 +59,10 @@ class Reader {
   void section() {
     const char* at = cursor_.at;
     const std::string word = upper(cursor_.word());
+    if (word == "DATASET" || word == "POINTS" || word == "CELLS" || word == "CELL_TYPES") {
+      if (std::ranges::find(seen_, word) != seen_.end()) cursor_.fail_at(at, "a second " + word);
+      seen_.push_back(word);
+    }
     if (word == "DATASET") {
       if (const auto kind = upper(cursor_.word()); kind != "UNSTRUCTURED_GRID")
         cursor_.fail_at(at, "data set " + shown(kind) + "; only UNSTRUCTURED_GRID is read");
@@ -220,7 +231,8 @@ class Reader {
   Cursor cursor_;
   VtkContents out_;
   VtkArray::On on_ = VtkArray::On::node;
-  std::optional<std::size_t> n_;  // of the POINT_DATA or CELL_DATA at hand
+  std::vector<std::string> seen_;  // sections that a file has once
+  std::optional<std::size_t> n_;   // of the POINT_DATA or CELL_DATA at hand
 };
 
 }  // namespace

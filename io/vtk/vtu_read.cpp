@@ -200,11 +200,16 @@ class Reader {
         from_bytes(appended_at(tag), appended_base64_, type, array);
       else
         cursor_.fail_at(tag.at, "array " + shown(array.name) + " in format " + shown(tag["format"]));
-      if (section == "Points")
+      const auto once = [&](bool there) {
+        if (there) cursor_.fail_at(tag.at, "a second array " + shown(array.name) + " of " + section);
+      };
+      if (section == "Points") {
+        once(points_.size() > 0);
         points_ = std::move(array);
-      else if (section == "Cells")
+      } else if (section == "Cells") {
+        once(cells_.contains(array.name));
         cells_[array.name] = std::move(array);
-      else
+      } else
         out_.arrays.push_back(std::move(array));
     }
   }
@@ -239,7 +244,7 @@ class Reader {
   }
 
   /// The bytes of an array: a size, then data; or, compressed, the number and sizes of blocks, then those.
-  void from_bytes(std::string_view source, bool base64, VtkType type, VtkArray& to) const {
+  void from_bytes(std::string_view source, bool base64, VtkType type, VtkArray& to) {
     const auto truncated = [&] { cursor_.fail_truncated("the data of array " + shown(to.name)); };
     const std::size_t word = wide_header_ ? 8 : 4;
     const char* at = source.data();
@@ -309,6 +314,10 @@ class Reader {
     Cursor values = binary(bytes);
     read_vtk_values(values, type, bytes.size() / vtk_size(type), to);
     if (base64 || compressed_) to.keep();
+    // Arrays may share what they are unpacked from; zlib packs 1 to 1100 at best.
+    if (base64 || compressed_) n_unpacked_ += bytes.size();
+    if (n_unpacked_ / 1100 > static_cast<std::size_t>(cursor_.end - cursor_.begin))
+      cursor_.fail("the arrays hold more than the file can");
   }
   Cursor binary(std::string_view bytes) const {
     Cursor cursor(bytes, cursor_.name);
@@ -344,7 +353,7 @@ class Reader {
   const char* tags_end_ = nullptr;
   bool appended_base64_ = false, is_grid_ = false, swapped_ = false, wide_header_ = false, compressed_ = false;
   int n_pieces_ = 0;
-  std::size_t n_points_ = 0, n_cells_ = 0;
+  std::size_t n_points_ = 0, n_cells_ = 0, n_unpacked_ = 0;
 };
 
 }  // namespace

@@ -60,6 +60,7 @@ void do_create(Execution& run) {
   state.glued = false;
   state.cad_file.clear();
   state.tags = nullptr;
+  state.extras = nullptr;
   load_mesh(run, std::move(solid.mesh), std::move(solid.cad.model), nullptr, what.name);
   say_mesh(run, what.name);
 }

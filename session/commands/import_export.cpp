@@ -61,6 +61,7 @@ void import_mesh(Execution& run, const std::filesystem::path& file) {
   for (const std::string& line : read.notices) run.note(line);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
+  run.state.extras = read.extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(read.extras));
   say_mesh(run, file.string());
 }
 
@@ -84,6 +85,33 @@ void import_cad(Execution& run, const std::filesystem::path& file) {
   }
   run.say(line);
   say_mesh(run, "the mesh on it");
+}
+
+/// What the words after the file ask for. Refuses what its format does not have.
+WriteOptions write_options(const Execution& run, const std::string& extension) {
+  WriteOptions options;
+  options.overwrite = run.command.has("overwrite");
+  options.extras = run.state.extras.get();
+  if (run.state.has_cad) options.model = run.meshed->model.get();
+  const bool gmsh = extension == ".msh", both = gmsh || extension == ".vtu";
+  const Item& file = *run.command.find("file");
+  const auto only = [&](std::string_view word, bool known, const char* formats) {
+    const bool said = run.command.has(word) || run.command.find(word);
+    if (said && !known)
+      throw error_at(
+          run.command.statement, file.token,
+          "'" + std::string(word) + "' is for " + formats + " files, not for '" + printable(extension) + "'");
+    return said;
+  };
+  only("binary", both, ".msh and .vtu");
+  options.binary = !only("text", both, ".msh and .vtu");
+  options.groups_only = only("groups", gmsh, ".msh");
+  if (!only("version", gmsh, ".msh")) return options;
+  const Item& version = *run.command.find("version");
+  if (version.number != 2.2 && version.number != 4.1)
+    throw error_at(run.command.statement, version.token, "versions of .msh are 2.2 and 4.1");
+  options.gmsh_version = version.number == 2.2 ? 22 : 41;
+  return options;
 }
 
 }  // namespace
@@ -120,14 +148,14 @@ void do_export(Execution& run) {
   check_extension(run, word, file, true);
   const MeshedModel& meshed = *run.meshed;
   if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
+  const WriteOptions options = write_options(run, lower_extension(file.text));
   run.stage("write");
   if (word.name == "levels") {
     write_levels(run, file.text, run.command.has("overwrite"));
     return run.say(file.text + ": levels of " + counted(meshed.mesh.n_hexes(), EntityKind::hex) + " written");
   }
   for (const std::string& line :
-       write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association,
-                  {.overwrite = run.command.has("overwrite")}))
+       write_mesh(file.text, meshed.mesh, meshed.association.empty() ? nullptr : &meshed.association, options))
     run.note(line);
   run.say(file.text + ": " + counted(meshed.mesh.n_hexes(), EntityKind::hex) + " written");
 }

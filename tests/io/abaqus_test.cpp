@@ -170,7 +170,8 @@ TEST(abaqus_files, other_peoples_files_are_understood) {
   EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{1, "lid", {{0, 5}}},
                                                        {2, "LOAD", {{0, 0}, {0, 4}}},
                                                        {3, "SKIN", {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}}));
-  EXPECT_EQ(read.notices, (std::vector<std::string>{"dropped 1 elements of type B31"}));
+  EXPECT_EQ(read.notices, (std::vector<std::string>{"dropped 1 element of type B31",
+                                                    "element sets without a hex or a side are left out: 'beams'"}));
 }
 
 TEST(abaqus_files, instances_are_placed_side_by_side) {
@@ -183,15 +184,221 @@ TEST(abaqus_files, instances_are_placed_side_by_side) {
           "*ELSET, ELSET=BOTH\none.E, two.1\n*NODE\n1, 5., 5., 5.\n*END ASSEMBLY\n");
   const auto read = read_mesh(file);
   ASSERT_EQ(read.mesh.n_hexes(), 2);
-  ASSERT_EQ(read.mesh.n_nodes(), 16);
+  ASSERT_EQ(read.mesh.n_nodes(), 17);
   EXPECT_DOUBLE_EQ(volume(read.mesh, 0), 1);
   EXPECT_DOUBLE_EQ(volume(read.mesh, 1), 1);
   EXPECT_NEAR((read.mesh.points[9] - Vec3(2, 1, 0)).norm(), 0,
-              1e-15);  // (1 0 0) moved to (3 0 0), turned about (2 0 0)
+              1e-15);                              // (1 0 0) moved to (3 0 0), turned about (2 0 0)
+  EXPECT_EQ(read.mesh.points[16], Vec3(5, 5, 5));  // of the assembly: in no hex, and not node 1 of a brick
   EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{1, "one.E", {0}}, {2, "two.E", {1}}, {3, "BOTH", {0, 1}}}));
   ASSERT_EQ(read.mesh.node_sets.size(), 3u);
+  EXPECT_EQ(read.mesh.node_sets[0].name, "one.Corners");
   EXPECT_EQ(read.mesh.node_sets[2], (NodeSet{3, "TIP", {9}}));
-  EXPECT_EQ(read.notices, (std::vector<std::string>{"dropped 1 nodes of the assembly (reference points)"}));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{"ids that occur in several places of the file are moved: of instance 'two' "
+                                      "nodes by 8 elements by 1, of the assembly nodes by 16"}));
+}
+
+/// A part of two unit cubes along x, nodes 1..12 and elements 1, 2, at height z; `more` stands in it as well.
+std::string bar(const std::string& name, double z, const std::string& more = "") {
+  std::ostringstream out;
+  out << "*PART, NAME=" << name << "\n*NODE\n";
+  for (int k = 0; k < 12; ++k) out << k + 1 << ", " << k % 3 << ", " << k / 3 % 2 << ", " << z + k / 6 << '\n';
+  out << "*ELEMENT, TYPE=C3D8\n1, 1,2,5,4,7,8,11,10\n2, 2,3,6,5,8,9,12,11\n" << more << "*END PART\n";
+  return out.str();
+}
+MeshFile read_text(const std::string& text) {
+  return read_mesh(test::write_text(test::output_folder() / "a.inp", text));
+}
+std::vector<Index> nodes_of(const Mesh& mesh, const std::string& name) {
+  const auto set = std::ranges::find(mesh.node_sets, name, &NodeSet::name);
+  return set == mesh.node_sets.end() ? std::vector<Index>{-1} : set->nodes;
+}
+
+TEST(abaqus_files, each_part_instance_and_the_assembly_are_name_spaces) {
+  const std::string sets = "*NSET, NSET=Set-1\n1\n*ELSET, ELSET=Set-1\n2\n*SURFACE, NAME=Set-1\nSet-1, S4\n";
+  const auto read = read_text(
+      bar("A", 0, sets) + bar("B", 5, sets) + bar("unused", 9) +
+      "*ASSEMBLY, NAME=X\n*INSTANCE, NAME=a, PART=A\n*END INSTANCE\n*INSTANCE, NAME=b, PART=B\n*NSET, NSET=own\n3\n"
+      "*END INSTANCE\n*NODE\n3, 9,9,9\n*NSET, NSET=Set-1, INSTANCE=b\n2\n*NSET, NSET=RP\n3\n*NSET, NSET=none\n1\n"
+      "*NSET, NSET=mixed\na.3, b.Set-1, b.own\n*NSET, NSET=fromelements, ELSET=b.Set-1\n*ELEMENT, TYPE=CONN3D2\n"
+      "1, a.1, b.1\n2, ,\n*SURFACE, NAME=s\na.Set-1, S4\nb.1, S6\n*END ASSEMBLY\n");
+  EXPECT_EQ(nodes_of(read.mesh, "a.Set-1"), std::vector<Index>{0});
+  EXPECT_EQ(nodes_of(read.mesh, "b.Set-1"), std::vector<Index>{12});
+  EXPECT_EQ(nodes_of(read.mesh, "b.own"), std::vector<Index>{14});
+  EXPECT_EQ(nodes_of(read.mesh, "Set-1"), std::vector<Index>{13});
+  EXPECT_EQ(nodes_of(read.mesh, "RP"), std::vector<Index>{24});
+  EXPECT_EQ(nodes_of(read.mesh, "none"), std::vector<Index>{});  // node 1 of the assembly is not there
+  EXPECT_EQ(nodes_of(read.mesh, "mixed"), (std::vector<Index>{2, 12, 14}));
+  EXPECT_EQ(nodes_of(read.mesh, "fromelements"), (std::vector<Index>{13, 14, 16, 17, 19, 20, 22, 23}));
+  ASSERT_EQ(read.mesh.blocks.size(), 2u);
+  EXPECT_EQ(read.mesh.blocks[1], (Block{2, "b.Set-1", {3}}));
+  ASSERT_EQ(read.mesh.side_sets.size(), 3u);
+  EXPECT_EQ(read.mesh.side_sets[2].sides, (std::vector<Side>{{1, 1}, {2, 0}}));
+  EXPECT_EQ(read.notices, (std::vector<std::string>{
+                              "part 'unused' has no instance: its 2 hexes are left out",
+                              "ids that occur in several places of the file are moved: of instance 'b' nodes by 12 "
+                              "elements by 2, of the assembly nodes by 24 elements by 4",
+                              "dropped 2 elements of type CONN3D2",
+                              "sets name 1 nodes or elements that are not there; the first is node 1 in 'none'"}));
+}
+
+TEST(abaqus_files, a_mesh_in_a_part_and_again_in_its_instance_is_one) {
+  std::string own = bar("A", 0);
+  own = own.substr(own.find('\n') + 1, own.find("*END PART") - own.find('\n') - 1);
+  const std::string start = "*ASSEMBLY, NAME=X\n*INSTANCE, NAME=a, PART=A\n", end = "*END INSTANCE\n*END ASSEMBLY\n";
+  const auto both = read_text(bar("A", 0) + start + own + end);
+  EXPECT_EQ(both.mesh.n_hexes(), 2);
+  EXPECT_EQ(both.mesh.n_nodes(), 12);
+  const auto only = read_text("*PART, NAME=A\n*END PART\n" + start + own + end);
+  EXPECT_TRUE(test::same_mesh(both.mesh, only.mesh));
+  const auto file = test::write_text(test::output_folder() / "b.inp", bar("A", 1) + start + own + end);
+  EXPECT_EQ(test::refusal(file), file.string() + ":22: node id 1 occurs twice");
+  for (const auto& [text, what] :
+       {std::pair(bar("A", 0) + bar("a", 1), ":19: a second *PART 'a'"),
+        {bar("A", 0) + start + "*END INSTANCE\n*INSTANCE, NAME=A, PART=A\n" + end, ":22: a second *INSTANCE 'A'"},
+        {bar("A", 0) + start + end + "*ASSEMBLY, NAME=Y\n", ":23: a second *ASSEMBLY"}})
+    EXPECT_EQ(test::refusal(test::write_text(file, text)), file.string() + what);
+}
+
+TEST(abaqus_files, element_types_are_kept_by_blocks) {
+  Mesh mesh = test::grid(4, 1, 1);
+  std::string text = "*NODE\n";
+  for (Index n = 0; n < mesh.n_nodes(); ++n)
+    text += std::to_string(n + 1) + ", " + std::to_string(mesh.points[n].x()) + ", " +
+            std::to_string(mesh.points[n].y()) + ", " + std::to_string(mesh.points[n].z()) + "\n";
+  const std::array<const char*, 4> heads = {"C3D8R, ELSET=r", "C3D8I", "C3D8R", "SC8R, ELSET=shell"};
+  for (Index h = 0; h < 4; ++h) {
+    text += std::string("*ELEMENT, TYPE=") + heads[h] + "\n" + std::to_string(h + 1);
+    for (const int c : file_corner) text += ", " + std::to_string(mesh.hexes[h][c] + 1);
+    text += "\n";
+  }
+  const auto read = read_text(text);
+  EXPECT_EQ(read.extras.element_types,
+            (std::map<int, std::string>{{0, "C3D8R"}, {1, "C3D8R"}, {2, "SC8R"}, {3, "C3D8I"}}));
+  ASSERT_EQ(read.mesh.blocks.size(), 3u);
+  EXPECT_EQ(read.mesh.blocks[2], (Block{3, "C3D8I", {1}}));
+  EXPECT_EQ(read.notices.size(), 2u);
+  const auto file = test::output_folder() / "types.inp";
+  WriteOptions options;
+  options.extras = &read.extras;
+  EXPECT_EQ(write_mesh(file, read.mesh, nullptr, options), std::vector<std::string>{});
+  const auto back = read_mesh(file);
+  EXPECT_TRUE(test::same_mesh(read.mesh, back.mesh));
+  EXPECT_EQ(back.extras.element_types, read.extras.element_types);
+  EXPECT_EQ(write_mesh(test::output_folder() / "types.mesh", read.mesh, nullptr, options),
+            (std::vector<std::string>{"element types are left out, which only .inp has: C3D8R, SC8R, C3D8I"}));
+  Mesh less = read.mesh;
+  less.blocks.erase(less.blocks.begin() + 1);
+  EXPECT_EQ(write_mesh(file, less, nullptr, options),
+            (std::vector<std::string>{"block 2, of elements SC8R, is gone: its hexes are C3D8R"}));
+}
+
+TEST(abaqus_files, cards_that_are_no_mesh_stand_in_the_next_file) {
+  const std::string hex =
+      "*ELEMENT, TYPE=C3D8, ELSET=Solid\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=B31, ELSET=beams\n9, 1, 2\n";
+  const std::string cards =
+      "*MATERIAL, NAME=Steel\n*ELASTIC\n 210000., 0.3\n** a comment\n*SOLID SECTION, ELSET=solid, MATERIAL=Steel\n,\n";
+  const std::string step =
+      "*STEP, NLGEOM\n*STATIC\n1., 2.\n*BOUNDARY\nbase 1,1,3\n7, 1, 1\n*DSLOAD\nload, P, 1.\n*END STEP\n";
+  const auto read =
+      read_text("*HEADING\nmy job\n" + std::string(cube_nodes).substr(std::string(cube_nodes).find("*node")) + hex +
+                "*NSET, NSET=\"base 1\"\n1,2,3,4\n*SURFACE, NAME=load\nSolid, S2\n" + cards +
+                "*BEAM SECTION, ELSET=beams, MATERIAL=Steel\n1.,1.\n*EQUATION\n2\n1,1,1.,2,1,-1.\n" + step);
+  const std::string name = (test::output_folder() / "a.inp").string();
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{
+                name + ":29: *EQUATION is left out: it speaks of single nodes or elements",
+                "dropped 1 element of type B31", "element sets without a hex or a side are left out: 'beams'",
+                name + ":27: *BEAM SECTION is left out: it is about 'beams', of which nothing is kept",
+                "cards name nodes or elements by number, 1 times, first at " + name +
+                    ":35: what a refinement adds is not "
+                    "among them"}));
+  const auto file = test::output_folder() / "cards.inp";
+  WriteOptions options;
+  options.extras = &read.extras;
+  EXPECT_EQ(write_mesh(file, read.mesh, nullptr, options),
+            (std::vector<std::string>{"names that Abaqus cannot have are others in the file: 'base 1' is base_1"}));
+  const std::string text = test::text_of(file);
+  EXPECT_EQ(text.find("*HEADING\nmy job\n"), 0u);
+  std::string expected =
+      "*MATERIAL, NAME=Steel\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=Solid, MATERIAL=Steel\n,\n*STEP, NLGEOM\n"
+      "*STATIC\n1., 2.\n*BOUNDARY\nbase_1,1,3\n7, 1, 1\n*DSLOAD\nload, P, 1.\n*END STEP\n** hextwist end\n";
+  EXPECT_EQ(text.substr(text.size() - expected.size()), expected);
+  // Again, and without what they are about.
+  EXPECT_EQ(read_mesh(file).extras.cards.size(), read.extras.cards.size());
+  Mesh less = read.mesh;
+  less.node_sets.clear();
+  less.blocks.clear();
+  EXPECT_EQ(write_mesh(file, less, nullptr, options),
+            (std::vector<std::string>{name + ":25: *SOLID SECTION is left out: what it is about is gone",
+                                      name + ":35: 1 line of *BOUNDARY left out: what they are about is gone"}));
+  EXPECT_EQ(write_mesh(test::output_folder() / "cards.vtu", read.mesh, nullptr, options),
+            (std::vector<std::string>{
+                "8 cards left out, which only .inp has: *MATERIAL, *ELASTIC, *SOLID SECTION, *STEP, *STATIC, ..."}));
+}
+
+TEST(abaqus_files, names_of_different_kinds_may_be_the_same) {
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.blocks = {{1, "Set-1", {0}}, {2, "Eall", {1}}};
+  mesh.node_sets = {{1, "Set-1", {0}}, {2, "nall", {1}}};
+  mesh.side_sets = {{1, "Set-1", {{0, 0}}}};
+  const auto file = test::output_folder() / "names.inp";
+  EXPECT_EQ(write_mesh(file, mesh, nullptr), std::vector<std::string>{});
+  const std::string text = test::text_of(file);
+  for (const char* line : {"*ELSET, ELSET=Set-1\n", "*NSET, NSET=Set-1\n", "NAME=Set-1\n", "*NODE\n", "TYPE=C3D8\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  EXPECT_TRUE(test::same_mesh(mesh, read_mesh(file).mesh));
+}
+
+TEST(abaqus_files, ranges_take_the_time_of_what_there_is) {
+  const std::string hex = std::string(cube_nodes) + "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n";
+  const auto read = read_text(hex +
+                              "*NSET, NSET=all, GENERATE\n1, 9223372036854775807, 1\n2, 4611686018427387904, 3\n"
+                              "*NSET, NSET=far, GENERATE\n9223372036854775806, 9223372036854775807\n");
+  EXPECT_EQ(nodes_of(read.mesh, "all"), (std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(nodes_of(read.mesh, "far"), std::vector<Index>{});
+  ASSERT_EQ(read.notices.size(), 1u);
+  const auto file = test::output_folder() / "b.inp";
+  for (const char* range : {"0, 5", "5, 4", "-9223372036854775808, 9223372036854775807", "1, 5, 0"})
+    EXPECT_EQ(test::refusal(test::write_text(file, hex + "*NSET, NSET=a, GENERATE\n" + range + "\n")),
+              file.string() + ":17: a range that cannot be generated");
+  // Sparse ids.
+  std::string sparse = hex + "*NODE\n4611686018427387904, 0,0,9\n*NSET, NSET=s, GENERATE\n2, 4611686018427387904, 2\n";
+  EXPECT_EQ(nodes_of(read_text(sparse).mesh, "s"), (std::vector<Index>{1, 3, 5, 7, 8}));
+  const auto moved = test::write_text(
+      file, bar("A", 0, "*NODE\n4611686018427387904, 0,0,9\n") +
+                "*INSTANCE, NAME=a, PART=A\n*END INSTANCE\n*INSTANCE, NAME=b, PART=A\n*END INSTANCE\n");
+  EXPECT_EQ(test::refusal(moved), file.string() +
+                                      ":1: id 4611686018427387904 of instance 'b' is too large to be counted on "
+                                      "from 4611686018427387904");
+}
+
+TEST(abaqus_files, a_file_that_was_cut_is_not_read_in_silence) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.blocks = {{1, "a", {0}}};
+  mesh.node_sets = {{1, "b", {0, 3}}};
+  write_mesh(folder / "whole.inp", mesh, nullptr);
+  const std::string text = test::text_of(folder / "whole.inp");
+  for (std::size_t n = 1; n + 1 < text.size(); ++n)
+    EXPECT_NE(test::refusal(test::write_text(folder / "cut.inp", text.substr(0, n))), "no error") << n;
+  // Other people's files say no end: what can be seen is a line without one.
+  const auto foreign =
+      test::write_text(folder / "a.inp", cube_nodes + std::string("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8"));
+  EXPECT_EQ(read_mesh(foreign).notices,
+            (std::vector<std::string>{foreign.string() + ":15: the last line has no end; the file may be cut short"}));
+  const auto few =
+      test::write_text(folder / "few.inp", std::string(text).replace(text.find("mesh 12 2"), 9, "mesh 13 2"));
+  EXPECT_EQ(test::refusal(few), few.string() + ": 12 of the 13 nodes that the file announces: it is cut short");
+}
+
+TEST(abaqus_files, comments_of_ours_with_impossible_ids_are_refused) {
+  for (const char* id : {"0", "-3", "3000000000", "x"}) {
+    const auto file = test::write_text(test::output_folder() / "a.inp",
+                                       std::string("** hextwist block ") + id + " L name\n" + cube_nodes);
+    EXPECT_EQ(test::refusal(file), file.string() + ":1: block id '" + id + "' is not between 1 and 2147483647");
+  }
 }
 
 TEST(abaqus_files, what_is_wrong_is_said_with_its_line) {
@@ -235,10 +442,10 @@ TEST(abaqus_files, a_real_mesh_has_the_known_counts) {
   EXPECT_TRUE(test::conformal(file.mesh));
   EXPECT_TRUE(test::uninverted(file.mesh));
   ASSERT_EQ(file.mesh.blocks.size(), 1);
-  EXPECT_EQ(file.mesh.blocks[0].name, "EB1");
+  EXPECT_EQ(file.mesh.blocks[0].name, "Part-Default_1.EB1");
   EXPECT_EQ(file.mesh.blocks[0].hexes.size(), 1032);
   ASSERT_EQ(file.mesh.node_sets.size(), 1);
-  EXPECT_EQ(file.mesh.node_sets[0].name, "ALLNODES");
+  EXPECT_EQ(file.mesh.node_sets[0].name, "Part-Default_1.ALLNODES");
   const auto copy = test::output_folder() / "copy.inp";
   write_mesh(copy, file.mesh, nullptr);
   EXPECT_TRUE(test::same_mesh(file.mesh, read_mesh(copy).mesh));

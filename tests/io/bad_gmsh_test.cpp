@@ -135,5 +135,13 @@ TEST(gmsh_files, parameters_partitions_curve_groups_and_time_steps_are_understoo
                                       "dropped 1 elements of type 3-node line, which are no side or edge of a hex"}));
 }
 
+TEST(bad_gmsh_files, sections_that_a_file_has_once) {
+  const std::string names = "$PhysicalNames\n0\n$EndPhysicalNames\n";
+  says(head2 + names + names, ":7: a second $PhysicalNames");
+  const std::string periodic = "$Periodic\n0\n$EndPeriodic\n";
+  says(head4 + periodic + periodic, ":7: a second $Periodic");
+  says(head4 + "$Periodic\n1\n7 1 1\n", ":6: a periodic entity of dimension 7");
+}
+
 }  // namespace
 }  // namespace hextwist

@@ -85,7 +85,8 @@ TEST(medit_files, what_is_wrong_is_said_with_its_line) {
   says("End\n", ":16: there is no hex in the file");
   says("Hexahedra 1\n1 2 3 x 5 6 7 8 2\n", ":16: expected a vertex, found 'x'");
   says("Hexahedra 1\n1 2 3 4 5\n", ":15: the file is too short for 1 hexes");
-  says("Vertices 0\n", ":15: a second section of vertices");
+  says("Vertices 0\n", ":15: a second section Vertices");
+  says("Edges 0\nEdges 0\n", ":16: a second section Edges");
   const auto nan = test::write_text(folder / "nan.mesh", "MeshVersionFormatted 2 Dimension 3\nVertices 1\n0 nan 0 0\n");
   EXPECT_EQ(test::refusal(nan), nan.string() + ":3: a coordinate of vertex 1 is not finite");
   const auto flat = test::write_text(folder / "flat.mesh", "MeshVersionFormatted 2\nDimension 2\n");
@@ -94,6 +95,24 @@ TEST(medit_files, what_is_wrong_is_said_with_its_line) {
   EXPECT_EQ(test::refusal(other), other.string() + ":1: not a MEDIT file: it does not begin with MeshVersionFormatted");
   const auto binary = test::write_text(folder / "binary.mesh", std::string("\1\0\0\0\2\0\0\0", 8));
   EXPECT_EQ(test::refusal(binary), binary.string() + ":1: a binary MEDIT file (.meshb), only text is read");
+}
+
+TEST(medit_files, what_may_be_missing_is_said) {
+  const auto file =
+      test::write_text(test::output_folder() / "a.mesh",
+                       std::string(cube) + "Quadrilaterals\n1\n1 2 3 4 -5\nHexahedra\n1\n1 2 3 4 5 6 7 8 -2\n");
+  EXPECT_EQ(read_mesh(file).notices,
+            (std::vector<std::string>{file.string() + ":21: there is no End; the file may be cut short",
+                                      "negative references (blocks) of 1 element left out",
+                                      "negative references (sidesets) of 1 element left out"}));
+  Mesh mesh = test::grid(1, 1, 1);
+  mesh.node_ids = {2, 3, 4, 5, 6, 7, 8, 9};
+  mesh.hex_ids = {4};
+  mesh.fields = {{"t", Field::On::hex, 1, {1}}};
+  EXPECT_EQ(write_mesh(file, mesh, nullptr),
+            (std::vector<std::string>{"MEDIT has no ids: nodes are counted from 1 in the file",
+                                      "MEDIT has no ids: hexes are counted from 1 in the file",
+                                      "MEDIT has no fields: 't' left out"}));
 }
 
 TEST(medit_files, real_meshes_have_the_known_counts) {

@@ -142,6 +142,30 @@ TEST(vtk_files, legacy_files_with_voxels_quads_and_arrays_are_understood) {
                           {"speed up", Field::On::node, 2, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}}}));
 }
 
+TEST(vtk_files, blank_lines_after_the_title_and_a_last_line_without_end_are_taken) {
+  std::string text = std::string(legacy) + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11";
+  text.replace(text.find("title\n"), 6, "\n\n\n");
+  const auto file = test::write_text(test::output_folder() / "blank.vtk", text);
+  const auto read = read_mesh(file);
+  EXPECT_EQ(read.mesh.n_hexes(), 1);
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{file.string() + ":13: the last line has no end; the file may be cut short"}));
+}
+
+TEST(vtk_files, material_ids_that_are_no_ids_of_blocks_are_named) {
+  const auto file =
+      test::write_text(test::output_folder() / "ids.vtk",
+                       std::string(legacy) +
+                           "CELLS 2 18\n8 0 1 2 3 4 5 6 7\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 2\n11 11\nCELL_DATA 2\n"
+                           "SCALARS MaterialID double 1\nLOOKUP_TABLE default\n0 3000000000\n");
+  const auto read = read_mesh(file);
+  EXPECT_TRUE(read.mesh.blocks.empty());
+  EXPECT_EQ(read.mesh.fields[0].values, (std::vector<double>{0, 3e9}));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{"MaterialID of 2 hexes is no id of a block (1 to 2147483646): they are in "
+                                      "none, the values are a field"}));
+}
+
 TEST(vtk_files, global_ids_are_the_ids) {
   const auto file = test::output_folder() / "ids.vtk";
   const std::string cells = std::string(legacy) + "CELLS 2 14\n4 0 1 3 2\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 2\n9 12\n";
@@ -216,6 +240,12 @@ TEST(vtk_files, what_is_wrong_is_said) {
        ":4: data set 'POLYDATA'; only UNSTRUCTURED_GRID is read");
   says("# vtk DataFile Version 2.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 nan 0\n",
        ": a coordinate of point 0 (counted from 0) is not finite");
+  const std::string cell = "CELLS 1 9\n8 0 1 2 3 4 5 6 7\n", type = "CELL_TYPES 1\n12\n";
+  says(good + cell + cell, ":10: a second CELLS");
+  says(good + cell + type + type, ":12: a second CELL_TYPES");
+  says(good + "POINTS 0 float\n", ":8: a second POINTS");
+  // The type 12 cut short.
+  says(good + cell + "CELL_TYPES 1\n1", ": cell 1 has 8 nodes instead of 1, which cells of type 1 have");
   says("# vtk DataFile Version 9.0\n", ":1: version '9.0' is not known, 1.0 to 5.1 are");
   says("solid\n", ":1: not a VTK file: it does not begin with '# vtk DataFile'");
 }

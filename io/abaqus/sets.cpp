@@ -1,0 +1,427 @@
+// Sets and surfaces of an Abaqus file become blocks, side sets and node sets; element types and cards follow them.
+//
+// Element sets are blocks (their hexes) and side sets (their quads), node sets and surfaces of nodes are node sets,
+// surfaces of elements side sets; ids count them in the order of the file. Sets of a part or an instance are named
+// instance.set, as Abaqus names them from outside.
+#include <limits>
+#include <set>
+
+#include "hextwist/base/sorted.h"
+#include "hextwist/io/abaqus/abaqus_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+using Reference = AbaqusCard::Reference;
+
+/// Members of a set: indices of the mesh, and of the file's quads.
+struct Members {
+  std::vector<Index> nodes, hexes, quads;
+  std::vector<Side> sides;
+};
+
+class Sets {
+ public:
+  Sets(const AbaqusContents& contents, const AbaqusParts& parts, MeshFile& out)
+      : in_(contents), parts_(parts), out_(out) {}
+
+  void run() {
+    for (const AbaqusPlaced& placed : parts_.placed)
+      each_scope(placed, [&](const AbaqusScope& scope) {
+        for (const AbaqusSet& set : scope.sets) add_set(placed, set);
+      });
+    finish_sets();
+    types();
+    cards();
+    out_.extras.heading = in_.heading;
+    say_missing();
+  }
+
+ private:
+  template <class F>
+  static void each_scope(const AbaqusPlaced& placed, const F& f) {
+    for (const AbaqusScope* scope : placed.scopes)
+      if (scope) f(*scope);
+  }
+
+  const AbaqusPlaced* find_instance(std::string_view name) const {
+    for (const AbaqusPlaced& placed : parts_.placed)
+      if (!placed.name.empty() && same_word(placed.name, name)) return &placed;
+    return nullptr;
+  }
+
+  void missing(const char* kind, std::int64_t id, std::uint64_t n) {
+    if (n == 0) return;
+    if (n_missing_ == 0)
+      first_missing_ = std::string(kind) + " " + std::to_string(id) + " in '" + (current_ ? current_->name : "") + "'";
+    n_missing_ += std::min(n, std::numeric_limits<std::uint64_t>::max() - n_missing_);
+  }
+  bool add_node(const AbaqusPlaced& placed, std::int64_t id, Members& to) const {
+    const Index node = parts_.nodes.find(placed.nodes(id));
+    if (node >= 0) to.nodes.push_back(node);
+    return node >= 0;
+  }
+  bool add_element(const AbaqusPlaced& placed, std::int64_t id, Members& to) const {
+    const std::int64_t in_mesh = placed.elements(id);
+    if (const Index hex = parts_.hexes.find(in_mesh); hex >= 0) {
+      to.hexes.push_back(hex);
+      return true;
+    }
+    if (const auto quad = parts_.quad_of_id.find(in_mesh); quad != parts_.quad_of_id.end()) {
+      to.quads.push_back(quad->second);
+      if (const Side side = parts_.quad_sides[quad->second]; side.hex >= 0) to.sides.push_back(side);
+      return true;
+    }
+    bool other = false;  // dropped
+    each_scope(placed,
+               [&](const AbaqusScope& scope) { other = other || std::ranges::binary_search(scope.other_ids, id); });
+    return other;
+  }
+  void add(const AbaqusPlaced& placed, bool nodes, std::int64_t id, Members& to) {
+    if (!(nodes ? add_node(placed, id, to) : add_element(placed, id, to))) missing(nodes ? "node" : "element", id, 1);
+  }
+
+  /// GENERATE, in time and memory of what there is.
+  void add_range(const AbaqusPlaced& placed, bool nodes, const std::array<std::int64_t, 3>& range, Members& to) {
+    const auto [first, last, step] = range;
+    const auto size =
+        (static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)) / static_cast<std::uint64_t>(step);
+    std::uint64_t n = 0;
+    std::int64_t lost = 0;
+    const AbaqusPlaced::Numbers& own = nodes ? placed.nodes : placed.elements;
+    if (own.low > own.high) return missing(nodes ? "node" : "element", first, size + 1);
+    // The first of the range that the place may have, and from there on.
+    const std::int64_t from = std::max(first, own.low), to_last = std::min(last, own.high);
+    if (from <= to_last) {
+      const auto skipped = (static_cast<std::uint64_t>(from) - static_cast<std::uint64_t>(first) +
+                            static_cast<std::uint64_t>(step) - 1) /
+                           static_cast<std::uint64_t>(step);
+      const std::uint64_t end =
+          (static_cast<std::uint64_t>(to_last) - static_cast<std::uint64_t>(first)) / static_cast<std::uint64_t>(step);
+      const auto all = static_cast<std::uint64_t>(std::max(nodes ? parts_.nodes.size() : n_elements(), Index{1}));
+      if (end >= skipped && end - skipped > 8 * all) return add_sparse_range(placed, nodes, range, to);
+      for (std::uint64_t k = skipped; k <= end; ++k) {
+        const auto id =
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(first) + k * static_cast<std::uint64_t>(step));
+        if (nodes ? add_node(placed, id, to) : add_element(placed, id, to))
+          ++n;
+        else if (lost == 0)
+          lost = id;
+      }
+    }
+    missing(nodes ? "node" : "element", lost ? lost : first < own.low ? first : last, size + 1 - n);
+  }
+  Index n_elements() const { return parts_.hexes.size() + static_cast<Index>(parts_.quads.size()); }
+  /// The same over the ids that there are.
+  void add_sparse_range(const AbaqusPlaced& placed, bool nodes, const std::array<std::int64_t, 3>& range, Members& to) {
+    const auto [first, last, step] = range;
+    std::uint64_t n = 0;
+    const auto take = [&](const std::vector<std::int64_t>& ids) {
+      for (const std::int64_t id : ids)
+        if (id >= first && id <= last && (id - first) % step == 0)
+          n += nodes ? add_node(placed, id, to) : add_element(placed, id, to);
+    };
+    each_scope(placed, [&](const AbaqusScope& scope) {
+      if (nodes) return take(scope.node_ids);
+      for (const auto* ids : {&scope.hex_ids, &scope.quad_ids, &scope.other_ids}) take(*ids);
+    });
+    missing(nodes ? "node" : "element", first,
+            (static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)) / static_cast<std::uint64_t>(step) +
+                1 - n);
+  }
+
+  static bool of_nodes(AbaqusSet::Kind kind) { return kind == AbaqusSet::nodes || kind == AbaqusSet::node_surface; }
+
+  /// Members of a set with the sets that it names, to any depth.
+  void resolve(const AbaqusPlaced& placed, const AbaqusSet& set, Members& to, int depth = 0) {
+    if (depth > 50) in_.fail(set.at, "set " + shown(set.name) + " contains itself");
+    const AbaqusPlaced* home = &placed;
+    if (!set.instance.empty()) {
+      home = find_instance(set.instance);
+      if (!home) in_.fail(set.at, "there is no instance " + shown(set.instance));
+    }
+    for (const std::int64_t id : set.ids) add(*home, of_nodes(set.kind), id, to);
+    for (const auto& range : set.ranges) add_range(*home, of_nodes(set.kind), range, to);
+    for (const AbaqusMember& member : set.members) resolve_member(*home, of_nodes(set.kind), member, to, depth);
+    if (!set.elset.empty()) {
+      Members elements;
+      resolve_member(*home, false, {set.elset, set.at}, elements, depth);
+      for (const Index h : elements.hexes)
+        to.nodes.insert(to.nodes.end(), out_.mesh.hexes[h].begin(), out_.mesh.hexes[h].end());
+      for (const Index q : elements.quads)
+        to.nodes.insert(to.nodes.end(), parts_.quads[q].begin(), parts_.quads[q].end());
+    }
+  }
+  /// The place and the rest of "Instance.rest"; the place itself where no instance is named.
+  std::pair<const AbaqusPlaced*, std::string> split(const AbaqusPlaced& placed, const std::string& name) const {
+    for (auto dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1))
+      if (const AbaqusPlaced* instance = find_instance(std::string_view(name).substr(0, dot)))
+        return {instance, name.substr(dot + 1)};
+    return {&placed, name};
+  }
+  static std::optional<std::int64_t> number(const std::string& text) {
+    std::int64_t id = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error != std::errc{} || stop != text.data() + text.size()) return {};
+    return id;
+  }
+  void resolve_member(const AbaqusPlaced& placed, bool nodes, const AbaqusMember& member, Members& to, int depth) {
+    const auto place = split(placed, member.text);
+    const AbaqusPlaced& home = *place.first;
+    const std::string& name = place.second;
+    if (const auto id = number(name)) return add(home, nodes, *id, to);
+    bool found = false;
+    each_scope(home, [&](const AbaqusScope& scope) {
+      for (const AbaqusSet& other : scope.sets)
+        if (other.kind == (nodes ? AbaqusSet::nodes : AbaqusSet::elements) && same_word(other.name, name)) {
+          found = true;
+          resolve(home, other, to, depth + 1);
+        }
+    });
+    if (!found) in_.fail(member.at, "there is no set " + shown(member.text));
+  }
+
+  static std::string full_name(const AbaqusPlaced& placed, const std::string& name) {
+    return placed.name.empty() ? name : placed.name + "." + name;
+  }
+
+  void add_set(const AbaqusPlaced& placed, const AbaqusSet& set) {
+    current_ = &set;
+    Members members;
+    if (set.kind == AbaqusSet::surface)
+      for (const auto& [member, face] : set.surface_members) add_surface(placed, set, member, face, members);
+    else
+      resolve(placed, set, members);
+    current_ = nullptr;
+    const std::string name = full_name(placed, set.name), key = upper_case(name);
+    // The sets of everything that we write ourselves.
+    if (in_.ours && (key == "NALL" || key == "EALL") && !in_.real_names.contains({kind_words[set.kind], key})) return;
+    auto& to = sets_[{set.kind, key}];
+    if (to.order == 0) to = {sets_.size(), name, {}};
+    for (auto [from, into] : {std::pair(&members.nodes, &to.members.nodes), {&members.hexes, &to.members.hexes}})
+      into->insert(into->end(), from->begin(), from->end());
+    to.members.sides.insert(to.members.sides.end(), members.sides.begin(), members.sides.end());
+  }
+
+  void add_surface(const AbaqusPlaced& placed, const AbaqusSet& set, const AbaqusMember& member,
+                   const std::string& face, Members& to) {
+    const AbaqusPlaced* home = set.instance.empty() ? &placed : find_instance(set.instance);
+    if (!home) in_.fail(set.at, "there is no instance " + shown(set.instance));
+    Members elements;
+    resolve_member(*home, false, member, elements, 0);
+    to.sides.insert(to.sides.end(), elements.sides.begin(), elements.sides.end());  // quads: SPOS, SNEG
+    if (elements.hexes.empty()) return;
+    if (face.empty()) {
+      // Without a face: those that are on the skin.
+      if (!skin_) skin_ = boundary_sides(faces(out_.mesh));
+      sort_unique(elements.hexes);
+      for (const Side& side : *skin_)
+        if (std::ranges::binary_search(elements.hexes, side.hex)) to.sides.push_back(side);
+      return;
+    }
+    const int number = face.size() == 2 && face[0] == 'S' ? face[1] - '0' : 0;
+    if (number < 1 || number > 6) in_.fail(member.at, "face " + shown(face) + " of a hex; known are S1 to S6");
+    for (const Index h : elements.hexes) to.sides.push_back({h, abaqus_face[number - 1]});
+  }
+
+  void finish_sets() {
+    std::vector<std::pair<std::size_t, std::pair<AbaqusSet::Kind, std::string>>> order;
+    for (const auto& [key, set] : sets_) order.emplace_back(set.order, key);
+    std::ranges::sort(order);
+    Mesh& mesh = out_.mesh;
+    std::string empty;
+    for (const auto& [position, key] : order) {
+      auto& [unused, name, members, block, other] = sets_[key];
+      sort_unique(members.nodes);
+      sort_unique(members.hexes);
+      sort_unique(members.sides);
+      const auto real = [&](const char* kind, auto& groups) -> auto& {
+        const auto known = in_.real_names.find({kind, key.second});
+        auto& group = group_of_id(groups, known == in_.real_names.end() ? free_id(groups) : known->second.first);
+        group.name = known == in_.real_names.end() ? name : known->second.second;
+        return group;
+      };
+      if (of_nodes(key.first)) {
+        NodeSet& set = real("nodeset", mesh.node_sets);
+        set.nodes = std::move(members.nodes);
+        other = {Reference::node_set, set.id};
+        if (key.first == AbaqusSet::node_surface) out_.extras.node_surfaces.push_back(set.id);
+      }
+      if (key.first == AbaqusSet::surface) {
+        SideSet& set = real("sideset", mesh.side_sets);
+        set.sides = std::move(members.sides);
+        other = {Reference::side_set, set.id};
+      }
+      if (key.first != AbaqusSet::elements) continue;
+      const bool quads = !members.sides.empty(), known = in_.real_names.contains({"block", key.second});
+      if (!members.hexes.empty() || known) {
+        Block& set = real("block", mesh.blocks);
+        set.hexes = std::move(members.hexes);
+        block = set.id;
+      } else if (!quads) {
+        empty += (empty.empty() ? "'" : ", '") + name + "'";
+      }
+      if (quads) {
+        SideSet& set = real("sideset", mesh.side_sets);
+        set.sides = std::move(members.sides);
+        other = {Reference::side_set, set.id};
+      }
+    }
+    std::ranges::sort(out_.extras.node_surfaces);
+    if (!empty.empty()) out_.notices.push_back("element sets without a hex or a side are left out: " + empty);
+  }
+
+  /// Types by blocks, which refinements carry. A type whose hexes are no block gets one.
+  void types() {
+    auto& of_block = out_.extras.element_types;
+    const auto n_types = parts_.types.size();
+    for (const std::string& type : parts_.types)
+      if (type.starts_with("SC8") || type.starts_with("CSS8") || type.starts_with("COH3D8"))
+        out_.notices.push_back("elements of type " + type +
+                               " have a thickness direction; that of hexes that a refinement makes may be another one");
+    if (n_types == 1) {
+      if (parts_.types[0] != "C3D8") of_block[0] = parts_.types[0];
+      return;
+    }
+    std::vector<char> covered(parts_.type_of_hex.size(), 0);
+    for (const Block& block : out_.mesh.blocks) {
+      const auto type = [&](Index h) { return parts_.type_of_hex[h]; };
+      if (block.hexes.empty()) continue;
+      const int first = type(block.hexes[0]);
+      if (!std::ranges::all_of(block.hexes, [&](Index h) { return type(h) == first; })) continue;
+      of_block[block.id] = parts_.types[first];
+      for (const Index h : block.hexes) covered[h] = 1;
+    }
+    std::vector<std::vector<Index>> rest(n_types);
+    for (std::size_t h = 0; h < covered.size(); ++h)
+      if (!covered[h]) rest[parts_.type_of_hex[h]].push_back(static_cast<Index>(h));
+    const auto most = std::ranges::max_element(rest, {}, [](const auto& hexes) { return hexes.size(); });
+    const auto usual = static_cast<std::size_t>(most - rest.begin());
+    if (parts_.types[usual] != "C3D8") of_block[0] = parts_.types[usual];
+    for (std::size_t t = 0; t < n_types; ++t) {
+      if (t == usual || rest[t].empty()) continue;
+      Block block{free_id(out_.mesh.blocks), parts_.types[t], std::move(rest[t])};
+      out_.notices.push_back("elements of type " + block.name + " that are in no set of their own are block " +
+                             std::to_string(block.id) + " '" + block.name + "'");
+      of_block[block.id] = block.name;
+      out_.mesh.blocks.push_back(std::move(block));
+    }
+  }
+
+  /// What a word of a card stands for. Nothing where it is none of the mesh's sets: it stays as it is.
+  struct Meaning {
+    std::optional<std::pair<Reference::Kind, std::int64_t>> reference;
+    bool lost = false;  ///< part of the file's mesh, but not of ours
+  };
+  Meaning meaning(const AbaqusPlaced& placed, AbaqusNamed::Kind kind, const std::string& word) const {
+    const auto [home, name] = split(placed, word);
+    if (const auto id = number(name)) {
+      const bool nodes = kind == AbaqusNamed::nodes;
+      const Index at = nodes ? parts_.nodes.find(home->nodes(*id)) : parts_.hexes.find(home->elements(*id));
+      if (at < 0) return {{}, true};
+      return {std::pair(nodes ? Reference::node : Reference::hex, nodes ? home->nodes(*id) : home->elements(*id)),
+              false};
+    }
+    const std::string key = upper_case(full_name(*home, name));
+    std::vector<AbaqusSet::Kind> kinds = {AbaqusSet::nodes};
+    if (kind == AbaqusNamed::elements) kinds = {AbaqusSet::elements};
+    if (kind == AbaqusNamed::surface) kinds = {AbaqusSet::surface, AbaqusSet::node_surface};
+    for (const auto one : kinds) {
+      const auto found = sets_.find({one, key});
+      if (found == sets_.end()) continue;
+      if (one == AbaqusSet::elements)
+        return found->second.block > 0 ? Meaning{std::pair(Reference::block, std::int64_t{found->second.block}), false}
+                                       : Meaning{{}, true};
+      return {found->second.other, false};
+    }
+    return {};
+  }
+
+  /// In the order of the file, but those of parts and the assembly before the first step: CalculiX wants materials
+  /// before sections.
+  void cards() {
+    auto& cards = out_.extras.cards;
+    std::size_t n_model = 0;
+    for (const AbaqusPlaced& placed : parts_.placed) {
+      each_scope(placed, [&](const AbaqusScope& scope) {
+        for (const AbaqusRawCard& card : scope.cards) add_card(placed, card);
+      });
+      if (placed.scopes[0]->kind == AbaqusScope::model) n_model = cards.size();
+    }
+    const auto model_end = cards.begin() + static_cast<std::ptrdiff_t>(n_model);
+    const auto step = std::find_if(
+        cards.begin(), model_end, [](const AbaqusCard& card) { return upper_case(card.text.substr(0, 5)) == "*STEP"; });
+    std::rotate(step, model_end, cards.end());
+    if (n_numbers_ > 0)
+      out_.notices.push_back("cards name nodes or elements by number, " + std::to_string(n_numbers_) +
+                             " times, first at " + first_number_ + ": what a refinement adds is not among them");
+  }
+
+  void add_card(const AbaqusPlaced& placed, const AbaqusRawCard& raw) {
+    AbaqusCard card{raw.text, {}, in_.where(raw.at)};
+    std::vector<std::pair<std::size_t, std::size_t>> lost_lines;
+    std::string lost;
+    for (const AbaqusNamed& named : raw.named) {
+      std::string word = raw.text.substr(named.begin, named.end - named.begin);
+      if (word.size() > 1 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
+      const auto [reference, gone] = meaning(placed, named.kind, word);
+      if (reference)
+        card.references.push_back({reference->first, reference->second, named.begin, named.end, named.by_keyword});
+      if (!gone) continue;
+      lost += (lost.empty() ? "'" : ", '") + word + "'";
+      if (named.by_keyword) {
+        out_.notices.push_back(card.where + ": *" + raw.keyword + " is left out: it is about " + lost +
+                               ", of which nothing is kept");
+        return;
+      }
+      lost_lines.push_back(line_around(raw.text, named.begin));
+    }
+    sort_unique(lost_lines);
+    for (auto line = lost_lines.rbegin(); line != lost_lines.rend(); ++line) cut_out(card, line->first, line->second);
+    if (!lost_lines.empty())
+      out_.notices.push_back(card.where + ": lines of *" + raw.keyword + " about " + lost +
+                             " are left out: nothing of that is kept");
+    // The same for each instance of a part: an orientation, ...
+    const bool there = card.references.empty() && placed.scopes[0]->kind == AbaqusScope::part &&
+                       std::ranges::find(out_.extras.cards, card.text, &AbaqusCard::text) != out_.extras.cards.end();
+    if (there) return;
+    for (const Reference& reference : card.references)
+      if (reference.kind == Reference::node || reference.kind == Reference::hex)
+        if (n_numbers_++ == 0) first_number_ = card.where;
+    out_.extras.cards.push_back(std::move(card));
+  }
+
+  void say_missing() {
+    if (n_missing_ == 0) return;
+    out_.notices.push_back("sets name " + std::to_string(n_missing_) +
+                           " nodes or elements that are not there; the first is " + first_missing_);
+  }
+
+  struct Collected {
+    std::size_t order = 0;
+    std::string name;
+    Members members;
+    int block = 0;  ///< what it became
+    std::pair<Reference::Kind, std::int64_t> other = {Reference::node_set, 0};
+  };
+  static constexpr std::array<const char*, 4> kind_words = {"nodeset", "block", "sideset", "nodeset"};
+
+  const AbaqusContents& in_;
+  const AbaqusParts& parts_;
+  MeshFile& out_;
+  std::map<std::pair<AbaqusSet::Kind, std::string>, Collected> sets_;
+  std::optional<std::vector<Side>> skin_;
+  const AbaqusSet* current_ = nullptr;
+  std::uint64_t n_missing_ = 0;
+  std::string first_missing_;
+  std::int64_t n_numbers_ = 0;
+  std::string first_number_;
+};
+
+}  // namespace
+
+void add_abaqus_sets(const AbaqusContents& contents, const AbaqusParts& parts, MeshFile& out) {
+  Sets(contents, parts, out).run();
+}
+
+}  // namespace hextwist::io

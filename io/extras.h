@@ -1,0 +1,51 @@
+// What a mesh file says beyond a mesh and its owners, kept for files of the same format.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hextwist/base/export.h"
+
+namespace HEXTWIST_API hextwist {
+
+/// A card of an Abaqus file that is no mesh (a section, a material, a step, a boundary condition), with the lines that
+/// belong to it, and what of the mesh it names. Its text stays as it was but for those names.
+struct AbaqusCard {
+  struct Reference {
+    enum Kind { block, node_set, side_set, node, hex } kind;
+    std::int64_t id;
+    std::size_t begin, end;  ///< in the text
+    bool by_keyword;         ///< named in the keyword's line: the whole card is about it, else the line is
+  };
+  std::string text;
+  std::vector<Reference> references;  ///< ascending
+  std::string where;                  ///< file and line
+};
+
+/// Nodes of one entity of a Gmsh file, each with its image on another: a periodic boundary.
+struct PeriodicPairs {
+  int dim = 0;
+  int entity = 0, of = 0;                          ///< tags in the file: the entity and the one that it repeats
+  std::vector<double> affine;                      ///< 4 x 4, row by row: takes `of` to `entity`; may be empty
+  std::vector<std::array<std::int64_t, 2>> nodes;  ///< ids, on the entity and on `of`
+};
+
+/// write_mesh() writes them again, in the file's own format and as far as they still fit the mesh; a notice says what
+/// does not.
+struct FileExtras {
+  /// Abaqus: the type of the hexes of a block, by its id; at 0 that of all others, C3D8 where there is none.
+  std::map<int, std::string> element_types;
+  std::string heading;  ///< Abaqus: lines below *HEADING
+  std::vector<AbaqusCard> cards;
+  std::vector<int> node_surfaces;  ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
+  std::vector<PeriodicPairs> periodic;
+
+  bool empty() const {
+    return element_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty();
+  }
+};
+
+}  // namespace hextwist
