@@ -8,6 +8,7 @@
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/owner.h"
 #include "hextwist/geom/primitives.h"
+#include "hextwist/io/extras.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/corners.h"

@@ -239,9 +239,10 @@ std::pair<std::int64_t, std::int64_t> element_tags(const Mesh& mesh, const GmshP
   const auto add = [&](std::int64_t first, std::int64_t last) {
     low = std::min(low, first), high = std::max(high, last);
   };
-  for (std::size_t k = 0; k < plan.elements[3].size; ++k) {
-    const std::int64_t id = plan.tag(mesh, 3, k);
-    add(id, id);
+  if (plan.elements[3].size == mesh.hexes.size() && !mesh.hexes.empty()) {
+    add(hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1));
+  } else {
+    for (const Index h : plan.elements[3].items) add(hex_id(mesh, h), hex_id(mesh, h));
   }
   for (int dim = 0; dim < 3; ++dim)
     if (const std::size_t n = plan.elements[dim].size; n > 0) add(plan.tag(mesh, dim, 0), plan.tag(mesh, dim, n - 1));
