@@ -48,7 +48,7 @@ std::string run(const Options& options, Session& session, Console& console) {
   };
   if (options.threads > 0) attempt_step([&] { return session.run("set threads " + std::to_string(options.threads)); });
   // A mesh is to be checked as it is.
-  if (options.check) attempt_step([&] { return session.run("set untangle off"); });
+  if (options.check) attempt_step([&] { return session.run("set untangle off; set snap off"); });
   // Without its input there is nothing to go on with.
   if (!options.cad.empty() && !attempt_step(once([&] { session.import_cad(options.cad); }))) return error;
   if (!options.mesh.empty() && !attempt_step(once([&] { session.import_mesh(options.mesh); }))) return error;

@@ -15,6 +15,7 @@ set(HEXTWIST_HEADERS
   mesh/primitives.h
   mesh/association/association.h
   mesh/quality/quality.h
+  mesh/quality/validity.h
   mesh/smooth/smooth.h
   mesh/validate/validate.h
   io/extras.h

@@ -113,10 +113,11 @@ const std::vector<CommandSpec> table = {
      {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3"}},
     {"help", "help [<command>]", "list the commands, or show one",
      "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
-    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|levels|geometry|step|brep|iges} <file> [=heal|=noheal|=no_heal] "
+    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
      "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies]", "read a mesh or CAD",
      "'mesh' and 'geometry' choose the format by the file's extension; the other words insist on one. CAD comes first, "
      "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one. "
+     "Boundary nodes that lie off the CAD within the tolerance (files often keep six digits) are put on it, unless 'no_snap' is said. "
      "'levels' brings back what 'export levels' wrote, with the mesh; where that mesh is there already, with the results of a solver, its fields stay.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
       {"angle", Kind::number, 0, 180, false, ""},
@@ -173,10 +174,10 @@ const std::vector<CommandSpec> table = {
     {"refine",
      "refine {{node|edge|face|hex|vertex|curve|surface|volume} <range> "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
-     "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] "
+     "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] [allow off_cad] "
      "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded]"
      "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
-     "[concave {template|fill}] [{smooth|no_smooth}] [dry_run]}",
+     "[concave {template|fill}] [{smooth|no_smooth}] [dry_run] [allow off_cad]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
      "every hex that touches it, with 2 one layer more. The default is 0, which for a node, edge, face, vertex, curve or "
@@ -198,7 +199,8 @@ const std::vector<CommandSpec> table = {
      "again: the cell that they are pieces of is cut instead, so that shapes do not depend on how often and in which order "
      "is refined; 'nested' cuts them like all others. 'graded' also keeps the hex field \"level\".\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
-     "until it is convex. New nodes lie on the CAD. A result that would be inverted is refused, and the mesh stays as it was.",
+     "until it is convex. New nodes lie on the CAD. A result that would be inverted, or "
+     "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"splits", Kind::integer, 1, max_uniform_pieces - 1, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
@@ -220,18 +222,20 @@ const std::vector<CommandSpec> table = {
     {"reset", "reset [{block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
-     "|untangle {on|off}|=duplicate block elements {on|off}}",
+     "|untangle {on|off}|snap {on|off}|keep_jumps {off|<field>}|=duplicate block elements {on|off}}",
      "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
      "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores. "
      "undo: whether commands can be undone, and the memory for that (default 1000 MB; the oldest go first). untangle: "
-     "whether a mesh that is read with inverted hexes is untangled (default) or refused.",
+     "whether a mesh that is read with inverted hexes is untangled (default) or refused. snap: whether nodes of a mesh that is "
+     "read are put on the CAD (default). keep_jumps: a hex field whose jumps smoothing leaves in place, as it does block boundaries.",
      {{"degrees", Kind::number, 0, 180, false, "angle in degrees"},
       {"limit", Kind::number, 0, 1, true, "relative to the model size"},
       {"count", Kind::integer, 0, 1024, false, "number of threads"},
-      {"megabytes", Kind::number, 0, 1e9, false, "memory for undo, in MB"}},
-     {"set glue on", "set undo limit 200", "set feature_angle 20"}},
+      {"megabytes", Kind::number, 0, 1e9, false, "memory for undo, in MB"},
+      {"field", Kind::string, 0, 0, false, "name of a hex field, in quotes"}},
+     {"set keep_jumps \"grain\"", "set glue on", "set undo limit 200", "set feature_angle 20"}},
     {"sideset",
      "sideset <id> {{face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
      "|add {face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"

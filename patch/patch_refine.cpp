@@ -102,6 +102,7 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
   const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
   Request asked = request;
   Report before;
+  before.scaled_jacobian_before = known.scaled_jacobian;
   if (request.target.radius) {  // chooses hexes by where they are, so it must see all of them
     asked.target = {EntityKind::hex, region_target(input, request.target, before.notices)};
     asked.method = Method::single;
@@ -133,6 +134,8 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
       if (!is_enough) continue;
       for (OffOwner& row : report.off_nodes) row.node = numbers.node(row.node);
       for (Index& node : made.result.smoothed) node = numbers.node(node);
+      for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
+        for (Index& h : *list) h = numbers.refined_hex(h);
       if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
     }

@@ -12,6 +12,7 @@ namespace hextwist {
 RefineResult refine_whole(const MeshedModel& input, const Measured* known, const Request& request,
                           const Progress& progress) {
   Report report;
+  if (known) report.scaled_jacobian_before = known->scaled_jacobian;
   RefineResult result;
   const Approach approach = plan(input, request).approach;
   {

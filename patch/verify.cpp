@@ -8,6 +8,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
@@ -260,7 +261,7 @@ bool is_sound(const ChangedPart& change) {
     else if (!of_others && hex >= change.n_kept)
       return false;
   }
-  return hanging_nodes(mesh, skin).empty();
+  return std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::is_joined);
 }
 
 OffModel off_after(const OffModel& before, const ChangedPart& change) {
@@ -270,6 +271,29 @@ OffModel off_after(const OffModel& before, const ChangedPart& change) {
   if (fresh.node < 0 || (before.node >= 0 && !(fresh.max > before.max))) return before;
   fresh.node = change.whole_node(fresh.node);
   return fresh;
+}
+
+bool is_broken(const Report& report) {
+  return !report.flat_hexes.empty() || (!report.off_nodes.empty() && !report.off_nodes_allowed);
+}
+
+/// What the passes know to be no good, as violations.
+void add_broken(const Mesh& refined, Report& report) {
+  for (const Index h : report.flat_hexes)
+    report.violations.push_back({ViolationKind::flattened,
+                                 {h},
+                                 {},
+                                 "hex " + std::to_string(hex_id(refined, h)) +
+                                     " is flat compared with the hexes that were there: its scaled " + "Jacobian is " +
+                                     short_number(quality(Metric::scaled_jacobian, refined, h), 6)});
+  if (report.off_nodes_allowed) return;
+  for (const OffOwner& row : report.off_nodes)
+    report.violations.push_back({ViolationKind::off_model,
+                                 {},
+                                 {row.node},
+                                 "node " + std::to_string(node_id(refined, row.node)) + " could not be put on " +
+                                     to_string(row.owner) + ", it is " + short_number(row.distance, 6) +
+                                     " off ('allow off_cad' would leave it there)"});
 }
 
 Measured measured_without_cad(const Mesh& mesh) {
@@ -315,6 +339,7 @@ std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<cons
 
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report) {
   if (!change.after.model || change.after.association.empty()) return false;  // the boundary is known from it
+  if (is_broken(report)) return false;
   const Index n_new = change.after.mesh.n_hexes() - change.n_kept;
   const Difference difference(change);
   constexpr Index small_part = 8;
@@ -348,6 +373,7 @@ void verify_all(const MeshedModel& refined, const Measured& before, Report& repo
   report.volume_after = after.volume;
   report.off_cad = after.off_cad;
   report.extremes = after.extremes;
+  add_broken(refined.mesh, report);
   if (has_only_warnings(refined.mesh)) return;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));

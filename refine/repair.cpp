@@ -7,6 +7,7 @@
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/origin.h"
 #include "hextwist/refine/place.h"
@@ -32,10 +33,20 @@ struct Reach {
 constexpr Reach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
 constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 
+/// What does not move.
+struct Staying {
+  std::span<const Index> fixed;
+  std::span<const std::string> keep_jumps;
+  void tell(SmoothOptions& options) const {
+    options.fixed.assign(fixed.begin(), fixed.end());
+    options.keep_jumps.assign(keep_jumps.begin(), keep_jumps.end());
+  }
+};
+
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
 /// stay. Returns the hexes that are inverted still.
 std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, Association& association,
-                            const std::vector<Index>& bad, Reach reach, std::span<const Index> fixed,
+                            const std::vector<Index>& bad, Reach reach, const Staying& stays,
                             const SmoothProgress& progress) {
   const auto may_move = [&](Index n) {
     const bool inside = association.empty() || association.node_owner[n].dim == 3;
@@ -44,7 +55,7 @@ std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, 
   SmoothOptions options;
   options.scheme = SmoothScheme::untangle;
   options.iterations = reach.sweeps;
-  options.fixed.assign(fixed.begin(), fixed.end());
+  stays.tell(options);
   options.nodes = nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers));
   std::erase_if(*options.nodes, [&](Index n) { return !may_move(n); });
   if (smooth(mesh, association, model, options, progress).not_repaired.empty()) {
@@ -71,12 +82,62 @@ std::vector<Vec3> straight_places(const Mesh& old_mesh, const Lineage& lineage, 
   return places;
 }
 
+/// Hexes around each of these nodes (ascending).
+std::vector<std::vector<Index>> hexes_around(const Mesh& mesh, std::span<const Index> nodes) {
+  std::vector<std::vector<Index>> around(nodes.size());
+  std::vector<std::uint8_t> wanted(mesh.points.size(), 0);
+  for (const Index n : nodes) wanted[n] = 1;
+  for (const Index h : touching_hexes(mesh.hexes, wanted))
+    for (const Index n : mesh.hexes[h])
+      if (wanted[n]) around[position_in(nodes, n)].push_back(h);
+  return around;
+}
+
+/// Brings nodes (ascending) that were moved off their owners back, step by step: each goes as far as the hexes around
+/// it allow, then the others around give way, in the end those on the CAD too, which slide. Returns those that are off
+/// still.
+std::vector<Index> return_to_owners(const Model& model, Mesh& mesh, Association& association, std::vector<Index> nodes,
+                                    const Staying& stays, const SmoothProgress& progress) {
+  constexpr int max_rounds = 30, sweeps = 8, layers = 2;
+  constexpr double least_part = 0.05;
+  for (int round = 0; round < max_rounds && !nodes.empty(); ++round) {
+    const std::vector<std::vector<Index>> around = hexes_around(mesh, nodes);
+    std::vector<Index> left, hexes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      Vec3& place = mesh.points[nodes[i]];
+      const Vec3 from = place;
+      const Projection to = model.project(association.node_owner[nodes[i]], from);
+      double part = 1;
+      for (; part > least_part; part /= 2) {
+        place = part == 1 ? to.point : Vec3(from + part * (to.point - from));
+        if (inverted_hexes(mesh, around[i]).empty()) break;
+        place = from;
+      }
+      association.node_parameters[nodes[i]] = to.parameters;
+      if (part == 1) continue;
+      left.push_back(nodes[i]);
+      hexes.insert(hexes.end(), around[i].begin(), around[i].end());
+    }
+    nodes = std::move(left);
+    if (nodes.empty()) break;
+    SmoothOptions options;
+    options.iterations = sweeps;
+    options.fix_boundary = round < max_rounds / 2;
+    stays.tell(options);
+    options.fixed.insert(options.fixed.end(), nodes.begin(), nodes.end());
+    options.nodes = nodes_of_hexes(mesh, with_layers(mesh, sorted_unique(std::move(hexes)), layers));
+    if (smooth(mesh, association, &model, options, progress).stopped) break;
+  }
+  return nodes;
+}
+
 }  // namespace
 
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed,
-                                      const SmoothProgress& progress) {
+                                      const SmoothProgress& progress, std::span<const std::string> keep_jumps) {
   std::vector<OffOwner> rows;
+  const Staying stays{fixed, keep_jumps};
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
   const Index first_new = split.lineage.n_old_nodes;
   const auto owner = [&](Index node) { return association.empty() ? Owner{3, 1} : association.node_owner[node]; };
@@ -94,7 +155,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
       }
       bad = inverted_hexes(mesh, split.n_kept());
     }
-    bad = untangle(split, model, mesh, association, bad, reach, fixed, progress);
+    bad = untangle(split, model, mesh, association, bad, reach, stays, progress);
   }
   if (bad.empty()) return rows;
 
@@ -107,12 +168,14 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
       mesh.points[nodes[i]] = halving == max_halvings ? straight[i] : Vec3((mesh.points[nodes[i]] + straight[i]) / 2);
     backed_off.insert(backed_off.end(), nodes.begin(), nodes.end());
     bad = inverted_hexes(mesh, split.n_kept());
-    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, fixed, progress);
+    if (!bad.empty()) bad = untangle(split, model, mesh, association, bad, backed_off_reach, stays, progress);
   }
   sort_unique(backed_off);
+  std::erase_if(backed_off, [&](Index node) { return !model || owner(node).dim > 2; });
+  if (!backed_off.empty() && bad.empty())
+    backed_off = return_to_owners(*model, mesh, association, std::move(backed_off), stays, progress);
   for (const Index node : backed_off) {
     const Owner on = owner(node);
-    if (!model || on.dim > 2) continue;
     const Projection projection = model->project(on, mesh.points[node]);
     association.node_parameters[node] = projection.parameters;
     if (projection.distance > 0) rows.push_back({node, on, projection.distance});

@@ -1,15 +1,19 @@
 #include "hextwist/session/load.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "hextwist/base/interrupt.h"
+#include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/association/meant.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/untangle.h"
 #include "hextwist/sizing/levelling.h"
@@ -37,6 +41,53 @@ int n_pieces(const Model& model) {
   return static_cast<int>(roots.size());
 }
 
+/// Puts nodes that the file has rounded on their vertices, curves and surfaces, but for those whose hexes that would
+/// turn inside out. The parameters are those of the places already.
+void snap(const Transaction& run, Mesh& mesh, const Association& association, const Model& model) {
+  constexpr double exact = 1e-10;  // of the model size: nothing to do
+  const double least = exact * model.box().diagonal();
+  std::vector<Vec3> places(mesh.points.size());
+  std::vector<std::uint8_t> moves(mesh.points.size(), 0);
+  parallel_each(mesh.points.size(), [&](std::size_t n) {
+    const Owner owner = association.node_owner[n];
+    if (owner.dim < 0 || owner.dim > 2) return;
+    const Parameters at = association.node_parameters[n];
+    if (owner.dim > 0 && std::isnan(at.u)) return;
+    places[n] = model.point(owner, at);
+    moves[n] = (places[n] - mesh.points[n]).norm() > least;
+  });
+  std::vector<Index> moved = indices_where(mesh.n_nodes(), [&](Index n) { return moves[n] != 0; });
+  if (moved.empty()) return;
+  const std::vector<Vec3> before = items_at(mesh.points, moved);
+  for (const Index n : moved) mesh.points[n] = places[n];
+  const std::vector<Index> around = touching_hexes(mesh.hexes, moves);
+  for (;;) {
+    bool any = false;
+    for (const Index h : inverted_hexes(mesh, around))
+      for (const Index n : mesh.hexes[h])
+        if (moves[n]) {
+          mesh.points[n] = before[position_in(moved, n)];
+          moves[n] = 0;
+          any = true;
+        }
+    if (!any) break;
+  }
+  double farthest = 0;
+  Index worst = -1;
+  std::int64_t n_moved = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (!moves[moved[i]]) continue;
+    ++n_moved;
+    const double way = (mesh.points[moved[i]] - before[i]).norm();
+    if (way > farthest) worst = moved[i];
+    farthest = std::max(farthest, way);
+  }
+  if (worst >= 0)
+    run.note(counted(n_moved, EntityKind::node) + (n_moved == 1 ? " was" : " were") +
+             " put on the CAD, moved by at most " + short_number(farthest) + " (node " +
+             std::to_string(node_id(mesh, worst)) + "); 'import ... no_snap' leaves them");
+}
+
 /// On the model, or on its own skin where that is null.
 MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
   const Interruptible interruptible([&] {
@@ -50,6 +101,7 @@ MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const 
   const Association* usable = tags && !tags->empty() ? tags : nullptr;
   AssociateResult result = associate(mesh, *model, usable, {.relative_tolerance = run.state.tolerance});
   for (const std::string& line : result.notices) run.note(line);
+  if (run.state.snap) snap(run, mesh, result.association, *model);
   return {std::move(mesh), std::move(model), std::move(result.association)};
 }
 
@@ -89,10 +141,18 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
   const std::vector<Index> inverted = inverted_among(violations);
   const Mesh before = inverted.empty() ? Mesh() : mesh;
   bool tangled = !inverted.empty();
+  const auto is_flat = [&] {
+    constexpr double no_volume = 1e-15;  // of a cube of the mesh's size
+    const double size = box(mesh).diagonal();
+    return !(std::abs(volume(mesh)) > no_volume * size * size * size);
+  };
+  if (tangled && state.untangle && is_flat())
+    throw Error(what + ": " + record_violations(run.record(), mesh, violations) +
+                "; the hexes have no volume together");
   if (tangled && state.untangle) {
     run.stage("untangle");
     Association nobody;
-    tangled = !untangle_mesh(run, mesh, nobody, nullptr, inverted, false);
+    tangled = !untangle_near(run, mesh, nobody, nullptr, inverted, false).empty();
   }
   const std::string wrong =
       record_violations(run.record(), mesh, inverted.empty() || tangled ? violations : validate(mesh));
@@ -111,6 +171,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     }
   }
   run.stage("associate");
+  const bool on_cad = model != nullptr;
   MeshedModel result;
   try {
     result = associated(run, std::move(mesh), std::move(model), tags);
@@ -123,7 +184,13 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
   if (tangled) {
     // Nodes inside volumes were not enough: those on curves and surfaces slide too, now that these are known.
     run.stage("untangle");
-    if (!untangle_mesh(run, result.mesh, result.association, result.model.get(), inverted, true))
+    const auto still = [&] { return inverted_hexes(result.mesh); };
+    if (!untangle_near(run, result.mesh, result.association, result.model.get(), still(), true).empty() && !on_cad) {
+      // A fold in the skin looks like a feature of it, along which nothing can slide.
+      untangle_freely(run, result.mesh, still());
+      result = associated(run, std::move(result.mesh), nullptr, tags);
+    }
+    if (!still().empty() && !untangle_far(run, result.mesh, result.association, result.model.get(), still()).empty())
       throw Error(what + ": " + wrong + "; untangling did not help");
     const std::string left = record_violations(run.record(), result.mesh, validate(result.mesh));
     if (!left.empty()) throw Error(what + ": " + left + " (after untangling)");
@@ -144,7 +211,9 @@ void load_meshed(Transaction& run, MeshedModel meshed) {
     run.stage("untangle");
     const Mesh before = meshed.mesh;
     record_violations(run.record(), meshed.mesh, {});
-    if (untangle_mesh(run, meshed.mesh, meshed.association, meshed.model.get(), inverted, true)) {
+    const std::vector<Index> left =
+        untangle_near(run, meshed.mesh, meshed.association, meshed.model.get(), inverted, true);
+    if (untangle_far(run, meshed.mesh, meshed.association, meshed.model.get(), left).empty()) {
       wrong = record_violations(run.record(), meshed.mesh, validate(meshed.mesh));
       evaluate_where_moved(before, meshed.mesh);
       run.note(untangled_text(meshed.mesh, before.points, inverted));
@@ -171,6 +240,15 @@ void replace_and_measure(Transaction& run, MeshedModel meshed) {
 void take_measured(Transaction& run, const Report& report) {
   run.state.measured = measured_after(report);
   run.state.tags = nullptr;
+  if (report.poor.count > 0) {
+    const PoorHexes& poor = report.poor;
+    std::string line = counted(poor.count, EntityKind::hex) + (poor.count == 1 ? " has" : " have") +
+                       " a scaled Jacobian below " + short_number(poor.limit) + ", the smallest " +
+                       short_number(poor.smallest) + " (hex";
+    for (const Index h : poor.worst) line += " " + std::to_string(hex_id(run.meshed->mesh, h));
+    run.note(line + (poor.count > std::ssize(poor.worst) ? " ...)" : ")") +
+             ": 'smooth', fewer cuts at once or a coarser transition ('depth', 'bias') would help");
+  }
   if (report.off_nodes.empty()) return;
   const auto worst = std::ranges::max_element(report.off_nodes, {}, &OffOwner::distance);
   run.note(counted(static_cast<std::int64_t>(report.off_nodes.size()), EntityKind::node) +

@@ -49,9 +49,11 @@ struct SessionState : ModelState {
   std::string last_sizing;
 
   Glue glue = Glue::automatic;
-  double feature_angle = 35;  ///< degrees
-  double tolerance = 1e-5;    ///< of a mesh on its CAD, relative to the model size
-  bool untangle = true;       ///< repair inverted hexes of a mesh that is read
+  double feature_angle = 35;            ///< degrees
+  double tolerance = 1e-5;              ///< of a mesh on its CAD, relative to the model size
+  bool untangle = true;                 ///< repair inverted hexes of a mesh that is read
+  std::vector<std::string> keep_jumps;  ///< hex fields whose jumps smoothing leaves in place
+  bool snap = true;                     ///< put its boundary nodes on the CAD
   bool finished = false;
 };
 

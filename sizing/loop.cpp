@@ -8,13 +8,16 @@
 
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
+#include "hextwist/sizing/outcome.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
@@ -63,7 +66,7 @@ MeshedModel State::pass(Cut cut) {
       return !stopped;
     };
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
-                                      request.finish.fixed, keep_going),
+                                      request.finish.fixed, keep_going, request.finish.keep_jumps),
                       std::back_inserter(report.off_nodes));
     if (stopped) throw Cancelled();
   }
@@ -110,17 +113,24 @@ std::vector<Index> State::new_hexes() const {
 }
 
 void State::smooth_band(bool fix_boundary) {
+  smooth_around(new_hexes(), fix_boundary);
+}
+
+void State::smooth_around(std::vector<Index> hexes, bool fix_boundary) {
   begin("smooth");
   Mesh& mesh = result_.refined.mesh;
   const std::vector<Vec3> before = mesh.points;
   SmoothOptions options;
-  options.nodes = nodes_inside(mesh, with_layers(mesh, new_hexes(), smooth_layers));
+  options.nodes = nodes_inside(mesh, with_layers(mesh, std::move(hexes), smooth_layers));
   options.fixed = request.finish.fixed;
+  options.keep_jumps = request.finish.keep_jumps;
   options.fix_boundary = fix_boundary;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,
                                        [&](const char* stage, double) { return stages.report(stage, 0.9); });
   if (smoothed.stopped) throw Cancelled();
-  result_.smoothed = indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
+  // In the end, and perhaps once more around hexes that came out flat.
+  const auto moved = indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
+  result_.smoothed = union_of(result_.smoothed, moved);
   note("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " + std::to_string(smoothed.sweeps) + " sweeps");
 }
 
@@ -143,6 +153,28 @@ void State::smooth_between_passes() {
   smooth_band(!request.finish.smooth);
 }
 
+void State::close() {
+  begin("improve");
+  const Index first_new = n_kept(mesh());
+  std::vector<Index> low;
+  const auto look = [&] {
+    low = hexes_below(mesh(), poor_quality, first_new);
+    report.flat_hexes = flattened_hexes(input.mesh, mesh(), result_.origin, low);
+  };
+  look();
+  for (const bool fix_boundary : {true, false}) {
+    if (report.flat_hexes.empty()) break;
+    if (fix_boundary)
+      note("smoothed around " + std::to_string(report.flat_hexes.size()) +
+           (report.flat_hexes.size() == 1 ? " hex that had come out flat" : " hexes that had come out flat"));
+    smooth_around(report.flat_hexes, fix_boundary);
+    look();
+  }
+  report.poor = poor_hexes(input.mesh, report.scaled_jacobian_before, mesh(), low);
+  report.off_nodes_allowed = request.finish.allow_off_cad;
+  if (!report.off_nodes.empty()) report.off_nodes = still_off(result_.refined, report.off_nodes);
+}
+
 RefineResult run_passes(State& state, Approach approach) {
   state.begin("targets");
   if (approach == Approach::nearest_size)
@@ -154,7 +186,10 @@ RefineResult run_passes(State& state, Approach approach) {
     ;
   else
     state.run(*make_technique(approach, state));
-  if (state.request.finish.smooth && !state.request.finish.dry_run) state.smooth_band();
+  if (!state.request.finish.dry_run) {
+    if (state.request.finish.smooth) state.smooth_band();
+    state.close();
+  }
   state.evaluate_fields();
   state.stages.begin("verify", 0.9);
   return state.take_result();

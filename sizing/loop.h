@@ -46,6 +46,9 @@ class State {
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
+  /// After the last pass: hexes that came out flat are smoothed; fills in what the report says of flat and poor hexes
+  /// and of nodes off their owners.
+  void close();
 
   /// Nodes of the input may be gone, so that others have other numbers.
   bool is_renumbered = false;
@@ -62,6 +65,7 @@ class State {
   /// Hexes of the input that a mesh made of it still has.
   Index n_kept(const Mesh& mesh) const;
   std::vector<Index> new_hexes() const;
+  void smooth_around(std::vector<Index> hexes, bool fix_boundary);
 
   const MeshedModel* current_;
   /// Where nodes would be if all were straight between those of the pass before: there, nodal fields have their values

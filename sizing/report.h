@@ -42,6 +42,14 @@ struct SizeReport {
   }
 };
 
+/// New hexes of low quality: more than there were.
+struct PoorHexes {
+  double limit = 0;               ///< scaled Jacobian below which a hex counts
+  Index count = 0;                ///< how many new hexes are below
+  double smallest = 0;            ///< of them
+  std::vector<Index> worst = {};  ///< at most five of them, the worst first
+};
+
 struct Report {
   std::int64_t hexes_before = 0, hexes_after = 0;
   std::int64_t nodes_before = 0, nodes_after = 0;
@@ -52,7 +60,10 @@ struct Report {
   OffModel off_cad;
   std::shared_ptr<const Extremes> extremes;  ///< of the result (extremes.h), for who refines it again
   double volume_before = 0, volume_after = 0;
-  std::vector<OffOwner> off_nodes;    ///< nodes that were left off their owner
+  std::vector<OffOwner> off_nodes;  ///< nodes that were left off their owner
+  bool off_nodes_allowed = false;   ///< the request said so; else each is a violation
+  std::vector<Index> flat_hexes;    ///< flat compared with the input (outcome.h): each is a violation
+  PoorHexes poor;
   std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
   std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
   std::vector<std::string> notices;   ///< decisions taken, one line each

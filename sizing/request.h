@@ -133,6 +133,10 @@ struct Finish {
   bool level_field = false;
   /// Fields of hexes whose sum stays (others are copied, and averaged where hexes become coarser). With levels.
   std::vector<std::string> extensive = {};
+  /// Hex fields whose jumps smoothing leaves in place (SmoothOptions).
+  std::vector<std::string> keep_jumps = {};
+  /// New nodes that can't be put on their curve or surface are left off it, and told.
+  bool allow_off_cad = false;
 };
 
 struct Request {

@@ -179,7 +179,7 @@ SurfaceFoot Surface::at(double u, double v, const Vec3& p) const {
   return foot;
 }
 
-// All feet that can be a closest point: one, or two on a cone, whose halves meet at the tip.
+// All feet that can be a closest point: one, or two on a cone or spindle torus, whose halves meet on the axis.
 int Surface::closed_form(const Vec3& p, SurfaceFoot (&feet)[2]) const {
   const gp_Pnt q = to_occ(p);
   double u = 0, v = 0;
@@ -202,9 +202,16 @@ int Surface::closed_form(const Vec3& p, SurfaceFoot (&feet)[2]) const {
       const gp_Ax3& frame = torus.Position();
       const gp_Vec r(frame.Location(), q);
       const double x = r.Dot(gp_Vec(frame.XDirection())), y = r.Dot(gp_Vec(frame.YDirection()));
+      const double rho = std::hypot(x, y), z = r.Dot(gp_Vec(frame.Direction()));
       u = std::atan2(y, x);
-      v = std::atan2(r.Dot(gp_Vec(frame.Direction())), std::hypot(x, y) - torus.MajorRadius());
-      break;
+      v = std::atan2(z, rho - torus.MajorRadius());
+      if (torus.MinorRadius() <= torus.MajorRadius()) break;
+      // A spindle torus (lemon or apple: the heads of screws) crosses its axis, so the circle behind that comes near
+      // too.
+      feet[0] = at(u, v, p);
+      feet[1] = at(u + M_PI, std::atan2(z, -rho - torus.MajorRadius()), p);
+      if (feet[1].distance < feet[0].distance) std::swap(feet[0], feet[1]);
+      return 2;
     }
     default: {
       const gp_Cone cone = static_cast<const Geom_ConicalSurface*>(surface_.get())->Cone();

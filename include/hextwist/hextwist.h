@@ -17,6 +17,7 @@
 #include "hextwist/mesh/meshed_model.h"
 #include "hextwist/mesh/primitives.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate.h"

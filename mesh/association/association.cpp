@@ -5,6 +5,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/association/association_internal.h"
 
 namespace hextwist {
@@ -72,21 +73,22 @@ Parted part(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, std::
   return result;
 }
 
-/// Takes out walls that have one volume on both sides.
-void drop_false_walls(const Mesh& mesh, const Faces& faces, Parted& parted) {
-  const auto is_wall = [&](Index face) {
-    const auto& [first, second] = faces.sides[face];
-    return second.hex < 0 || parted.hex_volume[first.hex] != parted.hex_volume[second.hex];
+/// Takes out walls that have one volume on both sides, but for those on embedded surfaces.
+void drop_false_walls(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, Parted& parted) {
+  const auto is_wall = [&](Index q) {
+    const auto& [first, second] = faces.sides[parted.skin.faces[q]];
+    return second.hex < 0 || parted.hex_volume[first.hex] != parted.hex_volume[second.hex] ||
+           facts.is_embedded(parted.surfaces.quad_surface[q]);
   };
-  if (std::ranges::all_of(parted.skin.faces, is_wall)) return;
+  const std::vector<Index> walls = indices_where(parted.skin.n_quads(), is_wall);
+  if (std::ssize(walls) == parted.skin.n_quads()) return;
   std::vector<Index> kept;
   Parted old = std::move(parted);
   parted = {{}, {}, std::move(old.hex_volume), {}};
-  for (Index q = 0; q < old.skin.n_quads(); ++q)
-    if (is_wall(old.skin.faces[q])) {
-      kept.push_back(old.skin.faces[q]);
-      parted.surfaces.quad_surface.push_back(old.surfaces.quad_surface[q]);
-    }
+  for (const Index q : walls) {
+    kept.push_back(old.skin.faces[q]);
+    parted.surfaces.quad_surface.push_back(old.surfaces.quad_surface[q]);
+  }
   parted.skin = make_skin(mesh, faces, kept);  // the order stays
   for (const Index node : parted.skin.nodes)
     parted.surfaces.node_at.push_back(old.surfaces.node_at[position_in(old.skin.nodes, node)]);
@@ -94,15 +96,67 @@ void drop_false_walls(const Mesh& mesh, const Faces& faces, Parted& parted) {
 
 Parted part_by_tags_or_geometry(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, const Tags& tags,
                                 std::vector<std::string>& notices) {
-  if (facts.model.count(3) == 1) return part(facts, mesh, faces, {}, tags);
+  const std::vector<Index> embedded = facts.embedded.empty() ? std::vector<Index>() : find_walls(facts, mesh, faces);
+  if (facts.model.count(3) == 1) return part(facts, mesh, faces, embedded, tags);
   if (!tags.hex_volume.empty()) {
-    Parted parted = part(facts, mesh, faces, faces_between(faces, tags.hex_volume), tags);
+    Parted parted = part(facts, mesh, faces, union_of(faces_between(faces, tags.hex_volume), embedded), tags);
     if (parted.problem.empty()) return parted;
     notices.push_back("the geometry contradicts the volume tags: " + parted.problem + "; all ignored");
   }
   Parted parted = part(facts, mesh, faces, find_walls(facts, mesh, faces), tags);
   if (!parted.problem.empty()) throw Error(parted.problem);
   return parted;
+}
+
+/// Surfaces that can only lie inside their volume: no face of the boundary is on them.
+std::vector<char> unused_surfaces(const ModelFacts& facts, const Parted& parted) {
+  std::vector<char> unused(facts.surface_volumes.size(), 1);
+  for (const int surface : parted.surfaces.quad_surface) unused[surface - 1] = 0;
+  for (std::size_t s = 0; s < unused.size(); ++s)
+    if (facts.surface_volumes[s].size() != 1) unused[s] = 0;
+  if (std::ranges::find(unused, 1) == unused.end()) unused.clear();
+  return unused;
+}
+
+/// The skin with everything that lies on it.
+struct Matched {
+  Parted parted;
+  SkinEdges edges;
+  CurveMatch curves;
+};
+Matched match(const ModelFacts& facts, const Mesh& mesh, const Faces& faces, const Tags& tags,
+              std::vector<std::string>& notices) {
+  Matched result{part_by_tags_or_geometry(facts, mesh, faces, tags, notices), {}, {}};
+  drop_false_walls(facts, mesh, faces, result.parted);
+  const Skin& skin = result.parted.skin;
+  result.edges = make_edges(skin);
+  result.curves =
+      match_curves(facts, mesh, skin, result.edges, result.parted.surfaces, edge_tags(skin, result.edges, tags));
+  return result;
+}
+
+/// Surfaces embedded in a volume own faces inside the mesh, where it follows them.
+Matched match_with_embedded(ModelFacts& facts, const Mesh& mesh, const Faces& faces, const Tags& tags,
+                            std::vector<std::string>& notices) {
+  Matched result = match(facts, mesh, faces, tags, notices);
+  facts.embedded = unused_surfaces(facts, result.parted);
+  if (facts.embedded.empty()) return result;
+  const std::vector<int>& volume = result.parted.hex_volume;
+  if (std::ranges::all_of(find_walls(facts, mesh, faces), [&](Index face) {
+        return volume[faces.sides[face][0].hex] != volume[faces.sides[face][1].hex];
+      })) {
+    facts.embedded.clear();
+    return result;
+  }
+  std::vector<std::string> told_again;
+  try {
+    return match(facts, mesh, faces, tags, told_again);
+  } catch (const Error& error) {
+    notices.push_back("faces of the CAD inside its volumes own nothing of the mesh, which does not follow them: " +
+                      std::string(error.what()));
+    facts.embedded.clear();
+    return result;
+  }
 }
 
 /// Every node of a hex to a volume of one of its hexes; where these differ, the node is on a surface and gets another
@@ -125,16 +179,14 @@ AssociateResult associate(const Mesh& mesh, const Model& model, const Associatio
   if (mesh.hexes.empty()) throw Error("the mesh has no hexes to associate");
   if (model.count(3) == 0) throw Error("the model has no volume");
   AssociateResult result;
-  const ModelFacts facts(model, options.relative_tolerance);
+  ModelFacts facts(model, options.relative_tolerance);
   const Faces mesh_faces = faces(mesh);
   Tags tags;
   if (given && options.use_tags) tags = usable_tags(mesh, mesh_faces, model, *given, result.notices);
 
-  Parted parted = part_by_tags_or_geometry(facts, mesh, mesh_faces, tags, result.notices);
-  drop_false_walls(mesh, mesh_faces, parted);
+  Matched matched = match_with_embedded(facts, mesh, mesh_faces, tags, result.notices);
+  auto& [parted, edges, curves] = matched;
   const Skin& skin = parted.skin;
-  const SkinEdges edges = make_edges(skin);
-  const CurveMatch curves = match_curves(facts, mesh, skin, edges, parted.surfaces, edge_tags(skin, edges, tags));
 
   Association& association = result.association;
   association.hex_volume = std::move(parted.hex_volume);
@@ -156,6 +208,9 @@ AssociateResult associate(const Mesh& mesh, const Model& model, const Associatio
       result.worst_node = node;
     }
   }
+  if (facts.loosest > facts.tolerance)
+    result.notices.push_back("the CAD is loose: its curve " + std::to_string(facts.loosest_curve) + " may lie " +
+                             short_number(facts.loosest) + " off its surfaces, and so may the mesh");
   compare_with_tags(mesh, mesh_faces, tags, association, result.notices);
   notice_coverage(facts, mesh, association, result.notices);
   return result;

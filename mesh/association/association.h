@@ -17,9 +17,10 @@ namespace HEXTWIST_API hextwist {
 ///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex have no owner;
 ///  2. curve_edges are exactly the mesh edges that lie on curves; every node of one is owned by the curve or by a
 ///     vertex of it;
-///  3. surface_faces are exactly the boundary faces and the faces between different volumes; every node of one is
-///     owned by the surface, a curve or a vertex of it. A face between two volumes stands once, as a side of the hex
-///     with the lower index;
+///  3. surface_faces are exactly the boundary faces, the faces between different volumes, and those inside a volume
+///  that
+///     lie on a surface embedded in it; every node of one is owned by the surface, a curve or a vertex of it. A face
+///     with hexes on both sides stands once, as a side of the hex with the lower index;
 ///  4. parameters of a node on a curve (t) or surface (u, v) give its point.
 /// One read from a file may be partial (nodes without owner, short lists).
 struct Association {

@@ -20,14 +20,21 @@ struct ModelFacts {
   double tolerance;  ///< how far a node may lie off, model units
   /// Per dimension 0..2 and entity: the tolerance above, or what the CAD's own pieces need where that is more.
   std::array<std::vector<double>, 3> entity_tolerance;
+  double loosest = 0;  ///< of all curves, and which one
+  int loosest_curve = 0;
   std::vector<std::vector<int>> vertex_curves, vertex_surfaces, curve_surfaces, surface_volumes;
   std::vector<std::vector<int>> surface_curves;  ///< without degenerate ones (sphere poles, cone tips)
   /// Curves that bound this surface alone: the seams of closed surfaces.
   std::vector<std::vector<int>> surface_seams;
   std::vector<Box> curve_box;
   std::vector<char> degenerate;  ///< per curve: no length
+  /// Per surface: inside a volume, both of whose sides are in it. Empty: none is known to be.
+  std::vector<char> embedded;
 
   double node_tolerance(int dim, int id) const { return entity_tolerance[dim][id - 1]; }
+  bool is_embedded(int surface) const { return !embedded.empty() && embedded[surface - 1]; }
+  /// Do hexes lie on both sides of the surface?
+  bool is_inside(int surface) const { return surface_volumes[surface - 1].size() == 2 || is_embedded(surface); }
 };
 
 /// Tags of a file that name entities of the model and items of the mesh; the others are left out with a notice.
@@ -82,7 +89,8 @@ struct SurfaceMatch {
 /// A quad lies on a surface when its corners do, within tolerance; among several such surfaces its centre and its
 /// normal decide.
 SurfaceMatch match_surfaces(const ModelFacts& facts, const Skin& skin, std::span<const int> tags);
-/// The faces inside the mesh that lie on surfaces between two volumes, by geometry alone; ascending.
+/// The faces inside the mesh that lie on surfaces between two volumes, or on embedded ones, by geometry alone;
+/// ascending.
 std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const Faces& faces);
 
 /// Volume of each hex; walls: faces that part volumes (and perhaps some that do not), with the surface of each.

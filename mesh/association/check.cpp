@@ -107,7 +107,8 @@ class Checker {
       const auto& [first, second] = faces_.sides[face];
       if (first != side) say(side_name(side) + " is not named by its first hex");
       face_surface_[face] = surface;
-      if (second.hex >= 0 && association_.hex_volume[first.hex] == association_.hex_volume[second.hex])
+      if (second.hex >= 0 && association_.hex_volume[first.hex] == association_.hex_volume[second.hex] &&
+          above_[2][surface - 1][0].size() > 1)
         say(side_name(side) + " is on surface " + std::to_string(surface) + " inside volume " +
             std::to_string(association_.hex_volume[first.hex]));
       for (const Side& s : {first, second})
@@ -124,7 +125,7 @@ class Checker {
       const auto& [first, second] = faces_.sides[f];
       const bool needs = second.hex < 0 || association_.hex_volume[first.hex] != association_.hex_volume[second.hex];
       if (needs && face_surface_[f] == 0) say(side_name(first) + " is on the boundary, but on no surface");
-      if (needs)
+      if (needs || face_surface_[f] != 0)
         for (const Index node : faces_.nodes[f]) on_skin[node] = 1;
     }
     for (Index h = 0; h < mesh_.n_hexes(); ++h)

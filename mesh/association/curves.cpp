@@ -84,8 +84,12 @@ std::string list_of(const char* kind, std::span<const int> ids) {
               ": the mesh does not follow the curves of the model");
 }
 
+/// Nodes that are as far from a vertex as the nearest, within this times the model size, are doubles of it: cracks and
+/// contact have them on purpose.
+constexpr double double_node = 1e-10;
+
 /// Puts nodes that stand at CAD vertices on them: per vertex the nearest node within tolerance of which no face or
-/// edge lies on an entity that the vertex does not bound.
+/// edge lies on an entity that the vertex does not bound, and its doubles.
 void match_vertices(const ModelFacts& facts, const Skin& skin, const CompressedRows& node_surfaces,
                     const CompressedRows& node_curves, CurveMatch& match) {
   std::vector<Index> by_x(skin.nodes.size());
@@ -95,21 +99,30 @@ void match_vertices(const ModelFacts& facts, const Skin& skin, const CompressedR
   for (int vertex = 1; vertex <= static_cast<int>(facts.vertex_surfaces.size()); ++vertex) {
     const Vec3 at = facts.model.point({0, vertex}, {});
     const double reach = facts.node_tolerance(0, vertex);
+    const auto fits = [&](Index n) {
+      return std::ranges::includes(facts.vertex_surfaces[vertex - 1], node_surfaces[n]) &&
+             std::ranges::includes(facts.vertex_curves[vertex - 1], node_curves[n]);
+    };
     Index best = -1;
     double best_distance = reach;
     for (auto i = std::ranges::lower_bound(by_x, at.x() - reach, {}, x); i != by_x.end() && x(*i) <= at.x() + reach;
          ++i) {
       const double distance = (skin.points[*i] - at).norm();
       if (distance > best_distance || (best >= 0 && distance == best_distance && *i > best)) continue;
-      if (std::ranges::includes(facts.vertex_surfaces[vertex - 1], node_surfaces[*i]) &&
-          std::ranges::includes(facts.vertex_curves[vertex - 1], node_curves[*i])) {
+      if (fits(*i)) {
         best = *i;
         best_distance = distance;
       }
     }
     if (best < 0 || (match.node_owner[best].dim == 0 && match.node_at[best].distance <= best_distance)) continue;
-    match.node_owner[best] = {0, vertex};
-    match.node_at[best] = {at, {}, best_distance};
+    const Vec3 place = skin.points[best];
+    const double apart = double_node * facts.size;
+    for (auto i = std::ranges::lower_bound(by_x, place.x() - apart, {}, x);
+         i != by_x.end() && x(*i) <= place.x() + apart; ++i) {
+      if (*i != best && ((skin.points[*i] - place).norm() > apart || !fits(*i))) continue;
+      match.node_owner[*i] = {0, vertex};
+      match.node_at[*i] = {at, {}, (skin.points[*i] - at).norm()};
+    }
   }
 }
 

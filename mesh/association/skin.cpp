@@ -16,18 +16,45 @@ namespace {
 
 constexpr double degenerate_length = 1e-9;  // of the model size
 
+constexpr double largest_gap = 1e-3;  // of the model size: what is looser is wrong
+
+/// How far a curve lies off the surfaces that it bounds: CAD files may say less than it is. A few samples see most of
+/// it.
+double gap(const Model& model, int curve) {
+  constexpr int n_samples = 24;
+  constexpr double between_samples = 1.5;
+  const CurveRange range = model.range(curve);
+  const std::vector<int> surfaces = model.adjacent({1, curve}, 2);
+  double worst = 0;
+  for (int i = 0; i < n_samples; ++i) {
+    const double t = range.first + (i + 0.5) / n_samples * (range.last - range.first);
+    const Vec3 place = model.point({1, curve}, {t, 0});
+    for (const int surface : surfaces) worst = std::max(worst, model.project(Owner{2, surface}, place).distance);
+  }
+  return std::min(between_samples * worst, largest_gap * model.box().diagonal());
+}
+
 }  // namespace
 
 ModelFacts::ModelFacts(const Model& m, double relative_tolerance)
     : model(m), size(m.box().diagonal()), tolerance(relative_tolerance * size) {
   const int n_vertices = m.count(0), n_curves = m.count(1), n_surfaces = m.count(2);
+  std::vector<double> curve_gap(n_curves);
+  parallel_each(
+      curve_gap.size(), [&](std::size_t i) { curve_gap[i] = gap(m, static_cast<int>(i + 1)); }, 1);
   for (int dim = 0; dim < 3; ++dim)
     for (int id = 1; id <= m.count(dim); ++id) {
       // A node on the rim of an entity may lie as far off as the rim does.
       double own = std::max(tolerance, m.tolerance({dim, id}));
+      if (dim == 1) own = std::max(own, curve_gap[id - 1]);
       for (int rim = 0; rim < dim; ++rim)
-        for (const int bound : m.adjacent({dim, id}, rim)) own = std::max(own, m.tolerance({rim, bound}));
+        for (const int bound : m.adjacent({dim, id}, rim))
+          own = std::max({own, m.tolerance({rim, bound}), rim == 1 ? curve_gap[bound - 1] : 0});
       entity_tolerance[dim].push_back(own);
+      if (dim == 1 && own > loosest) {
+        loosest = own;
+        loosest_curve = id;
+      }
     }
   for (int id = 1; id <= n_vertices; ++id) {
     vertex_curves.push_back(m.adjacent({0, id}, 1));

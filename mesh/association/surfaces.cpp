@@ -168,7 +168,7 @@ void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& ca
       const Vec3 normal = facts.model.normal(c.surface, at[i].parameters);
       double cosine = normal.isZero() ? 1 : normal.dot(across);
       // Which side of a surface between two volumes the hex lies on is not known yet.
-      if (facts.surface_volumes[c.surface - 1].size() != 1) cosine = std::abs(cosine);
+      if (facts.surface_volumes[c.surface - 1].size() != 1 || facts.is_embedded(c.surface)) cosine = std::abs(cosine);
       c.score = (c.corner + at[i].distance) / length[i] + 1 - cosine;
       c.fits = at[i].distance <= max_sagitta * length[i] + facts.node_tolerance(2, c.surface) && cosine >= min_cosine;
     }
@@ -225,10 +225,10 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
   for (const double t : facts.entity_tolerance[2]) reach = std::max(reach, t);
   std::vector<char> between(facts.surface_volumes.size() + 1, 0);
   std::vector<Box> boxes;
-  for (std::size_t s = 0; s < facts.surface_volumes.size(); ++s)
-    if (facts.surface_volumes[s].size() == 2) {
-      between[s + 1] = 1;
-      boxes.push_back(facts.model.box(Owner{2, static_cast<int>(s + 1)}));
+  for (int s = 1; s <= static_cast<int>(facts.surface_volumes.size()); ++s)
+    if (facts.is_inside(s)) {
+      between[s] = 1;
+      boxes.push_back(facts.model.box(Owner{2, s}));
       boxes.back().min.array() -= reach;
       boxes.back().max.array() += reach;
     }

@@ -213,17 +213,4 @@ std::vector<double> min_corner_jacobian(const Mesh& mesh) {
   return evaluate(corner_jacobian_kernel, mesh, 1);
 }
 
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
-  std::vector<Index> result =
-      indices_where(mesh.n_hexes() - first, [&](Index i) { return !(min_corner_jacobian(mesh, first + i) > 0); });
-  for (Index& h : result) h += first;
-  return result;
-}
-std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes) {
-  std::vector<Index> result = indices_where(static_cast<Index>(hexes.size()),
-                                            [&](Index i) { return !(min_corner_jacobian(mesh, hexes[i]) > 0); });
-  for (Index& i : result) i = hexes[i];
-  return result;
-}
-
 }  // namespace hextwist

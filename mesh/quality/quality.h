@@ -114,13 +114,10 @@ struct Summary {
 Summary summarize(std::span<const double> values);
 Summary summarize(std::span<const double> values, std::span<const Index> hexes);
 
-/// Smallest corner Jacobian determinant of a hex (8 corners): positive means uninverted.
+/// Smallest corner Jacobian determinant of a hex (8 corners). Whether it is valid: validity.h.
 double min_corner_jacobian(std::span<const Vec3, 8> corners);
 double min_corner_jacobian(const Mesh& mesh, Index hex);
 /// One value per hex.
 std::vector<double> min_corner_jacobian(const Mesh& mesh);
-/// Inverted hexes, ascending: those with index >= first; those of a list (ascending).
-std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
-std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes);
 
 }  // namespace hextwist

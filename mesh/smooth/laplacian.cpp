@@ -27,9 +27,12 @@ bool average_node(SmoothState& state, const SweepRule& rule, Index slot, ShapePa
              {problem.rings.data() + first, static_cast<std::size_t>(problem.first_ring[slot + 1] - first)});
   const double before = patch.at(Vec3::Zero()).worst;
   if (!std::isfinite(before)) return false;
-  const bool slides = problem.owner[slot].dim < 3;
-  if (slides) tangents(state, slot);  // for the parameters
+  const bool slides = problem.slides(slot), on_model = problem.owner[slot].dim < 3;
   Vec3 step = neighbour_average(state, slot) - x0;
+  if (slides) {
+    const Tangents directions = tangents(state, slot);  // and the parameters
+    if (problem.hold_of(slot)) step = within(directions, step);
+  }
   Projection place;
   for (int halving = 0; halving < 3; ++halving, step /= 2) {
     Vec3 y = step;
@@ -41,7 +44,7 @@ bool average_node(SmoothState& state, const SweepRule& rule, Index slot, ShapePa
     moved = y.squaredNorm() > rule.tolerance * rule.tolerance * patch.edge_squared();
     if (moved) {
       move_node(state, slot, slides ? place.point : x0 + y, true);
-      if (slides) state.association.node_parameters[node] = place.parameters;
+      if (on_model) state.association.node_parameters[node] = place.parameters;
     }
     return true;
   }

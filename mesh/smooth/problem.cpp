@@ -55,6 +55,17 @@ std::vector<Owner> freedom(const Mesh& mesh, const Association& association, con
   return result;
 }
 
+/// What the user named holds nodes too; those that it holds altogether stay.
+Holds hold_named(const Mesh& mesh, const Association& association, const SmoothOptions& options,
+                 std::vector<Owner>& free_on) {
+  std::vector<std::uint8_t> may_move(free_on.size());
+  for (std::size_t n = 0; n < free_on.size(); ++n) may_move[n] = free_on[n] ? 1 : 0;
+  Holds holds = named_holds(mesh, association, may_move, options.keep_jumps);
+  for (std::size_t n = 0; n < holds.of_node.size(); ++n)
+    if (holds.of_node[n] >= 0 && holds.list[holds.of_node[n]].n == 3) free_on[n] = Owner{};
+  return holds;
+}
+
 /// Greedy colours in the order of the slots; corners: per slot 8 * hex + corner.
 std::vector<Index> colour(const Mesh& mesh, const std::vector<Index>& slot, const CompressedRows& corners) {
   std::vector<Index> colour_of(corners.size(), -1);
@@ -83,8 +94,10 @@ Ring ring_at(const Hex& hex, int corner) {
 
 SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& association, const Model* model,
                                   const SmoothOptions& options) {
-  const std::vector<Owner> free_on = freedom(mesh, association, model, options);
+  std::vector<Owner> free_on = freedom(mesh, association, model, options);
   SmoothProblem problem;
+  const Holds holds = hold_named(mesh, association, options, free_on);
+  problem.holds = holds.list;
   problem.slot.assign(mesh.points.size(), -1);
   std::vector<Index> used;  // movable nodes, ascending
   CompressedRows corners;   // per movable node, ascending: 8 * hex + corner
@@ -130,6 +143,7 @@ SmoothProblem make_smooth_problem(const Mesh& mesh, const Association& associati
     problem.slot[node] = problem.n_nodes();
     problem.nodes.push_back(node);
     problem.owner.push_back(free_on[node]);
+    if (!holds.of_node.empty()) problem.hold.push_back(holds.of_node[node]);
     for (const Index corner : corners[s]) {
       problem.rings.push_back(ring_at(mesh.hexes[corner / 8], corner % 8));
       problem.ring_hex.push_back(corner / 8);

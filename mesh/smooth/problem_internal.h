@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "hextwist/mesh/smooth/smooth.h"
+#include "hextwist/mesh/smooth/named_internal.h"
 
 namespace hextwist {
 
@@ -25,10 +25,17 @@ struct SmoothProblem {
   std::vector<Ring> rings;
   std::vector<Index> ring_hex;  ///< per ring
   std::vector<Owner> owner;     ///< per slot: dim 1, 2: slides on it; else moves freely
+  std::vector<Hold> holds;      ///< of nodes that what the user named holds too
+  std::vector<Index> hold;      ///< per slot: position there, -1: none; empty: no node has one
   std::vector<Index> slot;      ///< per node of the mesh, -1: stays
   std::vector<Index> hexes;     ///< around the nodes, ascending
   Index max_rings = 0;          ///< of one node
 
+  const Hold* hold_of(Index of_slot) const {
+    return hold.empty() || hold[of_slot] < 0 ? nullptr : &holds[hold[of_slot]];
+  }
+  /// Does the node slide on something, or move freely?
+  bool slides(Index of_slot) const { return owner[of_slot].dim < 3 || hold_of(of_slot); }
   Index n_nodes() const { return static_cast<Index>(nodes.size()); }
   Index n_colours() const { return static_cast<Index>(first_colour.size()) - 1; }
 };
@@ -71,5 +78,10 @@ double average_distortion(const Mesh& mesh, std::span<const Index> hexes);
 /// Moves nodes until no hex of the problem is inverted or nothing helps any more. after_sweep(count) returns false to
 /// stop. Hexes that were not inverted before are not after.
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep);
+
+/// Puts nodes back to these places until no hex of the problem is inverted but those that were (ascending), and none
+/// has a smaller shape than that.
+void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::vector<Parameters>& parameters,
+               std::span<const Index> inverted_before, double least_shape);
 
 }  // namespace hextwist

@@ -7,6 +7,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/problem_internal.h"
 
 namespace hextwist {
@@ -34,6 +35,11 @@ Summary shape_summary(const Mesh& mesh, std::span<const Index> hexes) {
   return summary;
 }
 
+/// What no hex may fall below: an inverted hex counts as 0.
+double least_shape(const SmoothReport& report) {
+  return report.inverted_before > 0 ? 0 : report.shape_before.min;
+}
+
 /// How hard to pull at the worst hexes: reference = 1 + margin * (worst - 1).
 struct Emphasis {
   double weight, margin;
@@ -59,17 +65,13 @@ class Smoother {
       report_.not_repaired = inverted_hexes(state_.mesh, state_.problem.hexes);
       report_.converged = report_.not_repaired.empty();
     }
+    if (options_.scheme == SmoothScheme::untangle) return;
+    const std::vector<Vec3> points = state_.mesh.points;
+    const std::vector<Parameters> parameters = state_.association.node_parameters;
     std::ranges::fill(state_.awake, 1);
-    switch (options_.scheme) {
-      case SmoothScheme::mean_ratio:
-        return optimise("shape", sweep_mean_ratio);
-      case SmoothScheme::condition_number:
-        return optimise("condition number", sweep_condition_number);
-      case SmoothScheme::laplacian:
-        return settle("laplacian", sweep_laplacian, none);
-      case SmoothScheme::untangle:
-        return;
-    }
+    improve();
+    // Sweeps look at corners. Should a hex have been turned inside out between them, its nodes did not move.
+    take_back(state_, points, parameters, report_.not_repaired, least_shape(report_));
   }
 
   void record(const char* stage) {
@@ -82,6 +84,19 @@ class Smoother {
 
  private:
   using Sweep = SweepCount (*)(SmoothState&, const SweepRule&);
+
+  void improve() {
+    switch (options_.scheme) {
+      case SmoothScheme::mean_ratio:
+        return optimise("shape", sweep_mean_ratio);
+      case SmoothScheme::condition_number:
+        return optimise("condition number", sweep_condition_number);
+      case SmoothScheme::laplacian:
+        return settle("laplacian", sweep_laplacian, none);
+      case SmoothScheme::untangle:
+        return;
+    }
+  }
 
   bool end_sweep(const char* stage, const SweepCount& count) {
     ++report_.sweeps;
@@ -225,7 +240,7 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   SmoothState state{problem, mesh, association, model, std::vector<std::uint8_t>(problem.nodes.size(), 1)};
   report.n_nodes = problem.n_nodes();
   report.shape_before = report.shape_after = shape_summary(mesh, problem.hexes);
-  if (report.shape_before.min == 0) report.not_repaired = inverted_hexes(mesh, problem.hexes);
+  report.not_repaired = inverted_hexes(mesh, problem.hexes);
   report.inverted_before = static_cast<Index>(report.not_repaired.size());
   if (problem.n_nodes() > 0) {
     const std::vector<Vec3> points = mesh.points;
@@ -233,7 +248,7 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
     Smoother(state, options, progress, report).run();
     report.shape_after = shape_summary(mesh, problem.hexes);
     // Sweeps keep clear of the limit by more than rounding; should that ever not be enough, the guarantee still holds.
-    if (report.shape_after.min < report.shape_before.min) {
+    if (report.shape_after.min < least_shape(report)) {
       mesh.points = points;
       association.node_parameters = parameters;
       report.shape_after = report.shape_before;

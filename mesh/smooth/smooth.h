@@ -1,11 +1,14 @@
 // Smoothing and untangling: moves nodes so that hexes get better shapes.
 //
 // Guarantees, whatever the scheme and the options:
-//  1. the smallest shape (quality.h) of the hexes around nodes that moved is not below what it was, and no hex is
-//     inverted that was not;
+//  1. the smallest shape (quality.h) of the hexes around nodes that moved is not below what it was (0 when one of them
+//     was inverted), and no hex is inverted (validity.h) that was not;
 //  2. only `nodes` move, never `fixed` ones, nodes on vertices, or boundary nodes whose curve or surface is not known.
 //     Nodes on curves and surfaces stay on them (they are results of Model::project) and their parameters follow;
-//  3. the same bits for any number of threads.
+//  3. what the user named inside the mesh keeps its shape: block boundaries, side sets, sheets, lines and points of
+//  node
+//     sets. Their nodes slide in the plane or along the line that they span, and stay where that bends;
+//  4. the same bits for any number of threads.
 //
 // The default scheme minimises a distortion that is convex in the place of each single node, node by node with exact
 // first and second derivatives, while a term of high power lifts the worst hexes; then takes back what that cost the
@@ -16,6 +19,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +46,8 @@ struct SmoothOptions {
   std::optional<std::vector<Index>> nodes;
   /// Nodes that stay, whatever `nodes` says.
   std::vector<Index> fixed;
+  /// Hex fields (by name) whose jumps keep their place like block boundaries do; those there are not do nothing.
+  std::vector<std::string> keep_jumps;
   /// Boundary nodes stay, even where their owner is known.
   bool fix_boundary = false;
   /// Boundary nodes without a known curve or surface move freely in space (else they stay).

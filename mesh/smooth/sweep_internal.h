@@ -29,16 +29,18 @@ inline Vec3 newton_step(const Eigen::Matrix3d& h, const Vec3& g) {
   return step;
 }
 
-/// The directions that a node on a curve or surface may take: 1 or 2 orthonormal columns; 0 where it can't be told.
+/// The directions that a node may take that slides: 1 or 2 orthonormal columns; 0 where it can't be told or there is
+/// none.
 struct Tangents {
   int n = 0;
-  std::array<Vec3, 2> direction;
+  std::array<Vec3, 2> direction = {Vec3::Zero(), Vec3::Zero()};
 };
 /// Makes the node's parameters known where they are not.
 Tangents tangents(SmoothState& state, Index slot);
 
-/// Newton's step within them.
+/// Newton's step within them; the part of any step within them.
 Vec3 tangent_step(const Tangents& tangents, const Local& local);
+Vec3 within(const Tangents& tangents, const Vec3& step);
 
 /// Where a sliding node arrives after `step`; false when the projection leads elsewhere.
 bool slide(const SmoothState& state, Index slot, const Vec3& step, Projection& result);
@@ -77,7 +79,7 @@ bool improve_node(SmoothState& state, const SweepRule& rule, Index slot, Patch& 
              {problem.rings.data() + first, static_cast<std::size_t>(problem.first_ring[slot + 1] - first)});
   const Local local = patch.derivatives();
   if (!std::isfinite(local.energy)) return false;
-  const bool slides = problem.owner[slot].dim < 3;
+  const bool slides = problem.slides(slot), on_model = problem.owner[slot].dim < 3;
   Vec3 step = slides ? tangent_step(tangents(state, slot), local) : newton_step(local.hessian, local.gradient);
   double slope = step.dot(local.gradient);
   // Written so that NaN ends it too. Below this, the energy's own rounding decides.
@@ -93,7 +95,7 @@ bool improve_node(SmoothState& state, const SweepRule& rule, Index slot, Patch& 
     if (!(there.energy <= local.energy + 1e-4 * slope) || !within_limit(rule, local.worst, there.worst)) continue;
     moved = y.squaredNorm() > rule.tolerance * rule.tolerance * patch.edge_squared();
     move_node(state, slot, slides ? place.point : x0 + y, moved);
-    if (slides) state.association.node_parameters[node] = place.parameters;
+    if (on_model) state.association.node_parameters[node] = place.parameters;
     return true;
   }
   return true;

@@ -1,5 +1,6 @@
 // Nodes of the skin that lie on skin quads of other hexes. A tree of boxes over the skin nodes finds the few that come
-// near a quad, however unevenly they are spread; Newton's method on the bilinear quad decides.
+// near a quad, however unevenly they are spread; Newton's method on the bilinear quad decides. What lies on the other
+// side of a crack or in contact lies there rightly; edges of the skin within the quad tell.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -69,16 +70,16 @@ bool overlap(const Patch& patch, const Box& box) {
   return middle - reach <= patch.high && middle + reach >= patch.low;
 }
 
-/// Nowhere on the quad, in its inside, or in edge 0..3: at u = 0, u = 1, v = 0, v = 1.
-enum Place { off = -2, inside = -1 };
+/// Nowhere on the quad, in its inside, in edge 0..3: at u = 0, u = 1, v = 0, v = 1, or at corner 0..3 (and 4).
+enum Place { off = -2, inside = -1, at_corner = 4 };
 
-/// Place of x, or its edge. Corners are off.
+/// Place of x, or its edge or corner.
 int place(const Patch& patch, const Vec3& x) {
   Box point;
   point.add(x);
   if (!overlap(patch, point)) return off;
-  for (const Vec3& corner : patch.corners)
-    if ((x - corner).norm() <= patch.tolerance) return off;
+  for (int k = 0; k < 4; ++k)
+    if ((x - patch.corners[k]).norm() <= patch.tolerance) return at_corner + k;
   double u = 0.5, v = 0.5;
   for (int step = 0; step < 20; ++step) {
     const Vec3 r = patch.at(u, v) - x, s = patch.a + v * patch.c, t = patch.b + u * patch.c;
@@ -95,6 +96,84 @@ int place(const Patch& patch, const Vec3& x) {
   const auto nearest = std::ranges::min_element(gaps);
   return *nearest <= patch.tolerance / patch.shortest ? static_cast<int>(nearest - gaps.begin()) : inside;
 }
+
+/// A node of the skin on a quad of a hex that does not have it.
+struct Found {
+  Index node;
+  Index quad;  ///< position in the skin
+  int where;   ///< Place
+};
+
+constexpr int edge_ends[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};  // corners of the edges of a quad
+
+/// Edges of the skin from marked nodes, ascending.
+std::vector<Edge> edges_from(const Mesh& mesh, std::span<const Side> skin, const std::vector<char>& marked) {
+  std::vector<Edge> edges;
+  for (const Side& side : skin) {
+    const auto cycle = face_node_cycle(mesh.hexes[side.hex], side.face);
+    for (int k = 0; k < 4; ++k) {
+      const Index a = cycle[k], b = cycle[(k + 1) & 3];
+      if (marked[a]) edges.push_back({a, b});
+      if (marked[b]) edges.push_back({b, a});
+    }
+  }
+  sort_unique(edges);
+  return edges;
+}
+
+/// The nodes found on one quad. The mesh hangs together at one that edges of the skin join to both ends of the edge
+/// that it lies in, or to all corners of the face. Across a crack such edges come from nodes that both sides share (its
+/// front), but lead on to nodes that only one side has; in contact they come from nowhere.
+class OnQuad {
+ public:
+  OnQuad(std::span<const Found> found, const std::array<Index, 4>& corners, std::span<const Edge> edges)
+      : found_(found),
+        edges_(edges),
+        in_face_(singletons(static_cast<Index>(found.size()) + 4)),
+        along_edge_(in_face_) {
+    for (std::size_t i = 0; i < found.size(); ++i) number_.emplace_back(found[i].node, static_cast<Index>(i));
+    for (int k = 0; k < 4; ++k) number_.emplace_back(corners[k], number_of_corner(k));
+    std::ranges::sort(number_);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (const Edge& edge : edges_of(found[i].node)) {
+        const Index at = position_in(number_, edge[1], &std::pair<Index, Index>::first);
+        if (at < 0) continue;
+        const Index other = number_[at].second;
+        join(in_face_, static_cast<Index>(i), other);
+        if (lies_in_edge(other, found[i].where)) join(along_edge_, static_cast<Index>(i), other);
+      }
+  }
+
+  bool hangs(Index i) {
+    const int where = found_[i].where;
+    if (where < 0) {
+      for (int k = 0; k < 4; ++k)
+        if (find_root(in_face_, number_of_corner(k)) != find_root(in_face_, i)) return false;
+      return true;
+    }
+    for (const int k : edge_ends[where])
+      if (find_root(along_edge_, number_of_corner(k)) != find_root(along_edge_, i)) return false;
+    return true;
+  }
+
+ private:
+  Index number_of_corner(int k) const { return static_cast<Index>(found_.size()) + k; }
+  std::span<const Edge> edges_of(Index node) const {
+    const auto range = std::ranges::equal_range(edges_, node, {}, [](const Edge& e) { return e[0]; });
+    return {range.begin(), range.end()};
+  }
+  /// Is it in this edge, or one of its ends?
+  bool lies_in_edge(Index number, int edge) const {
+    if (edge < 0 || edge >= at_corner) return false;
+    if (number < std::ssize(found_)) return found_[number].where == edge;
+    const Index corner = number - static_cast<Index>(found_.size());
+    return corner == edge_ends[edge][0] || corner == edge_ends[edge][1];
+  }
+  std::span<const Found> found_;
+  std::span<const Edge> edges_;
+  std::vector<Index> in_face_, along_edge_;      ///< joined nodes: those found, then corners
+  std::vector<std::pair<Index, Index>> number_;  ///< of a node there, ascending
+};
 
 }  // namespace
 
@@ -115,43 +194,53 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
 
   constexpr Index chunk_size = 256;
   const auto n = static_cast<Index>(skin.size());
-  std::vector<std::vector<HangingNode>> of_chunk(n_chunks(n, chunk_size));
+  std::vector<std::vector<Found>> of_chunk(n_chunks(n, chunk_size));
   parallel_chunks(n, chunk_size, [&](Index chunk, Index begin, Index end) {
-    for (const Side& side : skin.subspan(begin, end - begin)) {
-      const Hex& hex = mesh.hexes[side.hex];
+    for (Index q = begin; q < end; ++q) {
+      const Hex& hex = mesh.hexes[skin[q].hex];
       std::array<Vec3, 4> corners;
-      for (int k = 0; k < 4; ++k) corners[k] = mesh.points[hex[face_corner(side.face, k)]];
+      for (int k = 0; k < 4; ++k) corners[k] = mesh.points[hex[face_corner(skin[q].face, k)]];
       const auto patch = make_patch(corners, size);
       if (!patch) continue;
       tree.visit([&](const Box& b) { return overlap(*patch, b); },
                  [&](std::int32_t i) {
                    const Index node = nodes[i];
                    if (std::ranges::count(hex, node)) return;
-                   const int where = place(*patch, mesh.points[node]);
-                   if (where == off) return;
-                   Edge edge = {-1, -1};
-                   if (where != inside) {
-                     constexpr int ends[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
-                     for (int end_of = 0; end_of < 2; ++end_of)
-                       edge[end_of] = hex[face_corner(side.face, ends[where][end_of])];
-                     std::ranges::sort(edge);
-                   }
-                   of_chunk[chunk].push_back({node, side.hex, edge});
+                   if (const int where = place(*patch, mesh.points[node]); where != off)
+                     of_chunk[chunk].push_back({node, q, where});
                  });
     }
   });
-  std::vector<HangingNode> found;
+  std::vector<Found> found;
   for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
-  if (found.empty()) return found;
+  std::vector<HangingNode> result;
+  if (std::ranges::all_of(found, [](const Found& f) { return f.where >= at_corner; })) return result;
 
-  sort_unique(found);
-  std::vector<Index> part = singletons(mesh.n_nodes());
-  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    for (Index h = begin; h < end; ++h)
-      for (int c = 1; c < 8; ++c) join(part, mesh.hexes[h][0], mesh.hexes[h][c]);
-  });
-  for (HangingNode& h : found) h.same_part = find_root(part, h.node) == find_root(part, mesh.hexes[h.hex][0]);
-  return found;
+  std::vector<char> marked(mesh.points.size(), 0);
+  for (const Found& f : found) marked[f.node] = 1;
+  const std::vector<Edge> edges = edges_from(mesh, skin, marked);
+  for (std::size_t begin = 0, end = 0; begin < found.size(); begin = end) {
+    while (end < found.size() && found[end].quad == found[begin].quad) ++end;
+    const Side side = skin[found[begin].quad];
+    const std::array<Index, 4> corners = face_nodes(mesh.hexes[side.hex], side.face);
+    const std::span<const Found> here = std::span(found).subspan(begin, end - begin);
+    OnQuad on_quad(here, corners, edges);
+    for (Index i = 0; i < std::ssize(here); ++i) {
+      if (here[i].where >= at_corner) continue;
+      HangingNode hanging{here[i].node, side.hex};
+      if (here[i].where >= 0) {
+        hanging.edge = {corners[edge_ends[here[i].where][0]], corners[edge_ends[here[i].where][1]]};
+        std::ranges::sort(hanging.edge);
+      }
+      hanging.is_joined = on_quad.hangs(i);
+      result.push_back(hanging);
+    }
+  }
+  // Two quads of a hex may tell of its edge: joined if either says so.
+  std::ranges::sort(result, std::ranges::greater{});
+  result.erase(std::ranges::unique(result, {}, &HangingNode::key).begin(), result.end());
+  std::ranges::reverse(result);
+  return result;
 }
 
 }  // namespace hextwist

@@ -10,7 +10,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
-#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 
@@ -88,10 +88,7 @@ bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin) {
   if (!all_hold(mesh.n_nodes(), [&](Index n) { return mesh.points[n].allFinite(); })) return false;
   if (!all_hold(mesh.n_hexes(), [&](Index h) { return is_on_eight_nodes(mesh, mesh.hexes[h]); })) return false;
   check_nodes(mesh);  // for their number
-  {
-    const std::vector<double> jacobians = min_corner_jacobian(mesh);
-    if (!all_hold(mesh.n_hexes(), [&](Index h) { return jacobians[h] > 0; })) return false;
-  }
+  if (!all_valid(mesh)) return false;
   for (std::int64_t begin = 0; begin < mesh.n_nodes(); begin += nodes_at_once) {
     const auto end = static_cast<Index>(std::min<std::int64_t>(begin + nodes_at_once, mesh.n_nodes()));
     if (!faces_are_sound(mesh, static_cast<Index>(begin), end, skin)) return false;
@@ -102,7 +99,7 @@ bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin) {
 
 bool has_only_warnings(const Mesh& mesh) {
   std::vector<Side> skin;
-  return is_sound_without_skin(mesh, skin) && std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::same_part);
+  return is_sound_without_skin(mesh, skin) && std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::is_joined);
 }
 
 }  // namespace hextwist

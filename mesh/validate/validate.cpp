@@ -15,7 +15,7 @@
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
-#include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
@@ -199,13 +199,13 @@ void find_hanging_nodes(const Part& part, const CompressedRows& corners, std::sp
     }
     of_node.push_back(std::span(all).subspan(begin, end - begin));
   }
-  for (const bool same_part : {true, false})
+  for (const bool is_joined : {true, false})
     for (const auto& places : of_node) {
-      if (std::ranges::any_of(places, &HangingNode::same_part) != same_part) continue;
+      if (std::ranges::any_of(places, &HangingNode::is_joined) != is_joined) continue;
       std::vector<Index> hexes;
       bool on_edge = false;
       for (const HangingNode& place : places) {
-        if (place.same_part != same_part) continue;
+        if (place.is_joined != is_joined) continue;
         on_edge |= place.edge[0] >= 0;
         // All around the edge, also those whose faces there are no skin.
         if (place.edge[0] >= 0)
@@ -217,8 +217,8 @@ void find_hanging_nodes(const Part& part, const CompressedRows& corners, std::sp
       const Index node = places[0].node;
       std::string text = report.nodes({node}) + " lies inside " + (on_edge ? "an edge" : "a face") + " of " +
                          report.hexes(hexes) +
-                         (same_part ? " and is not a corner there" : ", a part of the mesh that it is not joined to");
-      report.add(same_part ? ViolationKind::hanging_node : ViolationKind::touching_part, std::move(hexes), {node},
+                         (is_joined ? " and is not a corner there" : ", which it is not joined to there");
+      report.add(is_joined ? ViolationKind::hanging_node : ViolationKind::touching_part, std::move(hexes), {node},
                  std::move(text));
     }
 }
@@ -340,17 +340,28 @@ void find_torn_edges(const Part& part, const Faces& faces, const CompressedRows&
   }
 }
 
+std::string fault_text(const HexVerdict& verdict) {
+  const std::string value = short_number(verdict.value, 6);
+  switch (verdict.fault) {
+    case HexFault::none:
+      break;
+    case HexFault::corner:
+      return (verdict.value == 0 ? " is flat" : " is inverted") + (": its smallest corner Jacobian is " + value);
+    case HexFault::inside:
+      return " is inverted inside: its Jacobian is positive at the corners, but " + value + " at " +
+             point_text(verdict.at, 3) + " of the unit cube";
+    case HexFault::flat:
+      return " is flat but for rounding: its scaled Jacobian is " + value;
+  }
+  return "";
+}
+
 void find_inverted(const Part& part, const std::vector<char>& not_finite, Report& report) {
   const Mesh& mesh = *part.mesh;
-  const auto jacobians = min_corner_jacobian(mesh);
-  for (const Index h : indices_where(mesh.n_hexes(), [&](Index i) {
-         return !(jacobians[i] > 0) &&
-                std::ranges::none_of(mesh.hexes[i], [&](Index node) { return not_finite[node]; });
-       })) {
+  for (const Index h : inverted_hexes(mesh)) {
+    if (std::ranges::any_of(mesh.hexes[h], [&](Index node) { return not_finite[node]; })) continue;
     const Index original = part.original_of(h);
-    report.add(ViolationKind::inverted, {original}, {},
-               report.hexes({original}) + (jacobians[h] == 0 ? " is flat" : " is inverted") +
-                   ": its smallest corner Jacobian is " + short_number(jacobians[h], 6));
+    report.add(ViolationKind::inverted, {original}, {}, report.hexes({original}) + fault_text(judge(mesh, h)));
   }
 }
 
@@ -382,6 +393,10 @@ const char* name(ViolationKind kind) {
       return "torn edge";
     case ViolationKind::inverted:
       return "inverted";
+    case ViolationKind::flattened:
+      return "flattened";
+    case ViolationKind::off_model:
+      return "off model";
   }
   return "";
 }

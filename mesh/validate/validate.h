@@ -17,12 +17,14 @@ enum class ViolationKind {
   duplicate_hex,   ///< hexes on the same eight nodes
   duplicate_node,  ///< nodes at the same place (within tolerance); a warning, since cracks and contact have them
   unused_node,     ///< a node of no hex; a warning
-  hanging_node,    ///< a node inside an edge or face of a hex that does not have it, both in one part (see below)
-  touching_part,   ///< the same, but no chain of hexes with common nodes leads from one to the other; a warning
+  hanging_node,    ///< a node inside an edge or face of a hex that does not have it (see below)
+  touching_part,   ///< the same, but across a crack or in contact; a warning
   crowded_face,    ///< a face with more than two hexes
   folded_face,     ///< two hexes on the same side of their face, or joined to its four nodes in different order
   torn_edge,       ///< hexes around an edge or node that are joined through it alone (non-manifold); a warning
-  inverted,        ///< smallest corner Jacobian not positive
+  inverted,        ///< not valid (quality/validity.h): the Jacobian is not positive everywhere, or flat by rounding
+  flattened,       ///< a refinement made it flat compared with the hexes that were there (not found by validate())
+  off_model,       ///< a refinement left a node off its curve or surface (not found by validate())
 };
 
 /// "hanging node" and so on.
@@ -42,7 +44,9 @@ struct ValidateOptions {
 
 /// Every violation, by kind, then by first hex or node. Empty: the mesh is conformal, uninverted and clean.
 /// A node counts as inside an edge or face when it is nearer to it than 1e-3 of the shortest edge of that face and than
-/// about 1e-6 of the mesh (files keep that many digits), but not that near to one of its corners.
+/// about 1e-6 of the mesh (files keep that many digits), but not that near to one of its corners. It hangs if edges of
+/// the skin join it to both ends of that edge, or to all corners of that face. Seams of double nodes (cracks) and
+/// bodies in contact may have other nodes on their two sides.
 std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options = {});
 
 /// Quicker, and in less memory: false when validate() may find something worse than a warning. True is certain.

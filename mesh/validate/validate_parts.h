@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "hextwist/mesh/topology.h"
@@ -17,11 +18,13 @@ struct HangingNode {
   Index node = -1;
   Index hex = -1;
   Edge edge = {-1, -1};    ///< the ends of the edge that it is in, ascending; {-1, -1} when in the face
-  bool same_part = false;  ///< a chain of hexes with common nodes leads from the node to the hex
+  bool is_joined = false;  ///< the mesh hangs together there; else a crack or contact is between
 
   auto operator<=>(const HangingNode&) const = default;
+  auto key() const { return std::tie(node, hex, edge); }
 };
-/// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes.
+/// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes, or some of
+/// them: all that lie on each other.
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
 
 /// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when

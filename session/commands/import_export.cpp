@@ -122,6 +122,8 @@ void do_import(Execution& run) {
   const double feature_angle = run.state.feature_angle;
   // Between the faces there, not by how much they turn.
   if (const Item* angle = run.command.find("angle")) run.state.feature_angle = 180 - angle->number;
+  const bool snap = run.state.snap;
+  if (run.command.has("snap") || run.command.has("no_snap")) run.state.snap = run.command.has("snap");
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, false);
@@ -139,6 +141,7 @@ void do_import(Execution& run) {
   else
     import_mesh(run, file.text);
   run.state.feature_angle = feature_angle;
+  run.state.snap = snap;
 }
 
 void do_export(Execution& run) {

@@ -116,9 +116,12 @@ Target target_of(const Execution& run) {
 
 Request request_of(const Execution& run) {
   const Command& command = run.command;
-  Request request{.concave = command.has("fill") ? Concave::fill : Concave::templates,
-                  .finish = {.smooth = command.has("smooth"), .dry_run = command.has("dry_run")}};
+  Request request{
+      .concave = command.has("fill") ? Concave::fill : Concave::templates,
+      .finish = {
+          .smooth = command.has("smooth"), .dry_run = command.has("dry_run"), .allow_off_cad = command.has("allow")}};
   if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
+  request.finish.keep_jumps = run.state.keep_jumps;
   if (command.has("sheet")) {
     request.how = sheets_of(run);
     return request;

@@ -11,6 +11,15 @@ void do_set(Execution& run) {
   if (const Item* degrees = command.find("degrees")) run.state.feature_angle = degrees->number;
   if (const Item* limit = command.find("limit")) run.state.tolerance = limit->number;
   if (command.has("untangle")) run.state.untangle = command.has("on");
+  if (command.has("snap")) run.state.snap = command.has("on");
+  if (command.has("keep_jumps")) {
+    std::vector<std::string>& kept = run.state.keep_jumps;
+    const Item* field = command.find("field");
+    if (!field)
+      kept.clear();
+    else if (std::ranges::find(kept, field->text) == kept.end())
+      kept.push_back(field->text);
+  }
   if (command.has("duplicate")) run.note("blocks may always overlap: this setting changes nothing here");
   if (command.has("undo")) {
     History& history = run.core.history;

@@ -79,6 +79,7 @@ void do_smooth(Execution& run) {
     options.scheme = scheme;
     options.nodes = related(run.core.selector(), range.kind, positions, EntityKind::node);
     if (state.fixed_nodes) options.fixed = *state.fixed_nodes;
+    options.keep_jumps = state.keep_jumps;
     options.fix_boundary = command.has("fixed");
     if (const Item* limit = command.find("sweeps")) options.iterations = static_cast<int>(limit->number);
     const SmoothReport report =

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"

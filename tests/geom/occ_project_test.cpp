@@ -63,7 +63,7 @@ TEST(occ_projection, agrees_with_brute_force_on_primitives) {
   for (const OccShape& shape :
        {OccShape::cylinder(2, 5), OccShape::cylinder_sector(3, 4, 0.4, 1.9), OccShape::cylinder_sector(3, 4, 2.5, 6),
         OccShape::sphere(3), OccShape::sphere_patch(3, -0.4, 1.1, 2.5), OccShape::cone(3, 0, 4),
-        OccShape::cone(1, 3, 4), OccShape::torus(5, 1.5), OccShape::brick(1, 2, 3),
+        OccShape::cone(1, 3, 4), OccShape::torus(5, 1.5), OccShape::lemon(3, 5), OccShape::brick(1, 2, 3),
         OccShape::brick_with_hole(10, 6, 2, 1.5)}) {
     expect_closest(shape, *shape.import().model, 18, 1);
     const OccShape moved = shape.moved({3, -40, 7}, 1.2);
@@ -114,6 +114,12 @@ TEST(occ_projection, is_exact_on_analytic_surfaces_and_their_splines) {
     const double s = std::clamp(((r - 3) * -3 + p.z() * 4) / 25, 0.0, 1.0);
     return std::hypot(r - (3 - 3 * s), p.z() - 4 * s);
   };
+  const auto lemon = [](const Vec3& p) {  // its profile is an arc around (-3, 0) from tip to tip
+    const double r = std::hypot(p.x(), p.y());
+    const bool beside = std::abs(std::atan2(p.z(), r + 3)) <= std::acos(0.6);
+    return beside ? std::abs(std::hypot(r + 3, p.z()) - 5) : std::hypot(r, std::abs(p.z()) - 4);
+  };
+  expect_distance(OccShape::lemon(3, 5), "torus", lemon);
   expect_distance(OccShape::sphere(3), "sphere", sphere);
   expect_distance(OccShape::sphere(3).as_nurbs(), "bspline surface", sphere);
   expect_distance(OccShape::torus(5, 1.5), "torus", torus);

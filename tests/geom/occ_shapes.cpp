@@ -1,5 +1,6 @@
 #include "occ_shapes.h"
 
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -8,6 +9,7 @@
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepLib.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -20,6 +22,7 @@
 #include <GC_MakeSegment.hxx>
 #include <GeomAPI_PointsToBSpline.hxx>
 #include <Geom_BSplineCurve.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -31,10 +34,13 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <array>
+#include <cmath>
 #include <gp_Circ.hxx>
 #include <gp_Elips.hxx>
+#include <gp_Pln.hxx>
 
 namespace hextwist::test {
 
@@ -89,8 +95,34 @@ OccShape OccShape::torus(double major, double minor) {
   return OccShape(std::make_shared<Impl>(BRepPrimAPI_MakeTorus(major, minor).Shape()));
 }
 
+OccShape OccShape::lemon(double major, double minor) {
+  const Handle(Geom_ToroidalSurface) surface =
+      new Geom_ToroidalSurface(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), major, minor);
+  const double half = std::acos(major / minor);
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(surface, 0, 2 * M_PI, M_PI - half, M_PI + half, 1e-7).Face());
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  BRepLib::OrientClosedSolid(solid);
+  return OccShape(std::make_shared<Impl>(solid));
+}
+
 OccShape OccShape::brick(double x, double y, double z) {
   return OccShape(std::make_shared<Impl>(BRepPrimAPI_MakeBox(x, y, z).Shape()));
+}
+
+OccShape OccShape::brick_with_face_inside(double x, double y, double z, double depth) {
+  const gp_Pln plane(gp_Ax3(gp_Pnt(x / 2, 0, 0), gp_Dir(1, 0, 0), gp_Dir(0, 1, 0)));
+  TopTools_ListOfShape parts;
+  parts.Append(BRepPrimAPI_MakeBox(x, y, z).Shape());
+  parts.Append(BRepBuilderAPI_MakeFace(plane, 0, depth, 0, z).Shape());
+  BRepAlgoAPI_BuilderAlgo builder;
+  builder.SetArguments(parts);
+  builder.Build();
+  return OccShape(std::make_shared<Impl>(TopExp_Explorer(builder.Shape(), TopAbs_SOLID).Current()));
 }
 
 OccShape OccShape::brick_with_hole(double x, double y, double z, double r) {

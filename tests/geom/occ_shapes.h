@@ -21,9 +21,13 @@ class OccShape {
   static OccShape sphere_patch(double r, double from_latitude, double to_latitude, double longitude);
   static OccShape cone(double r_bottom, double r_top, double h);
   static OccShape torus(double major, double minor);
+  /// The inner part of a torus whose minor radius is the larger: pointed on the axis.
+  static OccShape lemon(double major, double minor);
   static OccShape brick(double x, double y, double z);
   /// Brick with a cylindrical hole along z in its middle.
   static OccShape brick_with_hole(double x, double y, double z, double r);
+  /// Brick with a face inside, across the middle of x and from y = 0 to depth, that bounds nothing.
+  static OccShape brick_with_face_inside(double x, double y, double z, double depth);
   /// Smooth loft through circles and ellipses: a closed B-spline side.
   static OccShape loft();
   /// Surface of revolution of a spline that starts on the axis: a pole on a general surface.

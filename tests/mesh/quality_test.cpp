@@ -1,4 +1,5 @@
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -201,6 +202,7 @@ TEST(quality, DISABLED_of_a_million_hexes_is_quick) {
     };
     for (const Metric metric : metrics()) clock(name(metric), [&] { quality(metric, mesh); });
     clock("corner Jacobian", [&] { min_corner_jacobian(mesh); });
+    clock("validity", [&] { all_valid(mesh); });
     const auto values = quality(Metric::shape, mesh);
     clock("summary", [&] { summarize(values); });
   }

@@ -83,9 +83,9 @@ TEST(verify, curves_and_surfaces_of_a_shipped_model_are_reported_alike) {
   }
 }
 
-TEST(verify, a_new_node_in_a_face_across_a_crack_is_found) {
-  // The cube is cut half-way through: nodes of the plane x = 0, y < 0 are doubled. That is a mesh (with a warning),
-  // until one side of the crack gets nodes that the other has not.
+TEST(verify, new_nodes_on_one_side_of_a_crack_are_no_fault) {
+  // The cube is cut half-way through: nodes of the plane x = 0, y < 0 are doubled. One side of the crack may get nodes
+  // that the other has not.
   constexpr int n = 12;
   Mesh mesh = mesh_brick({1, 1, 1}, {n, n, n});
   const Index n_old = mesh.n_nodes();
@@ -111,8 +111,7 @@ TEST(verify, a_new_node_in_a_face_across_a_crack_is_found) {
   Request request;
   request.target.ids = {at_crack};
   const RefineResult result = refined_both_ways(input, measured(input), request);
-  ASSERT_FALSE(result.report.violations.empty());
-  EXPECT_EQ(result.report.violations[0].kind, ViolationKind::hanging_node);
+  EXPECT_TRUE(result.report.violations.empty()) << result.report.violations.front().text;
 }
 
 TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {

@@ -87,18 +87,24 @@ testing::AssertionResult conformal(const Mesh& mesh, UnusedNodes unused) {
 }
 
 testing::AssertionResult uninverted(const Mesh& mesh) {
+  constexpr int n = 4;
   for (Index h = 0; h < mesh.n_hexes(); ++h)
-    for (int c = 0; c < 8; ++c) {
-      const auto& hex = mesh.hexes[h];
-      std::array<Vec3, 3> e;
-      for (int axis = 0; axis < 3; ++axis)
-        e[axis] = (mesh.points[hex[c | 1 << axis]] - mesh.points[hex[c & ~(1 << axis)]]);
-      Eigen::Matrix3d a;
-      a << e[0], e[1], e[2];
+    for (int i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i) {
+      const Vec3 at = Vec3(i % (n + 1), i / (n + 1) % (n + 1), i / (n + 1) / (n + 1)) / n;
+      Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+      for (int c = 0; c < 8; ++c)
+        for (int axis = 0; axis < 3; ++axis) {
+          double weight = c >> axis & 1 ? 1 : -1;
+          for (int other = 0; other < 3; ++other)
+            if (other != axis) weight *= c >> other & 1 ? at[other] : 1 - at[other];
+          a.col(axis) += weight * mesh.points[mesh.hexes[h][c]];
+        }
       const double det = a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) -
                          a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
                          a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
-      if (!(det > 0)) return no("hex " + std::to_string(h) + " is inverted at corner " + std::to_string(c));
+      if (!(det > 0))
+        return no("hex " + std::to_string(h) + " is inverted at (" + std::to_string(at.x()) + ", " +
+                  std::to_string(at.y()) + ", " + std::to_string(at.z()) + ")");
     }
   return testing::AssertionSuccess();
 }

@@ -13,7 +13,7 @@ namespace hextwist::test {
 enum class UnusedNodes { refused, allowed };
 testing::AssertionResult conformal(const Mesh& mesh, UnusedNodes unused = UnusedNodes::refused);
 
-/// Every corner Jacobian of every hex positive.
+/// The Jacobian of every hex positive at 5 x 5 x 5 places of it, corners among them.
 testing::AssertionResult uninverted(const Mesh& mesh);
 
 /// Sets, blocks and fields have members that exist, ascending and once each; fields the right length.

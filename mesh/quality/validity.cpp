@@ -1,0 +1,221 @@
+#include "hextwist/mesh/quality/validity.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/quality/quality_internal.h"
+
+namespace hextwist {
+namespace {
+
+/// Coefficients of the determinant: number i + 3 j + 9 k belongs to degree i, j, k of x, y, z.
+template <int N>
+using Coefficients = std::array<Lanes<N>, 27>;
+
+/// dx is bilinear in y and z, dy in x and z, dz in x and y; the product of three linear basis functions of one
+/// coordinate at most squared is 1 or 1/2 of a quadratic one. First dx x dy, which is quadratic in z alone.
+template <int N>
+Coefficients<N> coefficients(const LaneEdges<N>& edges) {
+  const auto &dx = edges.along[0], &dy = edges.along[1], &dz = edges.along[2];
+  Coefficients<N> result;
+  result.fill(Lanes<N>::Zero());
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const std::array<LaneVec<N>, 3> area = {cross(dx[j], dy[i]),
+                                              scaled(0.5, cross(dx[j], dy[i + 2]) + cross(dx[j + 2], dy[i])),
+                                              cross(dx[j + 2], dy[i + 2])};
+      for (int k = 0; k < 3; ++k)
+        for (int other_i = 0; other_i < 2; ++other_i)
+          for (int other_j = 0; other_j < 2; ++other_j) {
+            const double weight = (i == other_i ? 1 : 0.5) * (j == other_j ? 1 : 0.5);
+            result[(i + other_i) + 3 * (j + other_j) + 9 * k] += weight * dot(area[k], dz[other_i + 2 * other_j]);
+          }
+    }
+  return result;
+}
+
+/// Product of the longest edges of the three directions: no determinant is larger.
+template <int N>
+Lanes<N> longest_product(const LaneEdges<N>& edges) {
+  Lanes<N> product = Lanes<N>::Ones();
+  for (const auto& along : edges.along)
+    product *= along[0].squared().max(along[1].squared()).max(along[2].squared()).max(along[3].squared());
+  return product.sqrt();
+}
+
+/// Positive: surely valid, as no scaled Jacobian is below this times least_scaled_jacobian either. Nearly all hexes
+/// are.
+template <int N>
+Lanes<N> clearance(const LaneHex<N>& x) {
+  const LaneEdges<N> edges(x);
+  const Coefficients<N> all = coefficients(edges);
+  Lanes<N> least = all[0];
+  for (int i = 1; i < 27; ++i) least = least.min(all[i]);
+  return least - least_scaled_jacobian * longest_product(edges);
+}
+
+constexpr double rounding = 1e-14;  // of the product above
+constexpr int max_pieces = 4096;
+
+struct Piece {
+  std::array<double, 27> coefficient;
+  Vec3 low = Vec3::Zero(), size = Vec3::Ones();
+};
+
+/// Corner c of a piece has this coefficient.
+constexpr int at_corner(int c) {
+  return 2 * (c & 1) + 3 * (c & 2) + 18 * (c >> 2 & 1);
+}
+
+/// Calls f(first, step) for the nine rows of three coefficients along an axis.
+template <class F>
+void for_rows(int axis, F f) {
+  const int step = axis == 0 ? 1 : axis == 1 ? 3 : 9;
+  for (int i = 0; i < 27; ++i)
+    if (i / step % 3 == 0) f(i, step);
+}
+
+/// The axis along which the determinant bends most: halving it brings the coefficients nearest to the values.
+int most_bent(const Piece& piece) {
+  std::array<double, 3> bend{};
+  for (int axis = 0; axis < 3; ++axis)
+    for_rows(axis, [&](int i, int step) {
+      const auto& c = piece.coefficient;
+      bend[axis] = std::max(bend[axis], std::abs(c[i] - 2 * c[i + step] + c[i + 2 * step]));
+    });
+  return static_cast<int>(std::ranges::max_element(bend) - bend.begin());
+}
+
+/// Halves of a piece along an axis (de Casteljau).
+std::array<Piece, 2> halves(const Piece& whole, int axis) {
+  std::array<Piece, 2> half = {whole, whole};
+  for_rows(axis, [&](int i, int step) {
+    const double a = whole.coefficient[i], b = whole.coefficient[i + step], c = whole.coefficient[i + 2 * step];
+    const double ab = (a + b) / 2, bc = (b + c) / 2, middle = (ab + bc) / 2;
+    half[0].coefficient[i + step] = ab;
+    half[0].coefficient[i + 2 * step] = half[1].coefficient[i] = middle;
+    half[1].coefficient[i + step] = bc;
+  });
+  for (Piece& piece : half) piece.size[axis] /= 2;
+  half[1].low[axis] += half[1].size[axis];
+  return half;
+}
+
+/// Looks for a place where the determinant is not above `least`.
+HexVerdict search(const Piece& hex, double least) {
+  std::vector<Piece> open = {hex};
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const Piece piece = open[next];
+    for (int c = 0; c < 8; ++c)
+      if (const double value = piece.coefficient[at_corner(c)]; !(value > least))
+        return {HexFault::inside, value, piece.low + piece.size.cwiseProduct(Vec3(c & 1, c >> 1 & 1, c >> 2 & 1))};
+    if (std::ranges::all_of(piece.coefficient, [&](double value) { return value > least; })) continue;
+    if (open.size() >= max_pieces) return {HexFault::inside, 0, piece.low + piece.size / 2};
+    const auto both = halves(piece, most_bent(piece));
+    open.insert(open.end(), both.begin(), both.end());
+  }
+  return {};
+}
+
+HexVerdict judge(const LaneHex<1>& x) {
+  const LaneEdges<1> edges(x);
+  const Coefficients<1> all = coefficients(edges);
+  Piece hex;
+  for (int i = 0; i < 27; ++i) hex.coefficient[i] = all[i][0];
+  HexVerdict worst{HexFault::corner, std::numeric_limits<double>::infinity(), Vec3::Zero()};
+  for (int c = 0; c < 8; ++c)
+    if (const double value = hex.coefficient[at_corner(c)]; !(value >= worst.value))
+      worst = {HexFault::corner, value, Vec3(c & 1, c >> 1 & 1, c >> 2 & 1)};
+  if (!(worst.value > 0)) return worst;
+  // The scaled Jacobian first: a corner that is flat by rounding is that, and not inverted nearby.
+  const double scaled = scaled_jacobian_kernel.one(x, 1)[0];
+  const HexVerdict inside = search(hex, rounding * longest_product(edges)[0]);
+  if (inside.fault != HexFault::none && !(scaled > 0 && scaled < least_scaled_jacobian)) return inside;
+  if (!(scaled >= least_scaled_jacobian)) return {HexFault::flat, scaled, worst.at};
+  return {};
+}
+
+/// Valid by the quick test.
+bool is_clear(const Mesh& mesh, Index hex) {
+  return clearance(load<1>(mesh, hex))[0] > 0;
+}
+bool is_valid(const Mesh& mesh, Index hex) {
+  return is_clear(mesh, hex) || judge(mesh, hex).fault == HexFault::none;
+}
+
+/// f(hex) for those of begin .. end - 1 that are not valid, ascending.
+template <class F>
+void for_inverted(const Mesh& mesh, Index begin, Index end, F f) {
+  Index h = begin;
+  for (; h + n_lanes <= end; h += n_lanes) {
+    const Lanes<n_lanes> clear = clearance(load<n_lanes>(mesh, h));
+    if ((clear > 0).all()) continue;
+    for (int lane = 0; lane < n_lanes; ++lane)
+      if (!(clear[lane] > 0) && judge(mesh, h + lane).fault != HexFault::none) f(h + lane);
+  }
+  for (; h < end; ++h)
+    if (!is_valid(mesh, h)) f(h);
+}
+
+/// What f(begin, end, list) puts into lists, for the hexes from `first` on, in order.
+template <class F>
+std::vector<Index> collect(const Mesh& mesh, Index first, F f) {
+  constexpr Index size = 4096;
+  const Index n = mesh.n_hexes() - first;
+  std::vector<std::vector<Index>> of_chunk(n_chunks(n, size));
+  parallel_chunks(n, size,
+                  [&](Index chunk, Index begin, Index end) { f(first + begin, first + end, of_chunk[chunk]); });
+  std::vector<Index> found;
+  for (const auto& list : of_chunk) found.insert(found.end(), list.begin(), list.end());
+  return found;
+}
+
+}  // namespace
+
+HexVerdict judge(std::span<const Vec3, 8> corners) {
+  return judge(load(corners));
+}
+HexVerdict judge(const Mesh& mesh, Index hex) {
+  return judge(load<1>(mesh, hex));
+}
+
+std::vector<Index> inverted_hexes(const Mesh& mesh, Index first) {
+  return collect(mesh, first, [&](Index begin, Index end, std::vector<Index>& found) {
+    for_inverted(mesh, begin, end, [&](Index h) { found.push_back(h); });
+  });
+}
+
+std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes) {
+  std::vector<Index> found =
+      indices_where(static_cast<Index>(hexes.size()), [&](Index i) { return !is_valid(mesh, hexes[i]); });
+  for (Index& i : found) i = hexes[i];
+  return found;
+}
+
+std::vector<Index> hexes_below(const Mesh& mesh, double limit, Index first) {
+  return collect(mesh, first, [&](Index begin, Index end, std::vector<Index>& found) {
+    Index h = begin;
+    for (; h + n_lanes <= end; h += n_lanes) {
+      const Lanes<n_lanes> values = scaled_jacobian_kernel.some(load<n_lanes>(mesh, h), 1);
+      for (int lane = 0; lane < n_lanes; ++lane)
+        if (!(values[lane] >= limit)) found.push_back(h + lane);
+    }
+    for (; h < end; ++h)
+      if (!(scaled_jacobian_kernel.one(load<1>(mesh, h), 1)[0] >= limit)) found.push_back(h);
+  });
+}
+
+bool all_valid(const Mesh& mesh) {
+  std::atomic<bool> all = true;
+  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
+    if (all.load(std::memory_order_relaxed))
+      for_inverted(mesh, begin, end, [&](Index) { all.store(false, std::memory_order_relaxed); });
+  });
+  return all;
+}
+
+}  // namespace hextwist
