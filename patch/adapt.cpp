@@ -41,6 +41,12 @@ AdaptResult run(const MeshedModel& input, const Request& request, const Progress
 
 }  // namespace
 
+LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base) {
+  Levelling bare;
+  bare.forest.base = std::move(base);
+  return std::make_shared<const Levelling>(std::move(bare));
+}
+
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options) {
   Request request = request_of(mesh, flags.size(), "flags", options);
   request.target.ids = indices_where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });

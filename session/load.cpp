@@ -279,6 +279,10 @@ void accept_refined(Transaction& run, RefineResult result) {
 }
 
 void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling) {
+  if (levelling && levelling->forest.is_bare()) {
+    run.state.levelling = nullptr;  // back at the base
+    return;
+  }
   if (!levelling && run.state.levelling)
     run.note("levels end here: this mesh is the base of what is refined from now on");
   run.state.levelling = std::move(levelling);

@@ -95,6 +95,7 @@ void LevelRun::adopt(LevelStep step) {
   Index n_dropped = 0;
   std::vector<Vec3> straight;  // where fields have been evaluated
   if (has_nodal_fields(state.input.mesh)) straight = step.mesh.mesh.points;
+  if (step.forest.is_bare()) from.overlay = {};  // as if nothing had ever been done
   Overlay overlay = put_on(from.overlay, state.input.mesh, state.input.association, pinned, step, n_dropped);
   if (n_dropped > 0)
     state.note(counted(n_dropped, "node") + " that had been smoothed went back, as hexes around changed");
@@ -161,12 +162,6 @@ bool run_combination_by_levels(State& state) {
   run.adopt(std::move(step));
   state.run(*enclose_technique(state, std::move(at)));
   return true;
-}
-
-LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base) {
-  Levelling bare;
-  bare.forest.base = std::move(base);
-  return std::make_shared<const Levelling>(std::move(bare));
 }
 
 LevellingPtr levelling_after(const Request& request, const RefineResult& result, const MeshedModel& refined) {

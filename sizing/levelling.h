@@ -18,8 +18,6 @@ inline bool has_levels(const Request& request) {
   return request.levelling && !request.levelling->forest.is_bare();
 }
 
-/// Of a mesh that nothing is known of: it is the base.
-LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base);
 /// After a request: that of its result. result.levelling: what run_levels() made, or null; refined: the whole mesh.
 /// Null: `refined` is a base.
 LevellingPtr levelling_after(const Request& request, const RefineResult& result, const MeshedModel& refined);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hextwist/mesh/quality/histogram.h"
+#include "hextwist/patch/adapt.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/patch/refine_known.h"
 #include "hextwist/session/commands/commands.h"

@@ -63,7 +63,13 @@ TEST_P(foreign_mesh, some_hexes_are_refined_and_written_back_in_every_format) {
     write_mesh(path, fine.mesh, &fine.association);
     const Mesh back = read_mesh(path).mesh;
     EXPECT_EQ(back.hexes.size(), fine.mesh.hexes.size());
-    EXPECT_EQ(back.points, fine.mesh.points);
+    if (std::string(extension) == ".inp") {  // 20 characters, which is what CalculiX reads
+      ASSERT_EQ(back.points.size(), fine.mesh.points.size());
+      for (std::size_t n = 0; n < back.points.size(); ++n)
+        EXPECT_LE((back.points[n] - fine.mesh.points[n]).norm(), 1e-13 * (fine.mesh.points[n].norm() + 1e-3)) << n;
+    } else {
+      EXPECT_EQ(back.points, fine.mesh.points);
+    }
     EXPECT_EQ(back.side_sets.size(), fine.mesh.side_sets.size());
   }
   write_mesh(folder / "fine.vtu", fine.mesh, &fine.association);

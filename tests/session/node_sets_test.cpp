@@ -37,7 +37,7 @@ constexpr const char* plate = "create brick x 4 y 4 z 1 interval 4 4 1; ";
 TEST(NodeSets, on_both_faces_of_a_plate_gain_nothing_between) {
   const auto on_faces = [](const Vec3& p) { return is_near(std::abs(p.z()), 0.5); };
   for (const char* refine :
-       {"refine volume all numsplit 2", "refine hex 6 7; refine hex 1", "refine vertex 1 depth 1 smooth"}) {
+       {"refine volume all numsplit 2", "refine hex 6 7; refine hex in vertex 1", "refine vertex 1 depth 1 smooth"}) {
     SCOPED_TRACE(refine);
     Fixture f;
     f.session.run(plate);
@@ -71,8 +71,9 @@ TEST(NodeSets, on_the_side_of_a_plate_are_filled) {
   Fixture f;
   f.session.run(plate);
   // By nodes: a strip with ends is meant as the surface that it is.
-  f.session.run("nodeset 1 node in surface " + face(f, 0, 1) + "; refine volume all numsplit 2");
+  f.session.run("nodeset 1 node in surface " + face(f, 0, 1));
   EXPECT_TRUE(f.notices.empty());
+  f.session.run("refine volume all numsplit 2");
   EXPECT_TRUE(set_is(f.session.meshed().mesh, [](const Vec3& p) { return is_near(p.x(), 2); }));
 }
 
