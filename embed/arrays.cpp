@@ -41,6 +41,8 @@ std::vector<std::int64_t> ids(const std::int64_t* values, std::int64_t n, const 
   for (std::size_t i = 0; i < result.size(); ++i)
     if (result[i] < 1 || (i > 0 && result[i] <= result[i - 1]))
       throw Error(place(name, i, 1) + ": ids are positive and ascend, not " + std::to_string(result[i]));
+  if (!result.empty() && result.back() > io::highest_readable_id)
+    throw Error(place(name, result.size() - 1, 1) + ": id " + std::to_string(result.back()) + " is too large");
   const bool counted = !result.empty() && result.back() == static_cast<std::int64_t>(result.size());
   return counted ? std::vector<std::int64_t>() : result;  // the mesh has none where they are 1, 2, ...
 }
