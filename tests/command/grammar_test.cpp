@@ -200,7 +200,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"nodeset 1 curve 1 nod 3", 19, "'nod' is short for node or nodeset"},
            {"sideset 1 surface 2 curve 3", 21, "expected"},
            {"group g add curve 1 crve 2", 21, "(did you mean 'curve'?)"},
-           {"block 0 hex 1", 7, "block must be a whole number"},
+           {"block -1 hex 1", 7, "block must be a whole number"},
            {"nodeset 1 node", 15, "expected an id"},
            {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
            {"delete mesh", 8, "expected block, nodeset, sideset or group"},

@@ -136,7 +136,7 @@ TEST(vtk_files, legacy_files_with_voxels_quads_and_arrays_are_understood) {
   EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{3, "", {{0, 4}}}}));
   EXPECT_EQ(
       read.mesh.fields,
-      (std::vector<Field>{{"MaterialID", Field::On::hex, 1, {7}},
+      (std::vector<Field>{{"MaterialID", Field::On::hex, 1, {7}, true},
                           {"v", Field::On::hex, 3, {1, 2, 3}},
                           {"t", Field::On::node, 1, {0, 1, 2, 3, 4, 5, 6, 7}},
                           {"speed up", Field::On::node, 2, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}}}));

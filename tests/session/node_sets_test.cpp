@@ -37,7 +37,7 @@ constexpr const char* plate = "create brick x 4 y 4 z 1 interval 4 4 1; ";
 TEST(NodeSets, on_both_faces_of_a_plate_gain_nothing_between) {
   const auto on_faces = [](const Vec3& p) { return is_near(std::abs(p.z()), 0.5); };
   for (const char* refine :
-       {"refine volume all numsplit 2", "refine hex 6 7; refine hex 1", "refine vertex 1 depth 1 smooth"}) {
+       {"refine volume all numsplit 2", "refine hex 1 2; refine hex 16", "refine vertex 1 depth 1 smooth"}) {
     SCOPED_TRACE(refine);
     Fixture f;
     f.session.run(plate);
@@ -72,7 +72,7 @@ TEST(NodeSets, on_the_side_of_a_plate_are_filled) {
   f.session.run(plate);
   // By nodes: a strip with ends is meant as the surface that it is.
   f.session.run("nodeset 1 node in surface " + face(f, 0, 1) + "; refine volume all numsplit 2");
-  EXPECT_TRUE(f.notices.empty());
+  EXPECT_EQ(f.notices, std::vector<std::string>{"all volumes: uniform, every edge in 3 equal pieces"});
   EXPECT_TRUE(set_is(f.session.meshed().mesh, [](const Vec3& p) { return is_near(p.x(), 2); }));
 }
 
@@ -130,6 +130,21 @@ TEST(NodeSets, on_two_rims_of_a_ring_gain_nothing_between) {
   g.session.take_mesh(given);
   g.session.run("refine hex all");
   EXPECT_EQ(g.session.meshed().mesh.node_sets[0].nodes, meshed.mesh.node_sets[0].nodes);
+}
+
+TEST(NodeSets, on_two_rims_of_a_hole_with_corners_gain_nothing_between) {
+  // A ring of square section whose inner wall is four faces that meet at right angles.
+  Mesh mesh = test::grid(3, 3, 1);
+  std::erase_if(mesh.hexes, [](const Hex& hex) { return hex[0] == 5; });
+  mesh.node_sets = {{1, "rims", {5, 6, 9, 10, 21, 22, 25, 26}}};
+  Fixture f;
+  f.session.take_mesh(mesh);
+  EXPECT_EQ(f.notices.size(), 1u);
+  f.session.run("refine hex all");
+  EXPECT_TRUE(set_is(f.session.meshed().mesh, [](const Vec3& p) {
+    const bool on_wall = p.x() > 1 - 1e-9 && p.x() < 2 + 1e-9 && p.y() > 1 - 1e-9 && p.y() < 2 + 1e-9;
+    return on_wall && (is_near(p.z(), 0) || is_near(p.z(), 1));
+  }));
 }
 
 TEST(NodeSets, a_patch_and_undo_give_the_same) {
