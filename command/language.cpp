@@ -287,6 +287,12 @@ const std::vector<CommandSpec> table = {
      {{"range", Kind::range, 0, 0, false, range_help},
       {"sweeps", Kind::integer, 0, 1e6, false, "how often each node is visited at most; default 100"}},
      {"smooth volume all", "smooth hex in surface 3 scheme condition number", "smooth volume 1 iterations 5 boundary fixed"}},
+    {"step", "step {<n>|last|time <t>}", "take the fields of another time step",
+     "Of the file that the mesh came from, Exodus II only: its fields at that time, at the places where nodes and hexes are now. "
+     "A file that is written has all time steps in any case.",
+     {{"n", Kind::integer, 1, 1e9, false, "number of the step"},
+      {"t", Kind::number, -1e100, 1e100, false, "its time, or the nearest one"}},
+     {"step 1", "step time 2.5", "step last"}},
     {"surface", "surface <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow} [=free|=fixed] [=beta <value>] [=cpu <value>]", "choose how 'smooth' treats surfaces",
      "Nothing moves before 'smooth surface' is said, whose own 'scheme' goes before this.",
      {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}},

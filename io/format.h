@@ -34,7 +34,8 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
                std::vector<std::string>& notices);
 
 MeshFile read_exodus(const std::filesystem::path& file);
-void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options);
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                  std::vector<std::string>& notices);
 
 // ---- ids ----
 
@@ -150,6 +151,9 @@ constexpr int face_of_file_corners(const std::array<int, 4>& corners) {
 inline std::int64_t id_of(std::span<const std::int64_t> ids, Index index) {
   return ids.empty() ? std::int64_t{index} + 1 : ids[index];
 }
+/// Where a name can't be written as it is. what: "block 3", "field".
+void say_renamed(const std::string& what, const std::string& name, const std::string& written,
+                 std::vector<std::string>& notices);
 /// For formats without fields.
 void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
 /// x y z of all points, in their memory.

@@ -128,6 +128,12 @@ std::string component_name(const std::string& name, int c, int n) {
 
 }  // namespace
 
+void say_renamed(const std::string& what, const std::string& name, const std::string& written,
+                 std::vector<std::string>& notices) {
+  if (!name.empty() && name != written)
+    notices.push_back(what + " '" + name + "' is called '" + written + "' in the file");
+}
+
 void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
   if (mesh.fields.empty()) return;
   std::string names;

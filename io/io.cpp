@@ -1,7 +1,10 @@
 #include "hextwist/io/io.h"
 
+#include <fstream>
+
 #include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
+#include "hextwist/io/results.h"
 
 namespace hextwist {
 namespace {
@@ -22,26 +25,26 @@ void write_whole(const std::filesystem::path& file, const Mesh& mesh, const Asso
 }
 
 void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&, const WriteOptions& options,
-                  Notices&) {
-  io::write_exodus(file, mesh, options);
+                  Notices& notices) {
+  io::write_exodus(file, mesh, options, notices);
 }
 
 struct Format {
-  std::string_view extension;
+  std::string_view extension, name;
   MeshFile (*read)(const std::filesystem::path&);
   void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&);
 };
 
 constexpr Format formats[] = {
-    {".msh", read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
-    {".e", io::read_exodus, write_exodus},
-    {".exo", io::read_exodus, write_exodus},
-    {".g", io::read_exodus, write_exodus},
-    {".gen", io::read_exodus, write_exodus},
-    {".inp", io::read_abaqus, write_whole<io::write_abaqus>},
-    {".mesh", read_whole<io::read_medit>, write_whole<io::write_medit>},
-    {".vtk", read_whole<io::read_vtk>, nullptr},
-    {".vtu", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
+    {".msh", "gmsh", read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
+    {".e", "exodus", io::read_exodus, write_exodus},
+    {".exo", "exodus", io::read_exodus, write_exodus},
+    {".g", "genesis", io::read_exodus, write_exodus},
+    {".gen", "genesis", io::read_exodus, write_exodus},
+    {".inp", "abaqus", io::read_abaqus, write_whole<io::write_abaqus>},
+    {".mesh", "medit", read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".vtk", "vtk", read_whole<io::read_vtk>, nullptr},
+    {".vtu", "vtk", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };
 
 /// What only another format has.
@@ -67,11 +70,37 @@ void say_left_out(const FileExtras& extras, std::string_view extension, Notices&
                       " left out, which only .msh has");
 }
 
-const Format* format_of(const std::filesystem::path& file) {
+/// The first bytes of a file; empty where it can't be read.
+std::string beginning(const std::filesystem::path& file) {
+  std::string bytes(4, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+/// By name (of several formats of one name the one with this extension) or by extension.
+const Format* format_of(const std::filesystem::path& file, std::string_view name) {
   const std::string extension = lower_extension(file);
-  for (const Format& format : formats)
-    if (format.extension == extension) return &format;
-  return nullptr;
+  const Format* of_name = nullptr;
+  for (const Format& format : formats) {
+    if (format.extension == extension && (name.empty() || format.name == name)) return &format;
+    if (!of_name && !name.empty() && format.name == name) of_name = &format;
+  }
+  return of_name;
+}
+const Format* format_to_read(const std::filesystem::path& file, std::string_view name) {
+  const Format* format = format_of(file, name);
+  if (format && format->extension == lower_extension(file)) return format;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return format;
+  const std::string bytes = beginning(file);
+  if (!format && (bytes.starts_with("CDF") || bytes == "\x89HDF")) return format_of(file, "exodus");
+  return format && format->name == "vtk" && bytes.starts_with("<") ? format_of("a.vtu", name) : format;
+}
+const Format* format_to_write(const std::filesystem::path& file, std::string_view name) {
+  const Format* format = format_of(file, name);
+  return format && !format->write && !name.empty() ? format_of("a.vtu", name) : format;
 }
 
 template <class Does>
@@ -92,8 +121,8 @@ std::string writable_extensions() {
   return extensions([](const Format& format) { return format.write != nullptr; });
 }
 
-MeshFile read_mesh(const std::filesystem::path& file) {
-  const Format* format = format_of(file);
+MeshFile read_mesh(const std::filesystem::path& file, std::string_view name) {
+  const Format* format = format_to_read(file, name);
   if (!format || !format->read)
     throw Error(file.string() + ": meshes of this kind cannot be read; known are " + readable_extensions());
   return format->read(file);
@@ -101,7 +130,7 @@ MeshFile read_mesh(const std::filesystem::path& file) {
 
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
                                     const WriteOptions& options) {
-  const Format* format = format_of(file);
+  const Format* format = format_to_write(file, options.format);
   if (!format || !format->write)
     throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
   static const Association nothing;
@@ -109,6 +138,9 @@ std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mes
   if (options.extras) say_left_out(*options.extras, format->extension, notices);
   try {
     format->write(file, mesh, association ? *association : nothing, options, notices);
+    if (mesh.results && format->write != write_exodus)
+      if (const std::string more = extras_text(*mesh.results); !more.empty())
+        notices.push_back(std::string(format->extension) + " has no place for what came with " + more + ": left out");
     return notices;
   } catch (const Error& error) {
     // Errors about the mesh lack the file's name.

@@ -6,9 +6,10 @@
 //               an entity, the part becomes an entity of its own; the section $HextwistParts behind the elements, which
 //               others skip, says of what. $Periodic is carried through refinement. Version 2.2 says owners by elements
 //               only: nodes on an entity without elements lose theirs.
-//   .e .exo .g .gen   Exodus II; blocks, node sets, side sets, names, ids, fields of the last time step
-//               Blocks that overlap or leave hexes out: the first block of a hex is its element block, blocks that lost
-//               hexes that way are written whole as element sets. No owners.
+//   .e .exo .g .gen   Exodus II; blocks, node sets, side sets, names, ids; all variables at all times (the fields are
+//               those of the last), distribution factors, attributes, properties, records (results.h)
+//               Blocks that overlap or leave hexes out: the smallest block of a hex is its element block, blocks that
+//               lost hexes that way are written whole as element sets. No owners.
 //   .vtk        VTK legacy, text and binary (read only)
 //   .vtu        VTK XML: ids, owners, blocks, quality and fields as point and cell data, sets as field data
 //   .inp        Abaqus and CalculiX: elements with eight corners, whose types are kept by blocks, *NSET, *ELSET,
@@ -26,6 +27,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hextwist/io/extras.h"
@@ -47,7 +49,9 @@ struct MeshFile {
 /// elements, which count other elements too), nodes and hexes sorted by id; a notice says where they are not.
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
-MeshFile read_mesh(const std::filesystem::path& file);
+/// format: "gmsh", "exodus", "genesis", "abaqus", "medit" or "vtk", whatever the file's name is. Default: by extension,
+/// and where that is none of those below by content, which tells Exodus (out.e-s002, mesh.e.4.0).
+MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {});
 
 struct WriteOptions {
   bool binary = true;                  ///< where the format has both
@@ -57,6 +61,7 @@ struct WriteOptions {
   bool groups_only = false;            ///< .msh: only elements in physical groups, as Gmsh writes them by default
   const Model* model = nullptr;        ///< .msh: the CAD of the association; lines then run as its curves do
   const FileExtras* extras = nullptr;  ///< of the file that the mesh, or what it was refined from, was read from
+  std::string format = {};             ///< as read_mesh() takes it; empty: by extension
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole

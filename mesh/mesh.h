@@ -61,7 +61,7 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-struct FileExtras;  // io/extras.h
+struct FileResults;  // io/results.h
 
 struct Mesh {
   std::vector<Vec3> points;
@@ -75,7 +75,7 @@ struct Mesh {
   std::vector<Field> fields;
   /// What the file said for which there is no array here (time steps, ...), null where that is nothing; and, for
   /// finding it, the hex of the file (0-based) that each hex lies in.
-  std::shared_ptr<const FileExtras> extras;
+  std::shared_ptr<const FileResults> results;
   std::vector<Index> file_hexes;
 
   Index n_nodes() const { return static_cast<Index>(points.size()); }

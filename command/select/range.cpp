@@ -20,7 +20,7 @@ void skip_word(Reader& reader, std::string_view word) {
   if (is_word(reader.peek(), word)) reader.take();
 }
 
-std::int64_t read_whole_number(Reader& reader, const char* what, const char* whose) {
+std::int64_t read_whole_number(Reader& reader, const char* what, const char* whose, int lowest = 1) {
   if (reader.peek().kind != Token::Kind::number) {
     reader.expect(what);
     reader.fail();
@@ -28,16 +28,17 @@ std::int64_t read_whole_number(Reader& reader, const char* what, const char* who
   const Token token = reader.take();
   // Beyond 2^53 a double can't tell neighbours apart; no mesh has such ids.
   if (token.value != std::floor(token.value)) reader.fail(token, std::string(whose) + " are whole numbers");
-  if (token.value < 1) reader.fail(token, std::string(whose) + " start at 1");
+  if (token.value < lowest) reader.fail(token, std::string(whose) + " start at " + std::to_string(lowest));
   if (token.value > 9e15) reader.fail(token, "this number is out of range");
   return static_cast<std::int64_t>(token.value);
 }
 
-RangeItem read_ids(Reader& reader) {
+/// names: of what has names, of which blocks and sets start at 0.
+RangeItem read_ids(Reader& reader, bool names) {
   RangeItem item;
   item.kind = RangeItem::Kind::id;
   item.token = item.last_token = reader.peek();
-  item.first = item.last = read_whole_number(reader, "an id", "ids");
+  item.first = item.last = read_whole_number(reader, "an id", "ids", names ? 0 : 1);
   // `draw hex 3 to "a.png"` is no span.
   const Token& next = reader.ahead();
   const bool file = next.kind == Token::Kind::string ||
@@ -45,7 +46,7 @@ RangeItem read_ids(Reader& reader) {
   if (file || !reader.accept("to")) return item;
   item.kind = RangeItem::Kind::span;
   item.last_token = reader.peek();
-  item.last = read_whole_number(reader, "an id", "ids");
+  item.last = read_whole_number(reader, "an id", "ids", names ? 0 : 1);
   if (item.last < item.first)
     reader.fail(item.last_token,
                 "this range runs backwards: " + std::to_string(item.first) + " to " + std::to_string(item.last));
@@ -110,7 +111,7 @@ std::vector<RangeItem> read_items(Reader& reader, bool names) {
   while (starts_item(reader, names, items.empty())) {
     const Token& token = reader.peek();
     if (token.kind == Token::Kind::number) {
-      items.push_back(read_ids(reader));
+      items.push_back(read_ids(reader, names));
     } else if (starts_point(reader)) {
       items.push_back(read_point(reader));
     } else {
@@ -387,7 +388,7 @@ RangeTerm read_single(Reader& reader) {
   reader.cut_at_sign();
   term.range.token = reader.peek();
   if (reader.peek().kind == Token::Kind::number)
-    term.range.items.push_back(read_ids(reader));
+    term.range.items.push_back(read_ids(reader, has_names(*kind)));
   else if (starts_item(reader, has_names(*kind), true) && !is_word(reader.peek(), "all"))
     term.range.items = read_items(reader, has_names(*kind));
   if (term.range.items.size() != 1) {

@@ -278,7 +278,7 @@ class Evaluation {
     }
     if (first_gap < 0 && n_found < (last - item.first) / item.step + 1) first_gap = wanted;
     if (n_found == 0) missing(kind, table, item.token, item.first);
-    if (first_gap > 0)
+    if (first_gap >= 0)
       notices_.push_back(std::to_string((last - item.first) / item.step + 1 - n_found) + " of the " +
                          std::string(plural(kind)) + " " + std::to_string(item.first) + " to " +
                          std::to_string(item.last) + " do not exist, the first is " + std::to_string(first_gap));

@@ -1,14 +1,28 @@
 // What reading and writing of Exodus II share.
 #pragma once
 
+#include <exodusII.h>
+
 #include "hextwist/io/format.h"
+#include "hextwist/io/results.h"
 
 namespace hextwist::io {
 
-/// Sides 1..6 of a hex, by their corners (Schoof and Yarberry, "EXODUS II: a finite element data model", 1994).
+/// Corners of sides 1..6 of a hex, in the order of the library (Schoof and Yarberry, "EXODUS II: a finite element data
+/// model", 1994).
+inline constexpr std::array<std::array<int, 4>, 6> exodus_side = {
+    {{1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {1, 5, 8, 4}, {1, 4, 3, 2}, {5, 6, 7, 8}}};
 inline constexpr std::array<int, 6> exodus_face = {
-    face_of_file_corners({1, 2, 6, 5}), face_of_file_corners({2, 3, 7, 6}), face_of_file_corners({3, 4, 8, 7}),
-    face_of_file_corners({1, 5, 8, 4}), face_of_file_corners({1, 4, 3, 2}), face_of_file_corners({5, 6, 7, 8})};
+    face_of_file_corners(exodus_side[0]), face_of_file_corners(exodus_side[1]), face_of_file_corners(exodus_side[2]),
+    face_of_file_corners(exodus_side[3]), face_of_file_corners(exodus_side[4]), face_of_file_corners(exodus_side[5])};
+/// Our corners of a face in that order.
+constexpr std::array<int, 4> exodus_cycle(int face) {
+  std::array<int, 4> corners{};
+  for (int side = 0; side < 6; ++side)
+    if (exodus_face[side] == face)
+      for (int k = 0; k < 4; ++k) corners[k] = file_corner[exodus_side[side][k] - 1];
+  return corners;
+}
 
 /// The library's calls for many numbers are made in pieces of so many nodes or hexes: what they need stays in the
 /// cache, and no array is there twice.
@@ -22,6 +36,27 @@ void in_pieces(std::size_t n, F&& f) {
 inline std::int64_t exodus_position(std::size_t i) {
   return static_cast<std::int64_t>(i) + 1;
 }
+
+/// A file that is open, and what its positions and ids are here.
+struct ExodusSource {
+  struct Block {
+    std::int64_t id, first, n;  ///< elements of the file, 0-based
+    bool hexes;
+  };
+  int file;
+  const std::string& name;
+  std::size_t name_length;
+  const ex_init_params& init;
+  std::span<const Block> blocks;
+  std::span<const Index> hex_of_element;  ///< -1 for others
+  const Ids& nodes;
+  std::function<int(ex_entity_type, std::int64_t)> group;  ///< id here
+  const std::vector<FileResults::WideId>& wide_ids;
+};
+/// What the file has beyond mesh, groups and fields of its last step; null where that is nothing. What can't be kept is
+/// said.
+std::shared_ptr<const FileResults> read_extras(const ExodusSource& source, const Mesh& mesh,
+                                               std::vector<std::string>& notices);
 
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";

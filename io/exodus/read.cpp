@@ -2,11 +2,12 @@
 //
 // Element blocks are blocks. Element sets are blocks as well: one with the id of an element block that lies wholly in
 // it is that block (blocks that overlap are written so), any other one gets an id of its own if its id is taken.
-// Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes.
-#include <exodusII.h>
-
+// Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes. Ids that no int holds are replaced,
+// with a note, and are there again when the mesh is written.
 #include <fstream>
 #include <limits>
+#include <map>
+#include <numeric>
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
@@ -40,6 +41,10 @@ class Reader {
   }
 
   MeshFile result() {
+    number_groups(EX_ELEM_BLOCK, FileResults::Of::block, init_.num_elem_blk, "element block");
+    number_groups(EX_ELEM_SET, FileResults::Of::block, init_.num_elem_sets, "element set");
+    number_groups(EX_NODE_SET, FileResults::Of::node_set, init_.num_node_sets, "node set");
+    number_groups(EX_SIDE_SET, FileResults::Of::side_set, init_.num_side_sets, "side set");
     nodes();
     blocks();
     side_sets();
@@ -48,6 +53,14 @@ class Reader {
     fields(EX_NODAL, Field::On::node);
     fields(EX_ELEM_BLOCK, Field::On::hex);
     out_.mesh.fields = merge_components(std::move(out_.mesh.fields));
+    const auto group = [this](ex_entity_type type, std::int64_t id) { return group_id(type, id); };
+    out_.mesh.results =
+        read_extras({file_.id, name_, name_length_, init_, blocks_, hex_of_element_, nodes_, group, wide_ids_},
+                    out_.mesh, out_.notices);
+    if (out_.mesh.results && out_.mesh.results->mesh) {
+      out_.mesh.file_hexes.resize(out_.mesh.hexes.size());
+      std::iota(out_.mesh.file_hexes.begin(), out_.mesh.file_hexes.end(), 0);
+    }
     return std::move(out_);
   }
 
@@ -58,10 +71,7 @@ class Reader {
       if (id >= 0) ex_close(id);
     }
   };
-  struct FileBlock {
-    std::int64_t id, first, n;  // elements of the file, 0-based
-    bool hexes;
-  };
+  using FileBlock = ExodusSource::Block;
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": " + what); }
   void check(int status, const std::string& what) const {
@@ -85,9 +95,33 @@ class Reader {
     name.resize(std::strlen(name.c_str()));
     return std::string(trimmed(name));
   }
-  int group_id(std::int64_t id, const char* kind) const {
-    if (id < 1 || id > std::numeric_limits<int>::max()) fail(std::string(kind) + " id " + std::to_string(id));
-    return static_cast<int>(id);
+  static bool fits(std::int64_t id) { return id >= 0 && id <= std::numeric_limits<int>::max(); }
+  /// The id here of a group of the file.
+  int group_id(ex_entity_type type, std::int64_t id) const {
+    return fits(id) ? static_cast<int>(id) : number_of_wide_.at({type == EX_ELEM_SET ? EX_ELEM_BLOCK : type, id});
+  }
+  /// Ids here for those that do not fit, the lowest that no other group of this kind has.
+  void number_groups(ex_entity_type type, FileResults::Of of, std::int64_t n, const char* kind) {
+    const Int64s all = ids(type, n);
+    if (std::ranges::all_of(all, fits)) return;
+    const ex_entity_type kept_as = type == EX_ELEM_SET ? EX_ELEM_BLOCK : type;
+    Int64s taken = all;
+    if (kept_as == EX_ELEM_BLOCK)
+      for (const auto& [also, m] : {std::pair{EX_ELEM_BLOCK, init_.num_elem_blk}, {EX_ELEM_SET, init_.num_elem_sets}})
+        for (const std::int64_t id : ids(also, m)) taken.push_back(id);
+    for (const FileResults::WideId& wide : wide_ids_)
+      if (wide.of == of) taken.push_back(wide.id);
+    int next = 1;
+    for (const std::int64_t id : all) {
+      if (fits(id) || number_of_wide_.contains({kept_as, id})) continue;
+      while (std::ranges::find(taken, next) != taken.end()) ++next;
+      taken.push_back(next);
+      number_of_wide_[{kept_as, id}] = next;
+      wide_ids_.push_back({of, next, id});
+      out_.notices.push_back(std::string(kind) + " " + std::to_string(id) + " has the id " + std::to_string(next) +
+                             " here, where ids go from 0 to " + std::to_string(std::numeric_limits<int>::max()) +
+                             "; Exodus files are written with its own");
+    }
   }
 
   void nodes() {
@@ -154,7 +188,7 @@ class Reader {
       if (!block.hexes) continue;
       const std::string name = group_name(EX_ELEM_BLOCK, block.id);
       if (name == exodus_rest_block) continue;
-      Block& to = group_of_id(out_.mesh.blocks, group_id(block.id, "element block"));
+      Block& to = group_of_id(out_.mesh.blocks, group_id(EX_ELEM_BLOCK, block.id));
       to.name = name;
       grow_large(to.hexes, static_cast<std::size_t>(block.n));
       to.hexes.insert(to.hexes.end(), hex_of_element_.begin() + block.first,
@@ -164,8 +198,9 @@ class Reader {
     quad_sides_ = oriented_sides(out_.mesh, quads_);
     for (const FileBlock& block : blocks_) {
       if (block.hexes || block.n == 0 || quad(block.first) < 0) continue;
-      const bool taken = std::ranges::find(out_.mesh.side_sets, block.id, &SideSet::id) != out_.mesh.side_sets.end();
-      quad_sets_.push_back({taken ? 0 : group_id(block.id, "element block"), group_name(EX_ELEM_BLOCK, block.id), {}});
+      const auto side_sets = ids(EX_SIDE_SET, init_.num_side_sets);
+      const bool taken = !fits(block.id) || std::ranges::find(side_sets, block.id) != side_sets.end();
+      quad_sets_.push_back({taken ? -1 : group_id(EX_ELEM_BLOCK, block.id), group_name(EX_ELEM_BLOCK, block.id), {}});
       for (std::int64_t e = block.first; e < block.first + block.n; ++e)
         if (const Side side = quad_sides_[quad(e)]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
       sort_unique(quad_sets_.back().sides);
@@ -262,7 +297,7 @@ class Reader {
   void side_sets() {
     for (const std::int64_t id : ids(EX_SIDE_SET, init_.num_side_sets)) {
       const std::string who = "side set " + std::to_string(id);
-      SideSet& to = group_of_id(out_.mesh.side_sets, group_id(id, "side set"));
+      SideSet& to = group_of_id(out_.mesh.side_sets, group_id(EX_SIDE_SET, id));
       to.name = group_name(EX_SIDE_SET, id);
       const auto [elements, sides] = set(EX_SIDE_SET, id);
       std::int64_t dropped = 0;
@@ -284,7 +319,7 @@ class Reader {
     }
     for (SideSet& quads : quad_sets_) {
       const bool taken = std::ranges::find(out_.mesh.side_sets, quads.id, &SideSet::id) != out_.mesh.side_sets.end();
-      SideSet& to = group_of_id(out_.mesh.side_sets, taken || quads.id == 0 ? free_id(out_.mesh.side_sets) : quads.id);
+      SideSet& to = group_of_id(out_.mesh.side_sets, taken || quads.id < 0 ? free_id(out_.mesh.side_sets) : quads.id);
       to.name = quads.name;
       to.sides = std::move(quads.sides);
     }
@@ -292,7 +327,7 @@ class Reader {
 
   void node_sets() {
     for (const std::int64_t id : ids(EX_NODE_SET, init_.num_node_sets)) {
-      NodeSet& to = group_of_id(out_.mesh.node_sets, group_id(id, "node set"));
+      NodeSet& to = group_of_id(out_.mesh.node_sets, group_id(EX_NODE_SET, id));
       to.name = group_name(EX_NODE_SET, id);
       for (const std::int64_t n : set(EX_NODE_SET, id).first)
         to.nodes.push_back(node(n, "node set " + std::to_string(id)));
@@ -302,7 +337,7 @@ class Reader {
 
   void element_sets() {
     for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets)) {
-      Block group{group_id(id, "element set"), group_name(EX_ELEM_SET, id), {}};
+      Block group{group_id(EX_ELEM_SET, id), group_name(EX_ELEM_SET, id), {}};
       for (const std::int64_t element : set(EX_ELEM_SET, id).first)
         if (const Index h = hex(element, "element set " + std::to_string(id)); h >= 0) group.hexes.push_back(h);
       sort_unique(group.hexes);
@@ -358,6 +393,8 @@ class Reader {
   MeshFile out_;
   Ids nodes_, hexes_;
   std::vector<FileBlock> blocks_;
+  std::map<std::pair<ex_entity_type, std::int64_t>, int> number_of_wide_;
+  std::vector<FileResults::WideId> wide_ids_;
   std::vector<Index> hex_of_element_;   // -1 for others
   std::vector<Index> quad_of_element_;  // the same; empty where there are none
   std::vector<Quad> quads_;

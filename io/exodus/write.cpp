@@ -1,33 +1,34 @@
 // Exodus II through its library.
 //
-// Element blocks divide the hexes. A hex in several of our blocks goes to the element block of the first; a block that
-// lost hexes that way is written whole as an element set of the same id and name. Hexes in no block go to an element
-// block of their own that readers of ours recognise by its name.
-#include <exodusII.h>
-
+// Element blocks divide the hexes. A hex in several of our blocks goes to the element block of the smallest, so that a
+// block which covers all others does not swallow them; a block that lost hexes that way is written whole as an element
+// set of the same id and name. Hexes in no block go to an element block of their own that readers of ours recognise by
+// its name.
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "hextwist/base/large_array.h"
-#include "hextwist/io/exodus/exodus_internal.h"
+#include "hextwist/base/text.h"
+#include "hextwist/io/exodus/write_internal.h"
 
 namespace hextwist::io {
 namespace {
 
 using Ints = std::vector<int>;
+using Of = FileResults::Of;
 
-struct Divided {
-  int id;
-  std::string name;
-  std::span<const Index> hexes;
-  std::vector<Index> own;  // what `hexes` is where it is no list of the mesh
-};
+std::string named(const char* kind, std::int64_t id, const std::string& name) {
+  return std::string(kind) + " " + std::to_string(id) + (name.empty() ? "" : " '" + name + "'");
+}
 
 class Writer {
  public:
-  Writer(const Replacement& file, const Mesh& mesh)
-      : replacement_(file), mesh_(mesh), fields_(split_components(mesh.fields, [](int) { return false; })) {
+  Writer(const Replacement& file, const Mesh& mesh, std::vector<std::string>& notices)
+      : replacement_(file), mesh_(mesh), notices_(notices), values_(mesh, notices) {
+    if (mesh.results) extras_ = mesh.results.get();
     divide();
+    tell_names();
     create();
   }
 
@@ -36,7 +37,10 @@ class Writer {
     nodes();
     blocks();
     sets();
-    fields();
+    const ExodusTarget to{id_, mesh_, parts_, [this](int status) { check(status); }, notices_};
+    values_.write_properties(to);
+    values_.write_records(to);
+    values_.write_results(to);
     const int id = std::exchange(id_, -1);
     if (ex_close(id) < 0) fail();
   }
@@ -53,33 +57,81 @@ class Writer {
     if (status < 0) fail();
   }
 
+  std::int64_t in_file(Of of, int id) const { return extras_ ? extras_->in_file(of, id) : id; }
+
   void divide() {
-    std::vector<char> taken(mesh_.hexes.size(), 0);
-    for (const Block& block : mesh_.blocks) {
-      Divided part{block.id, block.name, block.hexes, {}};
-      if (std::ranges::any_of(block.hexes, [&](Index h) { return taken[h] != 0; })) {
-        std::ranges::copy_if(block.hexes, std::back_inserter(part.own), [&](Index h) { return taken[h] == 0; });
+    const std::vector<Block>& blocks = mesh_.blocks;
+    constexpr Index nobody = -1;
+    std::vector<Index> block_of_hex(mesh_.hexes.size(), nobody);
+    // The smallest last, of equal ones the first.
+    std::vector<Index> order(blocks.size());
+    std::iota(order.rbegin(), order.rend(), 0);
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](Index b) { return blocks[b].hexes.size(); });
+    std::vector<std::size_t> n_left(blocks.size(), 0);
+    for (const Index b : order)
+      for (const Index h : blocks[b].hexes) {
+        if (block_of_hex[h] != nobody) --n_left[block_of_hex[h]];
+        ++n_left[b];
+        block_of_hex[h] = b;
+      }
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const Block& block = blocks[b];
+      ExodusPart part{block.id, in_file(Of::block, block.id), block.name, block.hexes};
+      if (n_left[b] < block.hexes.size()) {
+        std::ranges::copy_if(block.hexes, std::back_inserter(part.own),
+                             [&](Index h) { return block_of_hex[h] == static_cast<Index>(b); });
         part.hexes = part.own;
         whole_.push_back(&block);
+        tell_overlap(block, part.own.size(), block_of_hex);
       }
-      for (const Index h : part.hexes) taken[h] = 1;
       if (!part.hexes.empty() || block.hexes.empty()) parts_.push_back(std::move(part));
     }
-    Divided rest{free_id(mesh_.blocks), exodus_rest_block, {}, {}};
+    const int id = free_id(blocks);
+    ExodusPart rest{id, id, exodus_rest_block, {}};
     for (Index h = 0; h < mesh_.n_hexes(); ++h)
-      if (!taken[h]) rest.own.push_back(h);
+      if (block_of_hex[h] == nobody) rest.own.push_back(h);
     rest.hexes = rest.own;
+    if (!rest.hexes.empty() && !blocks.empty())
+      notices_.push_back(std::to_string(rest.own.size()) + " hexes that are in no block are in " +
+                         named("element block", id, rest.name));
     if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
+  }
+
+  void tell_overlap(const Block& block, std::size_t n_own, std::span<const Index> block_of_hex) {
+    std::vector<std::size_t> n_in(mesh_.blocks.size(), 0);
+    for (const Index h : block.hexes) ++n_in[block_of_hex[h]];
+    std::string where;
+    for (std::size_t b = 0; b < n_in.size(); ++b)
+      if (const Block& other = mesh_.blocks[b]; n_in[b] > 0 && other.id != block.id)
+        where += (where.empty() ? "" : ", ") + std::to_string(n_in[b]) + " in " +
+                 named("element block", in_file(Of::block, other.id), other.name);
+    notices_.push_back(named("block", block.id, block.name) + " overlaps others, which element blocks can't: of its " +
+                       std::to_string(block.hexes.size()) + " hexes " +
+                       (n_own == 0 ? "none is" : std::to_string(n_own) + " are") + " in an element block of its own, " +
+                       where + "; all of it is " + named("element set", in_file(Of::block, block.id), block.name));
+  }
+
+  void tell_names() {
+    const auto tell = [&](const auto& groups, const char* kind) {
+      for (const auto& group : groups)
+        say_renamed(kind + std::to_string(group.id), group.name, exodus_name(group.name), notices_);
+    };
+    tell(mesh_.blocks, "block "), tell(mesh_.node_sets, "nodeset "), tell(mesh_.side_sets, "sideset ");
   }
 
   void create() {
     const std::int64_t highest = std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
                                           mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
-    wide_ = highest > std::numeric_limits<std::int32_t>::max();
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    wide_ =
+        highest > most ||
+        (extras_ && (!extras_->wide_ids.empty() || std::ranges::any_of(extras_->properties, [](const auto& property) {
+           return std::ranges::any_of(property.values, [](const auto& value) { return std::abs(value.second) > most; });
+         })));
     // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
     const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / 32 - 1;
     int mode = EX_CLOBBER | (wide_ || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL);
-    if (wide_) mode |= EX_ALL_INT64_DB | EX_MAPS_INT64_API;
+    if (wide_) mode |= EX_ALL_INT64_DB | EX_MAPS_INT64_API | EX_IDS_INT64_API;
     int memory = 8, disk = 8;
     ex_opts(0);
     id_ = ex_create(replacement_.temporary().c_str(), mode, &memory, &disk);
@@ -91,10 +143,12 @@ class Writer {
     const auto measure = [&](const auto& groups) {
       for (const auto& group : groups) longest = std::max(longest, group.name.size());
     };
-    measure(parts_), measure(mesh_.blocks), measure(mesh_.node_sets), measure(mesh_.side_sets), measure(fields_);
+    measure(parts_), measure(mesh_.blocks), measure(mesh_.node_sets), measure(mesh_.side_sets);
+    longest = std::max(longest, values_.longest_name());
     check(ex_set_max_name_length(id_, static_cast<int>(std::min<std::size_t>(longest, 255))));
     ex_init_params init{};
-    std::strncpy(init.title, "hextwist", sizeof init.title - 1);
+    const bool has_title = extras_ && !extras_->title.empty();
+    std::strncpy(init.title, has_title ? extras_->title.c_str() : "hextwist", sizeof init.title - 1);
     init.num_dim = 3;
     init.num_nodes = mesh_.n_nodes();
     init.num_elem = mesh_.n_hexes();
@@ -116,6 +170,7 @@ class Writer {
         check(ex_put_partial_coord(id_, exodus_position(first), exodus_position(n - 1), x[0], x[1], x[2]));
       });
     std::array<std::string, 3> names = {"x", "y", "z"};
+    if (extras_ && extras_->coordinate_names.size() == 3) std::ranges::copy(extras_->coordinate_names, names.begin());
     std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
     check(ex_put_coord_names(id_, pointers.data()));
     put_map(EX_NODE_MAP, mesh_.points.size(),
@@ -136,17 +191,27 @@ class Writer {
 
   void blocks() {
     std::vector<Hex> nodes(exodus_piece);
-    for (const Divided& part : parts_) {
+    for (const ExodusPart& part : parts_) {
       const auto n = std::ssize(part.hexes);
-      check(ex_put_block(id_, EX_ELEM_BLOCK, part.id, "HEX8", n, 8, 0, 0, 0));
-      put_name(EX_ELEM_BLOCK, part.id, part.name);
+      std::vector<std::string> attributes = values_.attributes(part);
+      check(ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, "HEX8", n, 8, 0, 0, std::ssize(attributes)));
+      put_name(EX_ELEM_BLOCK, part.in_file, part.name);
       in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
         for (std::size_t i = 0; i < size; ++i) {
           nodes[i] = in_file_order(mesh_.hexes[part.hexes[first + i]]);
           for (Index& node : nodes[i]) ++node;
         }
-        check(ex_put_partial_elem_conn(id_, part.id, exodus_position(first), exodus_position(size - 1), nodes.data()));
+        check(ex_put_partial_elem_conn(id_, part.in_file, exodus_position(first), exodus_position(size - 1),
+                                       nodes.data()));
       });
+      std::vector<char*> names;
+      for (std::size_t a = 0; a < attributes.size(); ++a) {
+        check(ex_put_one_attr(id_, EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1,
+                              values_.attribute(part, attributes[a]).data()));
+        attributes[a].resize(257);
+        names.push_back(attributes[a].data());
+      }
+      if (!names.empty()) check(ex_put_attr_names(id_, EX_ELEM_BLOCK, part.in_file, names.data()));
     }
     // Parts follow each other.
     std::size_t part = 0, before = 0;
@@ -156,12 +221,14 @@ class Writer {
     });
   }
 
-  void put_name(ex_entity_type type, int id, const std::string& name) {
-    if (!name.empty()) check(ex_put_name(id_, type, id, name.substr(0, 255).c_str()));
+  void put_name(ex_entity_type type, std::int64_t id, const std::string& name) {
+    if (!name.empty()) check(ex_put_name(id_, type, id, exodus_name(name).c_str()));
   }
-  void put_set(ex_entity_type type, int id, const std::string& name, const Ints& members, const Ints& sides) {
-    check(ex_put_set_param(id_, type, id, std::ssize(members), 0));
+  void put_set(ex_entity_type type, std::int64_t id, const std::string& name, const Ints& members, const Ints& sides,
+               const std::vector<double>& factors) {
+    check(ex_put_set_param(id_, type, id, std::ssize(members), std::ssize(factors)));
     if (!members.empty()) check(ex_put_set(id_, type, id, members.data(), sides.empty() ? nullptr : sides.data()));
+    if (!factors.empty()) check(ex_put_set_dist_fact(id_, type, id, factors.data()));
     put_name(type, id, name);
   }
 
@@ -170,7 +237,7 @@ class Writer {
     Ints element_of_hex;
     resize_for_overwrite(element_of_hex, mesh_.hexes.size());
     int element = 0;
-    for (const Divided& part : parts_)
+    for (const ExodusPart& part : parts_)
       for (const Index h : part.hexes) element_of_hex[h] = ++element;
     return element_of_hex;
   }
@@ -180,7 +247,7 @@ class Writer {
     for (const NodeSet& set : mesh_.node_sets) {
       Ints members;
       for (const Index n : set.nodes) members.push_back(n + 1);
-      put_set(EX_NODE_SET, set.id, set.name, members, {});
+      put_set(EX_NODE_SET, in_file(Of::node_set, set.id), set.name, members, {}, values_.factors(set));
     }
     std::array<int, 6> side_of_face{};
     for (int side = 0; side < 6; ++side) side_of_face[exodus_face[side]] = side + 1;
@@ -190,49 +257,21 @@ class Writer {
         members.push_back(element_of_hex[side.hex]);
         sides.push_back(side_of_face[side.face]);
       }
-      put_set(EX_SIDE_SET, set.id, set.name, members, sides);
+      put_set(EX_SIDE_SET, in_file(Of::side_set, set.id), set.name, members, sides, values_.factors(set));
     }
     for (const Block* block : whole_) {
       Ints members;
       for (const Index h : block->hexes) members.push_back(element_of_hex[h]);
-      put_set(EX_ELEM_SET, block->id, block->name, members, {});
+      put_set(EX_ELEM_SET, in_file(Of::block, block->id), block->name, members, {}, {});
     }
-  }
-
-  void fields() {
-    if (fields_.empty()) return;
-    const double time = 0;
-    std::array<std::vector<const Field*>, 2> of;
-    for (const Field& field : fields_) of[field.on == Field::On::hex].push_back(&field);
-    for (int hex = 0; hex < 2; ++hex) {
-      if (of[hex].empty()) continue;
-      const auto type = hex ? EX_ELEM_BLOCK : EX_NODAL;
-      check(ex_put_variable_param(id_, type, static_cast<int>(of[hex].size())));
-      for (std::size_t v = 0; v < of[hex].size(); ++v)
-        check(ex_put_variable_name(id_, type, static_cast<int>(v + 1), of[hex][v]->name.substr(0, 255).c_str()));
-    }
-    if (!of[1].empty()) {
-      std::vector<int> everywhere(parts_.size() * of[1].size(), 1);
-      check(ex_put_truth_table(id_, EX_ELEM_BLOCK, static_cast<int>(parts_.size()), static_cast<int>(of[1].size()),
-                               everywhere.data()));
-    }
-    check(ex_put_time(id_, 1, &time));
-    std::vector<double> values;
-    for (std::size_t v = 0; v < of[0].size(); ++v)
-      check(ex_put_var(id_, 1, EX_NODAL, static_cast<int>(v + 1), 1, mesh_.n_nodes(), of[0][v]->values.data()));
-    for (std::size_t v = 0; v < of[1].size(); ++v)
-      for (const Divided& part : parts_) {
-        if (part.hexes.empty()) continue;
-        values.clear();
-        for (const Index h : part.hexes) values.push_back(of[1][v]->values[h]);
-        check(ex_put_var(id_, 1, EX_ELEM_BLOCK, static_cast<int>(v + 1), part.id, std::ssize(values), values.data()));
-      }
   }
 
   const Replacement& replacement_;
   const Mesh& mesh_;
-  std::vector<Field> fields_;
-  std::vector<Divided> parts_;
+  std::vector<std::string>& notices_;
+  ExodusValues values_;
+  const FileResults* extras_ = nullptr;
+  std::vector<ExodusPart> parts_;
   std::vector<const Block*> whole_;  // written as element sets
   int id_ = -1;
   bool wide_ = false;  // ids beyond 32 bits
@@ -240,10 +279,11 @@ class Writer {
 
 }  // namespace
 
-void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options) {
+void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                  std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
   if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
-  Writer(replacement, mesh).write();
+  Writer(replacement, mesh, notices).write();
   replacement.commit();
 }
 

@@ -394,6 +394,9 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
     out << '\n';
   }
   out << "$EndMeshFormat\n";
+  for (const PlannedGroup& group : plan.groups)
+    say_renamed("physical group " + std::to_string(group.group.id), group.name, plain(group.name), notices);
+  for (const Field& field : mesh.fields) say_renamed("field", field.name, plain(field.name), notices);
   write_names(out, plan);
   if (v4) {
     write_entities_4(to, plan);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
@@ -63,17 +64,21 @@ class Members {
         if (!(on[n] & 1 << 1)) on_no_curve[entity] = 1;
       }
     });
+    const Rings rings = find_rings([&](int surface) {
+      const Owner entity{2, surface};
+      return own_[entity] == 0 && !lacks_[entity] && on_no_surface[entity];
+    });
     std::vector<Owner> result;
     for (int dim = 1; dim <= 3; ++dim)
       for (int id = 1; id <= n_[dim]; ++id) {
         const Owner entity{dim, id};
         if (!is_there[entity] || lacks_[entity]) continue;
         const bool by_surfaces = !on_no_surface[entity], by_curves = !on_no_curve[entity];
-        const bool is_ring_of_others = dim == 2 && by_curves && !by_surfaces && own_[entity] == 0 && is_ring(id);
-        const bool is_others = dim == 1 ? by_curves || by_surfaces : by_surfaces || is_ring_of_others;
+        const bool in_ring = dim == 2 && rings.surface[id];
+        const bool is_others = by_surfaces || in_ring || (dim == 1 && (by_curves || rings.across[id]));
         if (own_[entity] > 0 || !is_others)
           result.push_back(entity);
-        else if (left_out && (dim == 3 || is_ring_of_others))
+        else if (left_out && (dim == 3 || in_ring))
           left_out->push_back(entity);
       }
     return result;
@@ -101,28 +106,46 @@ class Members {
     for (std::size_t h = 0; h < association_.hex_volume.size(); ++h)
       if (association_.hex_volume[h] > 0) use(Owner{3, association_.hex_volume[h]}, mesh_.hexes[h]);
   }
-  /// Has a surface more than one rim?
-  bool is_ring(int surface) const {
-    std::vector<Edge> edges;
+  /// Surfaces that together have more than one rim, and the curves that lead across them from one to another.
+  struct Rings {
+    std::vector<std::uint8_t> surface, across;  // by id
+  };
+  template <class Wanted>
+  Rings find_rings(const Wanted& is_wanted) const {
+    Rings rings{std::vector<std::uint8_t>(static_cast<std::size_t>(n_[2]) + 1, 0),
+                std::vector<std::uint8_t>(static_cast<std::size_t>(n_[1]) + 1, 0)};
+    std::vector<std::pair<Edge, int>> uses;  // of edges by surfaces
     for (std::size_t i = 0; i < association_.surface_faces.size(); ++i) {
-      if (association_.face_surface[i] != surface) continue;
+      if (!is_wanted(association_.face_surface[i])) continue;
       const Side side = association_.surface_faces[i];
       const auto cycle = face_node_cycle(mesh_.hexes[side.hex], side.face);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Index a = cycle[k], b = cycle[(k + 1) % 4];
-        edges.push_back({std::min(a, b), std::max(a, b)});
-      }
+      for (std::size_t k = 0; k < 4; ++k)
+        uses.push_back({{std::min(cycle[k], cycle[(k + 1) % 4]), std::max(cycle[k], cycle[(k + 1) % 4])},
+                        association_.face_surface[i]});
     }
-    std::ranges::sort(edges);
-    std::vector<Index> parent = singletons(mesh_.n_nodes());
-    std::vector<Index> rim;
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-      while (j < edges.size() && edges[j] == edges[i]) ++j;
-      if (j - i > 1) continue;
-      join(parent, edges[i][0], edges[i][1]);
-      rim.push_back(edges[i][0]);
+    if (uses.empty()) return rings;
+    std::ranges::sort(uses);
+    // Surfaces that share an edge go together; edges of one face alone are the rims.
+    std::vector<Index> group = singletons(n_[2] + 1), node = singletons(mesh_.n_nodes());
+    std::vector<std::pair<Edge, int>> rim, inside;
+    for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
+      while (j < uses.size() && uses[j].first == uses[i].first) join(group, uses[i].second, uses[j++].second);
+      (j - i > 1 ? inside : rim).push_back(uses[i]);
+      if (j - i == 1) join(node, uses[i].first[0], uses[i].first[1]);
     }
-    return std::ranges::any_of(rim, [&](Index n) { return find_root(parent, n) != find_root(parent, rim.front()); });
+    std::vector<Index> first_rim(static_cast<std::size_t>(n_[2]) + 1, -1);
+    std::vector<std::uint8_t> is_ring(first_rim.size(), 0);  // by group
+    for (const auto& [edge, surface] : rim) {
+      Index& first = first_rim[find_root(group, surface)];
+      if (first < 0) first = find_root(node, edge[0]);
+      if (first != find_root(node, edge[0])) is_ring[find_root(group, surface)] = 1;
+    }
+    for (const auto& use : uses) rings.surface[use.second] = is_ring[find_root(group, use.second)];
+    std::erase_if(inside, [&](const auto& use) { return !rings.surface[use.second]; });
+    for (std::size_t i = 0; i < association_.curve_edges.size(); ++i)
+      if (std::ranges::binary_search(inside, association_.curve_edges[i], {}, &std::pair<Edge, int>::first))
+        rings.across[association_.edge_curve[i]] = 1;
+    return rings;
   }
 
   const Mesh& mesh_;

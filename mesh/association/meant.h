@@ -3,11 +3,10 @@
 //
 // Entity E is a curve, a surface or a volume all of whose nodes (those on its rim too) are in the set.
 //  1. E has nodes of its own, which no entity of lower dimension owns: it is meant.
-//  2. E has none. A volume is not meant where surfaces that are meant by 1 have all its nodes: they are the two faces
-//  of
-//     a plate. A surface is not meant where such surfaces have all its nodes, or curves that are meant by 1 have and it
-//     is a ring between two of them: they are its two rims. A curve is not meant where such curves or surfaces have its
-//     ends. Else E is meant.
+//  2. E has none. A volume is not meant where surfaces that are meant by 1 have all its nodes: they are the two faces of
+//     a plate. A surface is not meant where such surfaces have all its nodes, or where it is part of a ring of such
+//     surfaces with two rims: these are meant. A curve is not meant where such curves or surfaces have its ends, or it
+//     leads across such a ring. Else E is meant.
 //  3. A set that is made of entities by name is meant to hold those.
 // What a refinement does with it: refine/node_sets.h.
 #pragma once

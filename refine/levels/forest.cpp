@@ -204,6 +204,7 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
 
   built.mesh.mesh.fields =
       transferred_fields({current, built.mesh.mesh, grown->stack, step.old_node, step.origin}, options.extensive);
+  built.mesh.mesh.results = current.results;  // which know the time that the fields are of
   for (const auto& pass : grown->stack)
     step.off_nodes.insert(step.off_nodes.end(), pass->off_nodes.begin(), pass->off_nodes.end());
 

@@ -105,7 +105,7 @@ MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_ord
         {field.name, field.on, field.components,
          (field.on == Field::On::node ? nodes : hexes).values(field.values, static_cast<std::size_t>(field.components)),
          field.integer});
-  mesh.extras = old.extras;
+  mesh.results = old.results;
   mesh.file_hexes = hexes.values(old.file_hexes);
   if (!meshed.association.empty()) result.association = reordered(meshed.association, mesh, nodes, hexes);
   return result;

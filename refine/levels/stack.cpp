@@ -22,6 +22,8 @@ MeshedModel without_fields(const MeshedModel& base) {
   bare.mesh.blocks = base.mesh.blocks;
   bare.mesh.node_sets = base.mesh.node_sets;
   bare.mesh.side_sets = base.mesh.side_sets;
+  bare.mesh.results = base.mesh.results;
+  bare.mesh.file_hexes = base.mesh.file_hexes;
   return bare;
 }
 

@@ -15,8 +15,8 @@ Function function_of(std::string_view command) {
       {"list", do_list},     {"node", do_node},     {"nodeset", do_sets},      {"quality", do_quality},
       {"quit", do_quit},     {"record", do_record}, {"playback", do_playback}, {"redo", do_redo},
       {"refine", do_refine}, {"reset", do_reset},   {"set", do_set},           {"sideset", do_sets},
-      {"smooth", do_smooth}, {"sizing", do_sizing}, {"surface", do_scheme},    {"undo", do_undo},
-      {"volume", do_scheme},
+      {"smooth", do_smooth}, {"sizing", do_sizing}, {"step", do_step},         {"surface", do_scheme},
+      {"undo", do_undo},     {"volume", do_scheme},
   };
   return functions.at(command);
 }

@@ -48,10 +48,13 @@ void do_set(Execution& run);
 void do_sets(Execution& run);
 void do_sizing(Execution& run);
 void do_smooth(Execution& run);
+void do_step(Execution& run);
 void do_undo(Execution& run);
 
 /// Says that words were understood and change nothing here.
 void note_ignored(const Execution& run, std::initializer_list<const char*> words);
+/// step.cpp: "3 time steps (0 to 2; fields are those of step 3)"; empty where there is but one.
+std::string steps_text(const Mesh& mesh);
 /// group.cpp: "2 curves, 1 surface"
 std::string members_text(const Selector& selector, const Group& group);
 /// quality.cpp: the metrics that were said in the option which begins with that word (Item::option); shape where none

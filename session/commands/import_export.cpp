@@ -13,6 +13,16 @@
 namespace hextwist {
 namespace {
 
+bool is_cad_word(std::string_view word) {
+  constexpr std::array<std::string_view, 4> words = {"geometry", "step", "brep", "iges"};
+  return std::ranges::find(words, word) != words.end();
+}
+
+/// What read_mesh() and write_mesh() call the format of a word.
+std::string_view format_of(std::string_view word) {
+  return word == "mesh" || word == "levels" ? "" : word;
+}
+
 /// Extensions that belong to a format's word; empty: any.
 std::string_view extensions_of(std::string_view word, bool writing) {
   if (word == "exodus") return ".e .exo .g .gen";
@@ -27,13 +37,15 @@ std::string_view extensions_of(std::string_view word, bool writing) {
   return "";
 }
 
-/// The format goes by the extension; a word that says otherwise is a mistake worth pointing out.
+/// A word decides, whatever the file is called; but an extension of another format is a mistake worth pointing out.
 void check_extension(const Execution& run, const Item& word, const Item& file, bool writing) {
   const std::string_view known = extensions_of(word.name, writing);
   const std::string extension = lower_extension(file.text);
   if (known.empty()) return;
   const std::string padded = std::string(known) + " ";
   if (!extension.empty() && padded.find(extension + " ") != std::string::npos) return;
+  const std::string all = (writing ? writable_extensions() : readable_extensions()) + " .step .stp .brep .iges .igs ";
+  if (!is_cad_word(word.name) && all.find(extension + " ") == std::string::npos) return;
   throw error_at(run.command.statement, file.token,
                  word.name + " files end in " + std::string(known) + " here, not in '" + printable(extension) + "'");
 }
@@ -55,10 +67,11 @@ std::string model_text(const Model& model) {
   return line;
 }
 
-void import_mesh(Execution& run, const std::filesystem::path& file) {
+void import_mesh(Execution& run, const std::filesystem::path& file, std::string_view word) {
   run.stage("read mesh");
-  MeshFile read = read_mesh(file);
+  MeshFile read = read_mesh(file, format_of(word));
   for (const std::string& line : read.notices) run.note(line);
+  if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
   run.state.extras = read.extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(read.extras));
@@ -92,6 +105,7 @@ WriteOptions write_options(const Execution& run, const std::string& extension) {
   WriteOptions options;
   options.overwrite = run.command.has("overwrite");
   options.extras = run.state.extras.get();
+  options.format = format_of(run.command.items.at(1).name);
   if (run.state.has_cad) options.model = run.meshed->model.get();
   const bool gmsh = extension == ".msh", both = gmsh || extension == ".vtu";
   const Item& file = *run.command.find("file");
@@ -133,13 +147,12 @@ void do_import(Execution& run) {
     read_levels(run, file.text);
     return say_mesh(run, file.text);
   }
-  constexpr std::array<std::string_view, 4> cad = {"geometry", "step", "brep", "iges"};
-  const bool is_cad = std::ranges::find(cad, word.name) != cad.end();
+  const bool is_cad = is_cad_word(word.name);
   forget_members(run.state, is_cad || !run.state.has_cad);
   if (is_cad)
     import_cad(run, file.text);
   else
-    import_mesh(run, file.text);
+    import_mesh(run, file.text, word.name);
   run.state.feature_angle = feature_angle;
   run.state.snap = snap;
 }

@@ -153,7 +153,7 @@ void list_model(Execution& run) {
   run.say("mesh: " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node) +
           ", volume " + short_number(state.measured.volume) + ", " + counted(n(mesh.blocks), EntityKind::block) + ", " +
           counted(n(mesh.node_sets), EntityKind::nodeset) + ", " + counted(n(mesh.side_sets), EntityKind::sideset) +
-          ", " + counted(n(mesh.fields), "field"));
+          ", " + counted(n(mesh.fields), "field") + (steps_text(mesh).empty() ? "" : ", " + steps_text(mesh)));
   run.say("shape: smallest " + short_number(state.measured.shape.min) + " (hex " +
           std::to_string(hex_id(mesh, state.measured.shape.min_hex)) + "), average " +
           short_number(state.measured.shape.average));

@@ -88,7 +88,10 @@ inline Mesh rich_mesh(unsigned seed, bool gaps, const std::array<int, 3>& cells 
 /// Owners of a brick: 2 volumes divided at x = 2 if split, its surfaces, curves and vertices, complete.
 Association brick_association(const Mesh& mesh, const Vec3& size);
 
-inline testing::AssertionResult same_mesh(const Mesh& a, const Mesh& b) {
+/// But for what came with a file (exodus_extras_test.cpp).
+inline testing::AssertionResult same_mesh(const Mesh& a, Mesh b) {
+  b.results = a.results;
+  b.file_hexes = a.file_hexes;
   const auto no = [](const std::string& what) { return testing::AssertionFailure() << what << " differ"; };
   if (a.points != b.points) return no("points");
   if (a.hexes != b.hexes) return no("hexes");

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "hextwist/io/io.h"
 #include "hextwist/patch/adapt.h"
 #include "hextwist/patch/refine_known.h"
+#include "support/exodus_extras.h"
 #include "support/meshed.h"
 
 namespace hextwist {
@@ -83,6 +85,50 @@ TEST(Fields, others_are_interpolated_in_the_mesh_before) {
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     EXPECT_NEAR(mesh.fields[0].values[n], square(mesh.points[n]), 0.03 * (high - low)) << n;
     EXPECT_TRUE(mesh.fields[1].values[n] == 3 || mesh.fields[1].values[n] == 8) << n;
+  }
+}
+
+TEST(Fields, and_all_that_came_with_an_Exodus_file_are_carried) {
+  const auto file = test::output_folder() / "all.e", out = file.parent_path() / "out.e";
+  write_mesh(file, test::with_extras(), nullptr);
+  MeshedModel input{read_mesh(file).mesh, nullptr, {}};
+  FacetResult skin = associate_with_own_skin(input.mesh);
+  input.model = skin.model;
+  input.association = skin.association;
+  const auto refined = refine(input, {.target = {.kind = EntityKind::hex, .ids = {0, 3}}, .finish = {.smooth = true}});
+  EXPECT_TRUE(write_mesh(out, refined.refined.mesh, nullptr).empty());
+  const MeshFile back = read_mesh(out);
+  EXPECT_TRUE(back.notices.empty());
+  const Mesh& mesh = back.mesh;
+  ASSERT_TRUE(mesh.results);
+  const FileResults& is = *mesh.results;
+  EXPECT_EQ(is.times, (std::vector<double>{0, 1, 2.5}));
+  for (std::size_t t = 0; t < 3; ++t) {
+    for (Index n = 0; n < mesh.n_nodes(); ++n)
+      ASSERT_NEAR((*is.on_nodes.at(0).at[t])[n], is.times[t] * mesh.points[n].x(), 1e-12);
+    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+      double x = 0;
+      for (const Index n : mesh.hexes[h]) x += mesh.points[n].x() / 8;
+      ASSERT_EQ(std::isnan((*is.on_hexes.at(0).at[t])[h]), x > 2);
+    }
+    EXPECT_EQ(*is.of_all.at(0).at[t], std::vector<double>{is.times[t] * is.times[t]});
+    const SetExtras& ends = is.node_sets.at(1);
+    for (std::size_t i = 0; i < ends.nodes.size(); ++i)
+      ASSERT_NEAR((*ends.variables.at(0).at[t])[i], is.times[t] * mesh.points[ends.nodes[i]].y(), 1e-12);
+  }
+  const SetExtras &ends = is.node_sets.at(1), &hot = is.side_sets.at(0);
+  EXPECT_GT(ends.nodes.size(), 9u);
+  for (std::size_t i = 0; i < ends.nodes.size(); ++i)
+    ASSERT_NEAR(ends.factors[i], test::load(mesh.points[ends.nodes[i]]), 1e-12);
+  ASSERT_EQ(hot.sides.size(), mesh.side_sets[0].sides.size());
+  EXPECT_GT(hot.sides.size(), 8u);
+  for (std::size_t i = 0; i < hot.sides.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      ASSERT_NEAR(hot.factors[4 * i + k],
+                  test::load(mesh.points[mesh.hexes[hot.sides[i].hex][io::exodus_cycle(hot.sides[i].face)[k]]]), 1e-12);
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    const bool right = std::ranges::binary_search(mesh.blocks[1].hexes, h);
+    EXPECT_EQ(std::isnan((*is.attributes.at(0).at[0])[h]), !right);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "hextwist/io/io.h"
+#include "hextwist/io/results.h"
 #include "session/session_fixture.h"
 
 namespace hextwist {
@@ -74,6 +75,78 @@ TEST(Fields, of_whole_numbers_stay_so_in_files) {
   const Mesh back = read_mesh(out).mesh;
   EXPECT_TRUE(back.fields[0].integer && back.fields[1].integer);
   for (const double value : back.fields[0].values) EXPECT_EQ(value, std::round(value));
+}
+
+/// A grid with T = t x at three times, written as Exodus.
+std::filesystem::path with_times() {
+  Mesh mesh = test::grid(4, 2, 2);
+  auto extras = std::make_shared<FileResults>();
+  extras->mesh = std::make_shared<const Mesh>(mesh);
+  extras->times = {0, 1, 2.5};
+  extras->step = 2;
+  extras->on_nodes = {{"T", {}}};
+  for (const double time : extras->times) {
+    std::vector<double> values;
+    for (const Vec3& p : mesh.points) values.push_back(time * p.x());
+    extras->on_nodes[0].at.push_back(std::make_shared<const std::vector<double>>(values));
+  }
+  mesh.fields = {{"T", Field::On::node, 1, *extras->on_nodes[0].at[2]}};
+  mesh.results = extras;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.file_hexes.push_back(h);
+  const auto file = folder() / "in.e";
+  write_mesh(file, mesh, nullptr);
+  return file;
+}
+
+TEST(Fields, of_all_time_steps_go_from_file_to_file_and_one_is_chosen) {
+  const auto file = with_times(), out = folder() / "out.e";
+  const auto expect_time = [](const Mesh& mesh, double time) {
+    for (Index n = 0; n < mesh.n_nodes(); ++n)
+      ASSERT_NEAR(mesh.fields.at(0).values[n], time * mesh.points[n].x(), 1e-12);
+  };
+  Fixture f;
+  f.session.run("import exodus \"" + file.string() + "\"; refine hex 1; smooth volume all");
+  EXPECT_NE(f.notices.at(0).find("3 time steps (0 to 2.5; fields are those of step 3)"), std::string::npos);
+  expect_time(f.session.meshed().mesh, 2.5);
+  f.session.run("step 2");
+  expect_time(f.session.meshed().mesh, 1);
+  f.session.run("step time 0.2");
+  expect_time(f.session.meshed().mesh, 0);
+  f.session.run("undo");
+  expect_time(f.session.meshed().mesh, 1);
+  f.session.run("refine hex 4; step last");
+  expect_time(f.session.meshed().mesh, 2.5);
+  f.session.run("step 1; export exodus \"" + out.string() + "\"");
+  const Mesh back = read_mesh(out).mesh;
+  EXPECT_EQ(back.results->times, (std::vector<double>{0, 1, 2.5}));
+  for (std::size_t t = 0; t < 3; ++t)
+    for (Index n = 0; n < back.n_nodes(); ++n)
+      ASSERT_NEAR((*back.results->on_nodes[0].at[t])[n], back.results->times[t] * back.points[n].x(), 1e-12);
+  EXPECT_EQ(f.error("step 4"), "there are 3 time steps");
+  f.session.run("create brick x 1 interval 1");
+  EXPECT_EQ(f.error("step 1"), "the mesh has come with no more than one time step");
+}
+
+TEST(Fields, of_a_patch_find_their_time_steps_too) {
+  Mesh mesh = test::grid(30, 30, 30);
+  auto extras = std::make_shared<FileResults>();
+  extras->mesh = std::make_shared<const Mesh>(mesh);
+  extras->times = {1, 2};
+  extras->step = 1;
+  std::vector<double> values;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) values.push_back(h);
+  extras->on_hexes = {
+      {"number",
+       {std::make_shared<const std::vector<double>>(values), std::make_shared<const std::vector<double>>(values)}}};
+  mesh.fields = {{"number", Field::On::hex, 1, values}};
+  mesh.results = extras;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.file_hexes.push_back(h);
+  Fixture f;
+  f.session.take_mesh(mesh);
+  f.session.run("refine hex 13000; refine hex 20000 5000; undo; redo; step 1");
+  const Mesh& now = f.session.meshed().mesh;
+  ASSERT_EQ(now.file_hexes.size(), now.hexes.size());
+  for (Index h = 0; h < now.n_hexes(); ++h) ASSERT_EQ(now.fields[0].values[h], now.file_hexes[h]);
 }
 
 }  // namespace

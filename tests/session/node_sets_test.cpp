@@ -133,6 +133,21 @@ TEST(NodeSets, on_two_rims_of_a_ring_gain_nothing_between) {
   EXPECT_EQ(g.session.meshed().mesh.node_sets[0].nodes, meshed.mesh.node_sets[0].nodes);
 }
 
+TEST(NodeSets, on_two_rims_of_a_hole_with_corners_gain_nothing_between) {
+  // A ring of square section whose inner wall is four faces that meet at right angles.
+  Mesh mesh = test::grid(3, 3, 1);
+  std::erase_if(mesh.hexes, [](const Hex& hex) { return hex[0] == 5; });
+  mesh.node_sets = {{1, "rims", {5, 6, 9, 10, 21, 22, 25, 26}}};
+  Fixture f;
+  f.session.take_mesh(mesh);
+  EXPECT_EQ(f.notices.size(), 1u);
+  f.session.run("refine hex all");
+  EXPECT_TRUE(set_is(f.session.meshed().mesh, [](const Vec3& p) {
+    const bool on_wall = p.x() > 1 - 1e-9 && p.x() < 2 + 1e-9 && p.y() > 1 - 1e-9 && p.y() < 2 + 1e-9;
+    return on_wall && (is_near(p.z(), 0) || is_near(p.z(), 1));
+  }));
+}
+
 TEST(NodeSets, a_patch_and_undo_give_the_same) {
   Fixture f;
   f.session.run("create brick x 40 y 40 z 1 interval 160 160 1; nodeset 1 node all");

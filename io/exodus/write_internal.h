@@ -1,0 +1,68 @@
+// The parts of writing an Exodus II file.
+#pragma once
+
+#include "hextwist/io/exodus/exodus_internal.h"
+
+namespace hextwist::io {
+
+/// An element block of the file.
+struct ExodusPart {
+  int id;  ///< of our block
+  std::int64_t in_file;
+  std::string name;
+  std::span<const Index> hexes;
+  std::vector<Index> own = {};  ///< what `hexes` is where it is no list of the mesh
+};
+
+struct ExodusTarget {
+  int file = -1;  ///< of the library
+  const Mesh& mesh;
+  std::span<const ExodusPart> parts;
+  std::function<void(int status)> check;  ///< throws where a call has failed
+  std::vector<std::string>& notices;
+};
+
+/// Values of the mesh and of what its file had, at all times; written when everything else is there.
+class ExodusValues {
+ public:
+  /// Says what has to be left out, and names that had to change.
+  ExodusValues(const Mesh& mesh, std::vector<std::string>& notices);
+
+  /// Distribution factors of a set: none where it has none, one per node, four per side.
+  std::vector<double> factors(const NodeSet& set);
+  std::vector<double> factors(const SideSet& set);
+  std::vector<std::string> attributes(const ExodusPart& part) const;
+  std::vector<double> attribute(const ExodusPart& part, const std::string& name) const;
+  std::size_t longest_name() const;
+
+  void write_records(const ExodusTarget& to) const;
+  void write_properties(const ExodusTarget& to) const;
+  void write_results(const ExodusTarget& to);
+
+ private:
+  struct Variable {
+    std::string name;
+    const std::vector<double>* now = nullptr;  ///< at the time of the mesh's fields
+    const TimedValues* timed = nullptr;        ///< at all times
+  };
+  std::vector<Variable> variables(Field::On on, const std::vector<TimedValues>& timed);
+  const SetExtras* extras_of(const NodeSet& set) const;
+  const SetExtras* extras_of(const SideSet& set) const;
+  template <class Groups>
+  void write_sets(const ExodusTarget& to, ex_entity_type type, const Groups& groups);
+
+  const Mesh& mesh_;
+  std::vector<std::string>& notices_;
+  FileResults none_;
+  const FileResults& extras_;
+  ExtrasNow now_;
+  bool has_places_;
+  std::vector<Field> fields_;  // of one component
+  std::vector<double> times_;
+  std::vector<Variable> on_nodes_, on_hexes_;
+};
+
+/// At most as long as the library takes.
+std::string exodus_name(const std::string& name);
+
+}  // namespace hextwist::io
