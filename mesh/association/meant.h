@@ -3,7 +3,8 @@
 //
 // Entity E is a curve, a surface or a volume all of whose nodes (those on its rim too) are in the set.
 //  1. E has nodes of its own, which no entity of lower dimension owns: it is meant.
-//  2. E has none. A volume is not meant where surfaces that are meant by 1 have all its nodes: they are the two faces of
+//  2. E has none. A volume is not meant where surfaces that are meant by 1 have all its nodes: they are the two faces
+//  of
 //     a plate. A surface is not meant where such surfaces have all its nodes, or where it is part of a ring of such
 //     surfaces with two rims: these are meant. A curve is not meant where such curves or surfaces have its ends, or it
 //     leads across such a ring. Else E is meant.
