@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Draws the pictures of docs/pass.md with the program itself: docs/pictures.sh PROGRAM
+# (Those of the front in the README: examples/python/moving_front.py 2 3 docs/pictures/front.png)
 set -euo pipefail
 program=$(realpath "${1:?usage: docs/pictures.sh PROGRAM}")
 models=$(cd "$(dirname "${BASH_SOURCE[0]}")/../models" && pwd)
