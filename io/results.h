@@ -31,7 +31,7 @@ struct SetExtras {
   std::vector<TimedValues> variables;  ///< per member
 };
 
-struct FileResults {
+struct [[gnu::visibility("hidden")]] FileResults {
   enum class Of { block, node_set, side_set };
   /// Points and hexes of the file, in the order in which they were read; none where nothing below needs them.
   std::shared_ptr<const Mesh> mesh;
