@@ -31,7 +31,7 @@ struct SetExtras {
   std::vector<TimedValues> variables;  ///< per member
 };
 
-struct [[gnu::visibility("hidden")]] FileResults {
+struct FileResults {
   enum class Of { block, node_set, side_set };
   /// Points and hexes of the file, in the order in which they were read; none where nothing below needs them.
   std::shared_ptr<const Mesh> mesh;
@@ -66,8 +66,8 @@ struct [[gnu::visibility("hidden")]] FileResults {
 
   bool empty() const;
   /// Does it have values for nodes, hexes or sides?
-  bool has_places() const;
-  std::int64_t in_file(Of of, int id) const;
+  [[gnu::visibility("hidden")]] bool has_places() const;
+  [[gnu::visibility("hidden")]] std::int64_t in_file(Of of, int id) const;
 };
 
 /// What of it would be lost in a format without a place for it: "2 more time steps (0, 1), distribution factors of
