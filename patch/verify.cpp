@@ -284,7 +284,7 @@ void add_broken(const Mesh& refined, Report& report) {
                                  {h},
                                  {},
                                  "hex " + std::to_string(hex_id(refined, h)) +
-                                     " is flat compared with the hexes that were there: its scaled " + "Jacobian is " +
+                                     " is flat compared with the hexes that were there: its scaled Jacobian is " +
                                      short_number(quality(Metric::scaled_jacobian, refined, h), 6)});
   if (report.off_nodes_allowed) return;
   for (const OffOwner& row : report.off_nodes)

@@ -99,12 +99,12 @@ Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
   if (by_levels || sizes.coarsen) return {Approach::size_by_levels};
   if (request.method == Method::single)
     return {is_regular(request) ? Approach::nearest_size : Approach::size_by_threes};
-  // (run_nearest_size() has the same rule.) Where the wish changes from place to place, halved regions have steps for
+  // Where the wish changes from place to place, halved regions have steps for
   // sides, which twos meet badly: nothing to choose from, but for a size that grows from the target, which the
   // combination may meet better there.
   const bool varies = sizes.bias > 1 || sizes.field;
-  const bool may_combine = sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius;
-  return {varies && !may_combine && !is_regular(request) ? Approach::size_by_threes : Approach::nearest_size};
+  return {varies && !may_combine(target, sizes) && !is_regular(request) ? Approach::size_by_threes
+                                                                        : Approach::nearest_size};
 }
 
 Plan plan_how(const MeshedModel&, const Request& request, const Thickness& thickness) {

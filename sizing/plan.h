@@ -37,6 +37,11 @@ inline bool is_regular(const Request& request) {
   return request.transition != Transition::nested && request.concave == Concave::templates;
 }
 
+/// Whether sizes that grow from the target may be met by the combination there.
+inline bool may_combine(const Target& target, const Sizes& sizes) {
+  return sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius;
+}
+
 /// Throws Error for unknown ids, options out of range and wishes that do not go together.
 Plan plan(const MeshedModel& input, const Request& request);
 

@@ -24,14 +24,6 @@ std::shared_ptr<GrownForest> bare(const Mesh& base) {
   return grown;
 }
 
-/// The marks that it needs.
-LevelMarks with_gradation(Forest& forest) {
-  if (forest.wished.size() < 2) return forest.wished;
-  const Mesh& base = forest.base->mesh;
-  if (!forest.base_corners) forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
-  return graded(forest.wished, base.hexes, *forest.base_corners);
-}
-
 /// Places in the mesh handed out, per place level by level.
 std::vector<Index> handed_out(const std::vector<Index>& order) {
   std::vector<Index> place(order.size());
@@ -110,6 +102,13 @@ Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hex
     forest.wished.push_back(std::exchange(marks, std::move(next)));
   }
   return forest;
+}
+
+LevelMarks with_gradation(Forest& forest) {
+  if (forest.wished.size() < 2) return forest.wished;
+  const Mesh& base = forest.base->mesh;
+  if (!forest.base_corners) forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
+  return graded(forest.wished, base.hexes, *forest.base_corners);
 }
 
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed) {

@@ -42,6 +42,8 @@ Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hex
 Forest grown(Forest forest, const std::vector<Index>& fixed = {});
 /// The same into `grown`; returns the mesh, level by level (ids and fields are to be set).
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed = {});
+/// The forest's wishes and what gradation needs besides; keeps base_corners.
+LevelMarks with_gradation(Forest& forest);
 /// How often the cell that each hex of the mesh is, or is a piece of, has been cut out of others.
 std::vector<std::uint8_t> levels_of(const Forest& forest);
 

@@ -42,14 +42,11 @@ Overlay put_on(const Overlay& before, const Mesh& mesh_before, const Association
       for (const Index n : mesh.hexes[h])
         if (on[n] == 1) on[n] = 0;
 
-  // Where each would be.
-  Overlay after;
-  std::vector<Vec3> own;
   const std::vector<Index> asked = indices_where(mesh.n_nodes(), [&](Index n) { return on[n] != 0; });
-  for (const Index n : asked) {
-    own.push_back(mesh.points[n]);
-    mesh.points[n] = mesh_before.points[step.old_node[n]];
-  }
+  Mesh bare;  // the same hexes without it
+  bare.points = mesh.points;
+  bare.hexes = mesh.hexes;
+  for (const Index n : asked) mesh.points[n] = mesh_before.points[step.old_node[n]];
   for (bool changed = true; changed;) {
     std::vector<Index> mixed;
     for (Index h = 0; h < mesh.n_hexes(); ++h) {
@@ -61,22 +58,19 @@ Overlay put_on(const Overlay& before, const Mesh& mesh_before, const Association
       if (n_on > 0 && n_off > 0) mixed.push_back(h);
     }
     const std::vector<double> is = quality(Metric::scaled_jacobian, mesh, mixed);
-    Mesh there;  // the same hexes without it
-    there.points = mesh.points;
-    for (std::size_t i = 0; i < asked.size(); ++i) there.points[asked[i]] = own[i];
-    there.hexes = mesh.hexes;
-    const std::vector<double> bare = quality(Metric::scaled_jacobian, there, mixed);
+    const std::vector<double> without = quality(Metric::scaled_jacobian, bare, mixed);
     changed = false;
     for (std::size_t i = 0; i < mixed.size(); ++i) {
-      if (is[i] > 0 && is[i] >= least_of_quality * bare[i]) continue;
+      if (is[i] > 0 && is[i] >= least_of_quality * without[i]) continue;
       for (const Index n : mesh.hexes[mixed[i]])
         if (on[n] == 1) {
           on[n] = 0;
-          mesh.points[n] = own[position_in(asked, n)];
+          mesh.points[n] = bare.points[n];
           changed = true;
         }
     }
   }
+  Overlay after;
   for (const Index n : asked) {
     if (on[n] == 0) continue;
     after.nodes.push_back(n);

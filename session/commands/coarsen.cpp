@@ -17,11 +17,7 @@ void do_coarsen(Execution& run) {
     throw error_at(command.statement, command.items.front().token, "there is no mesh to coarsen");
   run.stage("select");
   const Item& range = *command.find("range");
-  Target target{.kind = range.kind, .ids = run.chosen(range)};
-  if (is_cad(range.kind))
-    for (Index& id : target.ids) ++id;
-  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
-  if (const Item* radius = command.find("radius")) target.radius = radius->number;
+  const Target target = target_of(run);
   if (target.depth && target.radius) throw Error("give a depth or a radius, not both");
   if (!run.state.levelling)
     throw Error("no hex can become coarser: this mesh is the base, nothing was refined by levels since");

@@ -63,6 +63,8 @@ std::vector<Metric> metrics_said(const Command& command, std::string_view option
 /// sizing.cpp: a sizing function typed as an expression, where the error points into it. One by name.
 SizeFieldPtr typed_size(const Command& command, const Item& expression);
 SizeFieldPtr named_size(const Execution& run, const Item& name);
+/// refine.cpp: the range, depth and radius of a command.
+Target target_of(const Execution& run);
 /// undo.cpp: `list undo`. Switching undo off forgets all steps.
 void list_undo(Execution& run);
 void switch_undo(Execution& run, bool on);

@@ -100,21 +100,6 @@ How how_of(const Execution& run) {
   return result;
 }
 
-Target target_of(const Execution& run) {
-  const Command& command = run.command;
-  const Item& range = *command.find("range");
-  Target target{.kind = range.kind, .ids = run.chosen(range)};
-  if (is_cad(range.kind))
-    for (Index& id : target.ids) ++id;
-  if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
-    if (!is_whole_model(*run.meshed, target))
-      throw error_at(command.statement, splits->token,
-                     "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
-  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
-  if (const Item* radius = command.find("radius")) target.radius = radius->number;
-  return target;
-}
-
 Request request_of(const Execution& run) {
   const Command& command = run.command;
   Request request{
@@ -191,6 +176,21 @@ void splice_in(Execution& run, PatchResult patch, Request request) {
 }
 
 }  // namespace
+
+Target target_of(const Execution& run) {
+  const Command& command = run.command;
+  const Item& range = *command.find("range");
+  Target target{.kind = range.kind, .ids = run.chosen(range)};
+  if (is_cad(range.kind))
+    for (Index& id : target.ids) ++id;
+  if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
+    if (!is_whole_model(*run.meshed, target))
+      throw error_at(command.statement, splits->token,
+                     "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
+  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
+  if (const Item* radius = command.find("radius")) target.radius = radius->number;
+  return target;
+}
 
 void do_refine(Execution& run) {
   if (run.meshed->mesh.n_hexes() == 0)

@@ -4,8 +4,6 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/loose_topology.h"
-#include "hextwist/refine/levels/gradation.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/size_report.h"
@@ -73,13 +71,13 @@ LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::sp
 
 LevelMarks LevelSizes::wishes(LevelOptions& options) {
   const MeshedModel& base = *forest_.base;
-  const CompressedRows corners = node_corners(base.mesh);
   const std::vector<std::uint8_t> zone_before = by_level(forest_, std::span<const std::uint8_t>(in_zone_));
-  LevelMarks wished = sizes_.coarsen ? LevelMarks() : forest_.wished;
+  Forest forest = forest_;  // with other wishes
+  if (sizes_.coarsen) forest.wished = {};
   options.reuse = forest_.grown->stack;
   for (bool is_first = true;; is_first = false) {
-    const LevelMarks marks = wished.size() > 1 ? graded(wished, base.mesh.hexes, corners) : wished;
     state_.begin("levels");
+    const LevelMarks marks = with_gradation(forest);
     LevelledMesh built = build_levels(base, marks, options.reuse,
                                       {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress});
     options.reuse = std::move(built.stack);
@@ -90,13 +88,13 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
       zone[h] = std::ranges::any_of(origin.before(static_cast<Index>(h)), [&](Index b) { return zone_before[b] != 0; });
     });
     state_.begin("sizes");
-    LevelMarks next = united(wished, more(built.mesh.mesh, pieces, zone, is_first));
+    LevelMarks next = united(forest.wished, more(built.mesh.mesh, pieces, zone, is_first));
     trim(next);
-    if (next == wished) break;
-    wished = std::move(next);
+    if (next == forest.wished) break;
+    forest.wished = std::move(next);
   }
-  n_levels_ = static_cast<int>(wished.size());
-  return wished;
+  n_levels_ = static_cast<int>(forest.wished.size());
+  return forest.wished;
 }
 
 SizeReport LevelSizes::report(const LevelStep& step) const {

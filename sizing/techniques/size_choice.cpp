@@ -106,9 +106,8 @@ void run_nearest_size(State& state) {
   const Request& request = state.request;
   const Sizes& sizes = std::get<Sizes>(request.how);
   const bool varies = sizes.bias > 1;
-  const bool may_combine =
-      sizes.size && sizes.bias > 1 && !is_solid(request.target.kind) && !request.target.depth && !request.target.radius;
-  const bool may_mix = request.method != Method::single && (may_combine || !(varies || sizes.field));
+  const bool may_mix =
+      request.method != Method::single && (may_combine(request.target, sizes) || !(varies || sizes.field));
   state.stages.close();  // those of the candidates count
   const Report start = state.report;
   std::optional<Candidate> mixed;

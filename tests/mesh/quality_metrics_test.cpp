@@ -13,17 +13,15 @@
 
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "support/cube.h"
 #include "support/grids.h"
 
 namespace hextwist {
 namespace {
 
-using Corners = std::array<Vec3, 8>;
-Corners cube() {
-  Corners x;
-  for (int c = 0; c < 8; ++c) x[c] = Vec3(c & 1, c >> 1 & 1, c >> 2 & 1);
-  return x;
-}
+using test::Corners;
+using test::cube;
+
 Corners wobbly(std::mt19937& random, double wobble, double scale = 1) {
   std::uniform_real_distribution<double> step(-wobble, wobble);
   Corners x = cube();

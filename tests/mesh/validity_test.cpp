@@ -11,20 +11,13 @@
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "support/checkers.h"
+#include "support/cube.h"
 #include "support/grids.h"
 
 using namespace hextwist;
 using namespace hextwist::test;
 
 namespace {
-
-using Corners = std::array<Vec3, 8>;
-
-Corners cube() {
-  Corners x;
-  for (int c = 0; c < 8; ++c) x[c] = Vec3(c & 1, c >> 1 & 1, c >> 2 & 1);
-  return x;
-}
 
 /// A tower of height 2 whose top is turned and longer than wide: beyond some 0.42 turns it is inverted in its middle,
 /// though all corners are sound.
