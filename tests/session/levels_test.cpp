@@ -87,7 +87,8 @@ TEST(SessionLevels, commands_one_after_the_other_keep_the_quality_of_one) {
       EXPECT_GE(worst(mesh_of(f)), least_on_cubes);
       EXPECT_TRUE(test::conformal(mesh_of(f)));
     }
-    f.session.run("coarsen hex all levels 9");
+    // What was refined may have been taken back already: then nothing can become coarser, and that is an error.
+    if (mesh_of(f).hexes != base.mesh.hexes) f.session.run("coarsen hex all levels 9");
     EXPECT_TRUE(test::same_bits(base, f.session.meshed())) << "round " << round;
   }
 }
