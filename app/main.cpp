@@ -6,6 +6,7 @@
 
 #include "console.h"
 #include "exit_status.h"
+#include "hextwist/base/memory.h"
 #include "hextwist/session/session.h"
 #include "interactive.h"
 #include "options.h"
@@ -77,6 +78,7 @@ int main(int argc, char** argv) {
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   catch_interrupts();
+  limit_memory(available_memory());
   Session session;
   Console console;
   session.set_callbacks(console.callbacks());

@@ -1,8 +1,10 @@
 #include "hextwist/base/memory.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -47,9 +49,29 @@ std::string gigabytes(double bytes) {
   return short_number(bytes / 1e9, 3) + " GB";
 }
 
+/// As measured of refinements of grids, all of it: the mesh before and after, ids, owners, what is checked.
 double bytes_of(double n_hexes, double n_nodes) {
-  constexpr double per_hex = 9 * sizeof(Index);  // its eight nodes and its parent
-  return n_hexes * per_hex + n_nodes * sizeof(Vec3);
+  constexpr double per_hex = 130, per_node = 60;
+  return n_hexes * per_hex + n_nodes * per_node;
+}
+
+/// Sanitizers have memory of their own, far more than there is.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+
+std::atomic<std::size_t> memory_limit = 0;
+std::atomic<double> hex_limit = 0;
+
+/// Data of the process now.
+std::size_t data_size() {
+  std::ifstream in("/proc/self/statm");
+  std::size_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
+  return in >> total >> resident >> shared >> text >> library >> data
+             ? data * static_cast<std::size_t>(sysconf(_SC_PAGESIZE))
+             : 0;
 }
 
 }  // namespace
@@ -59,7 +81,21 @@ std::size_t available_memory() {
   // The group's present use is not subtracted: much of it is cached files, which can be given up.
   for (const char* limit : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
     available = std::min(available, number_in(limit));
+  if (const std::size_t limit = memory_limit; limit > 0)
+    available = std::min(available, limit - std::min(limit, data_size()));
   return available;
+}
+
+void limit_memory(std::size_t bytes) {
+  memory_limit = bytes;
+  rlimit data{};
+  if (is_sanitized || getrlimit(RLIMIT_DATA, &data) != 0) return;
+  data.rlim_cur = bytes == 0 ? data.rlim_max : std::min<rlim_t>(bytes, data.rlim_max);
+  setrlimit(RLIMIT_DATA, &data);
+}
+
+void limit_hexes(double n_hexes) {
+  hex_limit = n_hexes;
 }
 
 std::size_t peak_memory() {
@@ -71,12 +107,15 @@ std::size_t peak_memory() {
 void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many) {
   const double needed = bytes_of(n_hexes, n_nodes), free = static_cast<double>(available);
   if (needed <= free) return;
-  throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) +
-              " hexes, which take more than " + gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
+  throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, which take " +
+              gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
 }
 
 void check_memory(double n_hexes, double n_nodes, const char* how_many) {
-  constexpr double worth_asking = 1e9;
+  if (const double limit = hex_limit; limit > 0 && n_hexes > limit)
+    throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, more than the " +
+                text_of(limit) + " that are allowed");
+  constexpr double worth_asking = 2e8;
   if (bytes_of(n_hexes, n_nodes) > worth_asking) check_memory(n_hexes, n_nodes, available_memory(), how_many);
 }
 

@@ -5,19 +5,24 @@
 
 namespace hextwist {
 
-/// Bytes still available: free memory, caches and swap, within the limit of the control group. The largest number when
-/// that is unknown.
+/// Bytes still available: free memory, caches and swap, within the limit of the control group and that of
+/// limit_memory(). The largest number when that is unknown.
 std::size_t available_memory();
 
 /// Peak memory of the process so far, in bytes.
 std::size_t peak_memory();
 
-/// Throws Error, with both amounts, when the arrays that every mesh of this size has take more than `available` bytes:
-/// such a mesh could never be held. (CAD, ids and the pass itself take about as much again.)
+/// From now on the process may have no more data than this (0: as much as the machine has): what asks for more gets
+/// std::bad_alloc, which ends a command with an error, where else the system would end the process.
+void limit_memory(std::size_t bytes);
+/// The most hexes that a mesh may have from now on, in all of the process; 0: as many as fit.
+void limit_hexes(double n_hexes);
+
+/// Throws Error, with both amounts, when a mesh of this size takes more than `available` bytes while a pass makes it.
 /// how_many: "" or "at least ".
 void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many = "");
 
-/// check_memory() against available_memory(); small meshes are not checked.
+/// check_memory() against available_memory(), of which small meshes are not checked, and limit_hexes().
 void check_memory(double n_hexes, double n_nodes, const char* how_many = "");
 
 }  // namespace hextwist

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace hextwist {
@@ -10,7 +11,11 @@ namespace hextwist {
 /// The shortest text that reads back as the same number.
 inline std::string number_text(double value) {
   std::array<char, 32> buffer;
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  constexpr double most = 1e15;  // whole numbers are written as such: ids can't have an exponent
+  const bool is_whole = std::abs(value) < most && value == std::trunc(value);
+  const auto [end, error] =
+      is_whole ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed)
+               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end};
 }
 

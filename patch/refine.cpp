@@ -18,7 +18,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   {
     State state(input, request, report, progress);
     result = run_passes(state, approach);
-    if (!request.finish.dry_run) verify(input, state.is_renumbered ? nullptr : known, result.refined, report);
+    if (!request.finish.dry_run) verify(input, known, result.refined, state.is_renumbered, report);
   }
   report.hexes_before = input.mesh.n_hexes();
   report.nodes_before = input.mesh.n_nodes();

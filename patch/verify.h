@@ -27,6 +27,9 @@ Measured measured_after(const Report& report);
 /// hexes, all around moved nodes and all that share a node with them; and of hexes at the boundary near new boundary
 /// nodes, for these might lie in a face across a crack. Sides of new hexes with nothing behind must be on the CAD. If
 /// anything at all is found there, or the change is a large part of the mesh, everything is done from scratch.
-void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, Report& report);
+///
+/// is_renumbered: nodes of the input may have other numbers, so that the change is not known.
+void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, bool is_renumbered,
+            Report& report);
 
 }  // namespace hextwist

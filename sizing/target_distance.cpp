@@ -41,13 +41,17 @@ TargetDistance::TargetDistance(const MeshedModel& input, EntityKind kind, std::s
       for (const Index h : targets) add(mesh.hexes[h]);
       break;
     default:
-      for (const Index id : targets)
+      for (const Index id : targets) {
         entities_.push_back({static_cast<int>(kind) - static_cast<int>(EntityKind::vertex), id});
+        boxes_.push_back(model_->box(entities_.back()));
+      }
       return;
   }
   std::vector<Box> boxes(corners_.size() / static_cast<std::size_t>(n_corners_));
   for (std::size_t i = 0; i < corners_.size(); ++i) boxes[i / static_cast<std::size_t>(n_corners_)].add(corners_[i]);
   tree_ = BoxTree(boxes);
+  Box& all = boxes_.emplace_back();
+  for (const Vec3& p : corners_) all.add(p);
 }
 
 double TargetDistance::from_mesh(const Vec3& p) const {
@@ -63,15 +67,15 @@ double TargetDistance::from_mesh(const Vec3& p) const {
 }
 
 // Lowers out to the distance from the entity, asking it only where its box is nearer than what is known.
-void TargetDistance::from_entity(Owner entity, std::span<const Vec3> points, std::span<double> out) const {
+void TargetDistance::from_entity(Owner entity, const Box& box, std::span<const Vec3> points,
+                                 std::span<double> out) const {
   if (entity.dim == 3) {
-    const Box box = model_->box(entity);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (distance2(box, points[i]) == 0 && model_->contains(entity.id, points[i])) out[i] = 0;
-    for (const int surface : model_->adjacent(entity, 2)) from_entity({2, surface}, points, out);
+    for (const int surface : model_->adjacent(entity, 2))
+      from_entity({2, surface}, model_->box({2, surface}), points, out);
     return;
   }
-  const Box box = model_->box(entity);
   std::vector<std::size_t> open;
   std::vector<Vec3> asked;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,9 +100,15 @@ void TargetDistance::evaluate(std::span<const Vec3> points, std::span<double> ou
           return;
         }
         std::ranges::fill(to, std::numeric_limits<double>::infinity());
-        for (const Owner entity : entities_) from_entity(entity, some, to);
+        for (std::size_t e = 0; e < entities_.size(); ++e) from_entity(entities_[e], boxes_[e], some, to);
       },
       512);
+}
+
+double TargetDistance::at_least(const Vec3& point) const {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const Box& box : boxes_) least2 = std::min(least2, distance2(box, point));
+  return std::sqrt(least2);
 }
 
 }  // namespace hextwist

@@ -20,14 +20,17 @@ class TargetDistance {
 
   /// out: one per point. Runs on all threads; may be called from several.
   void evaluate(std::span<const Vec3> points, std::span<double> out) const;
+  /// No more than the distance of the point; cheap: that from boxes around the targets.
+  double at_least(const Vec3& point) const;
 
  private:
-  void from_entity(Owner entity, std::span<const Vec3> points, std::span<double> out) const;
+  void from_entity(Owner entity, const Box& box, std::span<const Vec3> points, std::span<double> out) const;
   double from_mesh(const Vec3& p) const;
 
   std::shared_ptr<const Model> model_;
   std::vector<Owner> entities_;
-  int n_corners_ = 0;  // of each mesh entity: 1 node, 2 edge, 4 face (cycle), 8 hex
+  std::vector<Box> boxes_;  // of the entities; one of all mesh entities
+  int n_corners_ = 0;       // of each mesh entity: 1 node, 2 edge, 4 face (cycle), 8 hex
   std::vector<Vec3> corners_;
   BoxTree tree_;
 };

@@ -53,26 +53,39 @@ void finish(CombinationTarget& target) {
 
 /// Hexes whose centroid lies within the request's radius of its targets.
 std::vector<Index> hexes_within(const MeshedModel& input, const Target& target) {
-  const std::vector<Vec3> centres = centroids(input.mesh);
-  std::vector<double> distance(centres.size());
-  TargetDistance(input, target.kind, target.ids).evaluate(centres, distance);
-  std::vector<Index> found =
-      indices_where(input.mesh.n_hexes(), [&](Index h) { return distance[h] <= *target.radius; });
-  if (found.empty())
+  const TargetDistance from(input, target.kind, target.ids);
+  const auto distances = [&](std::span<const Index> hexes) {
+    std::vector<double> distance(hexes.size());
+    from.evaluate(centroids(input.mesh, hexes), distance);
+    return distance;
+  };
+  std::vector<Index> found = indices_where(
+      input.mesh.n_hexes(), [&](Index h) { return from.at_least(centroid(input.mesh, h)) <= *target.radius; });
+  const std::vector<double> distance = distances(found);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (distance[i] <= *target.radius) found[n++] = found[i];
+  found.resize(n);
+  if (found.empty()) {
+    std::vector<Index> all(input.mesh.hexes.size());
+    std::iota(all.begin(), all.end(), 0);
     throw Error("no hex has its centroid within " + std::to_string(*target.radius) + " of the target: the nearest is " +
-                std::to_string(*std::ranges::min_element(distance)) + " away");
+                std::to_string(std::ranges::min(distances(all))) + " away");
+  }
   return found;
 }
 
 }  // namespace
 
+Vec3 centroid(const Mesh& mesh, Index hex) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index n : mesh.hexes[hex]) sum += mesh.points[n];
+  return sum / n_hex_corners;
+}
+
 std::vector<Vec3> centroids(const Mesh& mesh, std::span<const Index> hexes) {
   std::vector<Vec3> result(hexes.size());
-  parallel_each(hexes.size(), [&](std::size_t i) {
-    Vec3 sum = Vec3::Zero();
-    for (const Index n : mesh.hexes[hexes[i]]) sum += mesh.points[n];
-    result[i] = sum / n_hex_corners;
-  });
+  parallel_each(hexes.size(), [&](std::size_t i) { result[i] = centroid(mesh, hexes[i]); });
   return result;
 }
 

@@ -13,7 +13,8 @@ namespace hextwist {
 /// Throws Error unless there are targets, all of which exist; names the first that does not.
 void check_targets(const MeshedModel& input, const Target& target);
 
-/// The average of the corners of each hex.
+/// The average of the corners of a hex.
+Vec3 centroid(const Mesh& mesh, Index hex);
 std::vector<Vec3> centroids(const Mesh& mesh);
 std::vector<Vec3> centroids(const Mesh& mesh, std::span<const Index> hexes);
 

@@ -1,5 +1,6 @@
 #include <tbb/global_control.h>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
@@ -30,6 +31,9 @@ void do_set(Execution& run) {
       switch_undo(run, command.has("on"));
     }
   }
+  // Limits hold for the process, too.
+  if (const Item* most = command.find("most")) limit_hexes(most->number);
+  if (const Item* memory = command.find("gigabytes")) limit_memory(static_cast<std::size_t>(memory->number * 1e9));
   if (const Item* count = command.find("count")) {
     // Held for the whole process while the session lives: TBB knows no narrower place.
     run.core.thread_limit.reset();

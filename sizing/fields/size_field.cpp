@@ -26,6 +26,7 @@ class Growing final : public SizeField {
     for (double& value : out) value = size_ + slope_ * value;
   }
   double least() const override { return size_; }
+  double least_at(const Vec3& point) const override { return size_ + slope_ * from_->at_least(point); }
 
  private:
   double size_, slope_;
@@ -46,6 +47,11 @@ class Smallest final : public SizeField {
   double least() const override {
     double result = fields_.front()->least();
     for (const SizeFieldPtr& field : fields_) result = std::min(result, field->least());
+    return result;
+  }
+  double least_at(const Vec3& point) const override {
+    double result = fields_.front()->least_at(point);
+    for (const SizeFieldPtr& field : fields_) result = std::min(result, field->least_at(point));
     return result;
   }
   bool jumps() const override {

@@ -20,6 +20,8 @@ class SizeField {
   virtual void evaluate(std::span<const Vec3> points, std::span<double> out) const = 0;
   /// No size is smaller anywhere; 0 when that is not known. Elements below it need not be asked about.
   virtual double least() const { return 0; }
+  /// No size is smaller at this point, said without looking closely; least() when that is not known.
+  virtual double least_at(const Vec3& /*point*/) const { return least(); }
   /// Changes abruptly, from hex to hex: what it says at a node means nothing.
   virtual bool jumps() const { return false; }
   double at(const Vec3& p) const;

@@ -40,10 +40,9 @@ LevelSizes::LevelSizes(const Forest& forest, State& state)
     in_zone_[h] = in_report_[h] = 1;
 }
 
-LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone,
-                            bool is_first) const {
+LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const {
   const std::vector<Index> too_large = wish_.too_large(mesh, in_zone);
-  if (is_first) wish_.check_fits(mesh, too_large);
+  wish_.check_fits(mesh, too_large);
   const std::vector<Index> too_far = wish_.nodes_too_far_apart(mesh, in_zone);
   std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, too_far);
   if (marked.empty()) return {};
@@ -75,7 +74,7 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
   Forest forest = forest_;  // with other wishes
   if (sizes_.coarsen) forest.wished = {};
   options.reuse = forest_.grown->stack;
-  for (bool is_first = true;; is_first = false) {
+  for (;;) {
     state_.begin("levels");
     const LevelMarks marks = with_gradation(forest);
     LevelledMesh built = build_levels(base, marks, options.reuse,
@@ -88,7 +87,7 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
       zone[h] = std::ranges::any_of(origin.before(static_cast<Index>(h)), [&](Index b) { return zone_before[b] != 0; });
     });
     state_.begin("sizes");
-    LevelMarks next = united(forest.wished, more(built.mesh.mesh, pieces, zone, is_first));
+    LevelMarks next = united(forest.wished, more(built.mesh.mesh, pieces, zone));
     trim(next);
     if (next == forest.wished) break;
     forest.wished = std::move(next);

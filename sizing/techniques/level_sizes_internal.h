@@ -21,8 +21,7 @@ class LevelSizes {
   SizeReport report(const LevelStep& step) const;
 
  private:
-  LevelMarks more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone,
-                  bool is_first) const;
+  LevelMarks more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const;
 
   const Forest& forest_;
   State& state_;

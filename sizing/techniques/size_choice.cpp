@@ -17,6 +17,9 @@ namespace {
 /// no more than this count as equal.
 constexpr double near_tie = 0.05;
 
+/// Levels that bring so many hexes so near are taken without looking for anything nearer.
+constexpr double well_met = 0.6;
+
 /// Nobody should compute on shapes below this where others can be had.
 constexpr double poor_shape = 0.1;
 
@@ -92,8 +95,9 @@ Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* sa
 Candidate by_threes(const State& state, const Report& start) {
   if (!is_regular(state.request)) return attempt(state, start, Approach::size_by_threes);
   Candidate levels = attempt(state, start, Approach::size_by_levels);
-  Candidate nested = attempt(state, start, Approach::size_by_threes);
   judge(levels);
+  if (levels.sound && levels.worst_shape >= poor_shape && levels.report.sizes->met() >= well_met) return levels;
+  Candidate nested = attempt(state, start, Approach::size_by_threes);
   judge(nested);
   if (levels.result.refined.mesh.hexes == nested.result.refined.mesh.hexes) return levels;
   return better_of(std::move(levels), std::move(nested), "by levels, no piece of a transition is cut again",
@@ -110,9 +114,11 @@ void run_nearest_size(State& state) {
       request.method != Method::single && (may_combine(request.target, sizes) || !(varies || sizes.field));
   state.stages.close();  // those of the candidates count
   const Report start = state.report;
-  std::optional<Candidate> mixed;
-  if (may_mix) mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
   Candidate taken = by_threes(state, start);
+  std::optional<Candidate> mixed;
+  const bool cuts_anything = taken.result.refined.mesh.n_hexes() > state.input.mesh.n_hexes();
+  if (may_mix && cuts_anything)
+    mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
   if (mixed && mixed->has_done) {
     judge(*mixed);
     judge(taken);

@@ -85,7 +85,7 @@ class ByThrees : public SizeTechnique {
       state.begin("sizes");
       const Mesh& mesh = state.mesh();
       std::vector<Index> too_large = wish_.too_large(mesh, in_zone_);
-      if (n_passes_ == 0) wish_.check_fits(mesh, too_large);
+      wish_.check_fits(mesh, too_large);
       if (n_passes_ < max_passes && begin_round(mesh, too_large)) {
         ++n_passes_;
         has_done_ = true;

@@ -11,6 +11,7 @@
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/wish_internal.h"
 
 namespace hextwist {
@@ -69,16 +70,16 @@ std::vector<std::uint8_t> SizeWish::at_target(std::span<const Vec3> points) cons
 }
 
 std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::uint8_t> in_zone) const {
-  const double least = field_->least();
-  std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) { return in_zone[h] != 0; });
-  std::vector<double> size = actual_sizes(mesh, asked);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (size[i] > most_too_long * least) {
-      asked[n] = asked[i];
-      size[n++] = size[i];
-    }
-  asked.resize(n);
+  // Most hexes are small enough, by the boxes around them, for the smallest wish that there could be near them.
+  const std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) {
+    if (!in_zone[h]) return false;
+    const double most = most_too_long * (is_point_ ? field_->least() : field_->least_at(centroid(mesh, h)));
+    Box around;
+    for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
+    constexpr double rounding = 1e-12;
+    return (around.max - around.min).prod() * (1 + rounding) > most * most * most;
+  });
+  const std::vector<double> size = actual_sizes(mesh, asked);
   std::vector<double> wished = wished_sizes(mesh, asked, *field_);
   if (is_point_) {
     // A corner at the target wishes for all of the hex.
@@ -90,35 +91,36 @@ std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::ui
       if (on_it[i]) wished[i / n_hex_corners] = std::min(wished[i / n_hex_corners], there[i]);
   }
   std::vector<Index> result;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < asked.size(); ++i)
     if (size[i] > most_too_long * wished[i]) result.push_back(asked[i]);
   return result;
 }
 
 std::vector<Index> SizeWish::nodes_too_far_apart(const Mesh& mesh, std::span<const std::uint8_t> in_zone) const {
-  const double least = field_->least();
-  std::vector<Edge> longer;
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    for (int e = 0; in_zone[h] && e < n_hex_edges; ++e) {
-      const Index a = mesh.hexes[h][edge_corner(e, 0)], b = mesh.hexes[h][edge_corner(e, 1)];
-      if ((mesh.points[a] - mesh.points[b]).norm() > most_too_long * least) longer.push_back({a, b});
-    }
-  std::vector<Index> nodes;
-  for (const Edge& edge : longer) nodes.insert(nodes.end(), edge.begin(), edge.end());
-  sort_unique(nodes);
+  if (!distance_) return {};
+  const std::vector<Index> nodes =
+      indices_where(mesh.n_nodes(), [&](Index n) { return distance_->at_least(mesh.points[n]) <= close_; });
   std::vector<Vec3> points;
   for (const Index n : nodes) points.push_back(mesh.points[n]);
   const std::vector<std::uint8_t> on_it = at_target(points);
   std::vector<double> wished(nodes.size());
   field_->evaluate(points, wished);
-  const auto place = [&](Index n) { return std::ranges::lower_bound(nodes, n) - nodes.begin(); };
+  std::vector<Index> place(mesh.points.size(), -1);  // in `nodes`, of those on the target
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (on_it[i]) place[nodes[i]] = static_cast<Index>(i);
+  const std::vector<Index> hexes = indices_where(mesh.n_hexes(), [&](Index h) {
+    return in_zone[h] && std::ranges::count_if(mesh.hexes[h], [&](Index n) { return place[n] >= 0; }) > 1;
+  });
   std::vector<Index> result;
-  for (const Edge& edge : longer) {
-    const auto a = place(edge[0]), b = place(edge[1]);
-    const double length = (mesh.points[edge[0]] - mesh.points[edge[1]]).norm();
-    if (on_it[a] && on_it[b] && length > most_too_long * std::max(wished[a], wished[b]))
-      result.insert(result.end(), edge.begin(), edge.end());
-  }
+  for (const Index h : hexes)
+    for (int e = 0; e < n_hex_edges; ++e) {
+      const Edge edge = {mesh.hexes[h][edge_corner(e, 0)], mesh.hexes[h][edge_corner(e, 1)]};
+      const Index a = place[edge[0]], b = place[edge[1]];
+      if (a < 0 || b < 0) continue;
+      const double length = (mesh.points[edge[0]] - mesh.points[edge[1]]).norm();
+      if (length > most_too_long * std::max(wished[a], wished[b]))
+        result.insert(result.end(), edge.begin(), edge.end());
+    }
   return result;
 }
 

@@ -195,6 +195,8 @@ test::Sentences::ValueText small_values(test::Sentences& sentences, const std::f
     if (argument.name == "steps" || argument.name == "id" || argument.name == "count") return upto(1, 2);
     if (argument.name == "growth") return "1";
     if (argument.name == "limit") return "0.001";
+    if (argument.name == "most") return upto(1000, 2000);
+    if (argument.name == "gigabytes") return upto(3, 4);
     if (argument.kind == ArgumentSpec::Kind::file) {
       static const std::vector<std::string> files = {"a.msh", "b.e", "c.inp", "d.mesh", "e.vtu", "f.step", "g.brep"};
       return "\"" + (folder / files[static_cast<std::size_t>(sentences.below(7))]).string() + "\"";
@@ -242,6 +244,7 @@ void check_sessions(int n_sessions, int n_commands) {
     static const std::vector<std::string> starts = {
         "create brick x 2 y 1 interval 3 2 2", "create brick x 1 interval 3",
         "create cylinder radius 1 height 2 interval 1", "create sphere radius 1 interval 1"};
+    session.run("set max_hexes 20000; set max_memory 4");
     run(starts[static_cast<std::size_t>(sentences.below(static_cast<int>(starts.size())))]);
     n_hexes = session.meshed().mesh.n_hexes();
     if (sentences.one_in(3)) {  // the same mesh without its CAD

@@ -212,5 +212,38 @@ TEST(Sizing, sheets_layers_and_thickness_as_commands) {
   EXPECT_EQ(f.error("refine sheet node 1 125"), "no edge joins these nodes");
 }
 
+TEST(Sizing, limits_of_hexes_hold_for_every_way_to_refine) {
+  Fixture f;
+  f.session.run("create cylinder radius 1 height 2 interval 2; set max_hexes 1500");
+  const Mesh before = f.session.meshed().mesh;
+  for (const std::string how :
+       {"volume all numsplit 3", "hex all numsplit 2 depth 1", "hex all numsplit 3 transition nested",
+        "curve 1 numsplit 5", "surface 1 numsplit 4 transition nested", "surface 1 size 0.01",
+        "curve 1 size 0.001 bias 1.2", "vertex 1 size 0.000001 bias 1.3 transition nested",
+        "volume all sizing_function \"0.02\"", "surface all direction layers 50", "hex all numsplit 2 method auto"}) {
+    SCOPED_TRACE(how);
+    try {
+      f.session.run("refine " + how);
+      ADD_FAILURE() << "made " << f.session.meshed().mesh.n_hexes() << " hexes";
+      f.session.run("undo");
+    } catch (const CommandError& error) {
+      EXPECT_NE(error.message().find("more than the 1500 that are allowed"), std::string::npos) << error.message();
+    }
+    EXPECT_TRUE(f.session.meshed().mesh == before);
+  }
+  f.session.run("set max_hexes 0; refine curve 1 size 0.01 bias 1.3");
+  EXPECT_GT(f.session.meshed().mesh.n_hexes(), 1500);
+}
+
+TEST(Sizing, a_wish_that_is_met_already_changes_nothing) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4; refine surface 1 depth 1; refine curve 2 size 1 bias 1.2");
+  const CommandRecord& record = f.last();
+  EXPECT_GT(record.sizes.hexes, 0);
+  EXPECT_EQ(record.before.hexes, record.after.hexes);
+  EXPECT_EQ(record.before.shape.min, record.after.shape.min);
+  EXPECT_EQ(record.after.shape.count, record.after.hexes);
+}
+
 }  // namespace
 }  // namespace hextwist
