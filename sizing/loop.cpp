@@ -17,6 +17,7 @@
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
+#include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/outcome.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
@@ -156,6 +157,16 @@ void State::smooth_between_passes() {
 void State::close() {
   begin("improve");
   const Index first_new = n_kept(mesh());
+  // Layers are as thin as they were asked for.
+  if (!std::holds_alternative<Layers>(request.how)) {
+    const std::int64_t last_old = node_id(input.mesh, input.mesh.n_nodes() - 1);
+    const auto all = std::views::iota(Index{0}, mesh().n_nodes());
+    const auto first_new_node =
+        std::ranges::partition_point(all, [&](Index n) { return node_id(mesh(), n) <= last_old; });
+    result_.smoothed = union_of(
+        result_.smoothed,
+        lift_new_hexes(result_.refined, first_new, static_cast<Index>(first_new_node - all.begin()), request.finish));
+  }
   std::vector<Index> low;
   const auto look = [&] {
     low = hexes_below(mesh(), poor_quality, first_new);

@@ -56,6 +56,8 @@ struct SmoothState {
 struct SweepRule {
   /// No corner may get a distortion (shape^(-3/2)) above this, and one that has more must get less.
   double limit = std::numeric_limits<double>::infinity();
+  /// No corner may get a scaled Jacobian below this, and one that has less must not get still less; 0: anything goes.
+  double least_corner = 0;
   double tolerance = 1e-2;  ///< SmoothOptions::tolerance
   /// Energy per corner: h + weight * reference * (h / reference)^16, h: its distortion.
   double weight = 0;
@@ -79,9 +81,21 @@ double average_distortion(const Mesh& mesh, std::span<const Index> hexes);
 /// stop. Hexes that were not inverted before are not after.
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep);
 
+/// What no hex may fall below; 0: anything goes.
+struct Bounds {
+  double scaled_jacobian = 0, shape = 0;
+};
+/// The smallest of these hexes, inverted ones counting as 0; the scaled Jacobian at most `wanted`.
+Bounds bounds_of(const Mesh& mesh, std::span<const Index> hexes, double wanted = 1);
+
+/// Sweeps over the nodes of hexes whose scaled Jacobian is below the bound, while no shape falls below its; after_sweep
+/// as above.
+void lift_low(SmoothState& state, const Bounds& bounds, int max_sweeps,
+              const std::function<bool(const SweepCount&)>& after_sweep);
+
 /// Puts nodes back to these places until no hex of the problem is inverted but those that were (ascending), and none
-/// has a smaller shape than that.
+/// is below the bounds.
 void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::vector<Parameters>& parameters,
-               std::span<const Index> inverted_before, double least_shape);
+               std::span<const Index> inverted_before, const Bounds& least);
 
 }  // namespace hextwist

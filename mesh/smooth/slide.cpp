@@ -3,6 +3,23 @@
 
 namespace hextwist {
 
+double worst_corner(const Vec3* points, std::span<const Ring> rings, const Vec3& x) {
+  double worst = 1;
+  const auto look = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    worst = std::min(worst, a.dot(b.cross(c)) / std::sqrt(a.squaredNorm() * b.squaredNorm() * c.squaredNorm()));
+  };
+  for (const Ring& ring : rings) {
+    const Vec3 &a = points[ring.edge[0]], &b = points[ring.edge[1]], &c = points[ring.edge[2]];
+    const Vec3 &ab = points[ring.face[0]], &ac = points[ring.face[1]], &bc = points[ring.face[2]];
+    look(a - x, b - x, c - x);
+    // At the ends of the edges, seen so that the determinant is positive too.
+    look(x - a, ac - a, ab - a);
+    look(x - b, ab - b, bc - b);
+    look(x - c, bc - c, ac - c);
+  }
+  return worst;
+}
+
 namespace {
 
 constexpr double parallel_sine = 1e-6;

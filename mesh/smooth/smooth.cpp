@@ -51,6 +51,8 @@ constexpr Emphasis milder_rounds[] = {{3, 1.5}, {1, 1.5}, {1, 2}};  // when the 
 constexpr int first_sweeps = 3;                                     // before the first round
 constexpr int max_lifts = 15;                                       // sweeps per round
 constexpr double least_gain = 1e-3;                                 // of the average distortion above 1, per sweep
+constexpr double enough = 0.3;                                      // scaled Jacobians above are not lifted,
+constexpr double as_good_as_square = 0.9;                           // and may fall when above this
 constexpr int max_averages = 5;                                     // sweeps per round, until the end
 
 class Smoother {
@@ -66,12 +68,22 @@ class Smoother {
       report_.converged = report_.not_repaired.empty();
     }
     if (options_.scheme == SmoothScheme::untangle) return;
-    const std::vector<Vec3> points = state_.mesh.points;
-    const std::vector<Parameters> parameters = state_.association.node_parameters;
-    std::ranges::fill(state_.awake, 1);
-    improve();
-    // Sweeps look at corners. Should a hex have been turned inside out between them, its nodes did not move.
-    take_back(state_, points, parameters, report_.not_repaired, least_shape(report_));
+    const Bounds before = bounds_of(state_.mesh, state_.problem.hexes, as_good_as_square);
+    least_corner_ = before.scaled_jacobian;
+    guarded(before, [&] {
+      std::ranges::fill(state_.awake, 1);
+      improve();
+    });
+    // What has good angles may still have bad corners: these are lifted as far as no shape gets worse for it.
+    if (options_.scheme != SmoothScheme::mean_ratio || finished()) return;
+    const Bounds reached = bounds_of(state_.mesh, state_.problem.hexes, enough);
+    if (reached.scaled_jacobian >= enough) return;
+    at_no_cost([&] {
+      guarded(reached, [&] {
+        lift_low(state_, {enough, reached.shape}, max_lifts,
+                 [this](const SweepCount& count) { return end_sweep("corners", count); });
+      });
+    });
   }
 
   void record(const char* stage) {
@@ -84,6 +96,16 @@ class Smoother {
 
  private:
   using Sweep = SweepCount (*)(SmoothState&, const SweepRule&);
+
+  /// Sweeps look at corners, one by one. Where hexes have become worse than the bounds all the same, or were turned
+  /// inside out between their corners, their nodes did not move.
+  template <class F>
+  void guarded(const Bounds& bounds, const F& move) {
+    const std::vector<Vec3> points = state_.mesh.points;
+    const std::vector<Parameters> parameters = state_.association.node_parameters;
+    move();
+    take_back(state_, points, parameters, report_.not_repaired, bounds);
+  }
 
   void improve() {
     switch (options_.scheme) {
@@ -120,6 +142,7 @@ class Smoother {
   SweepRule rule(Emphasis emphasis) const {
     SweepRule rule;
     rule.limit = worst();
+    rule.least_corner = least_corner_;
     rule.tolerance = options_.tolerance;
     rule.weight = emphasis.weight;
     rule.reference = 1 + emphasis.margin * (rule.limit - 1);
@@ -186,20 +209,29 @@ class Smoother {
   /// One round; taken back when it cost the average too much.
   bool lift_and_average(Sweep sweep, Emphasis emphasis) {
     if (finished()) return true;
+    const std::vector<std::uint8_t> awake = state_.awake;
+    const bool kept = at_no_cost([&] {
+      lift(sweep, emphasis);
+      settle("average", sweep, none, max_averages);
+    });
+    if (!kept) state_.awake = awake;
+    return kept;
+  }
+  /// Taken back (false) when it cost the average too much.
+  template <class F>
+  bool at_no_cost(const F& move) {
     const std::vector<Vec3> points = state_.mesh.points;
     const std::vector<Parameters> parameters = state_.association.node_parameters;
-    const std::vector<std::uint8_t> awake = state_.awake;
-    lift(sweep, emphasis);
-    settle("average", sweep, none, max_averages);
+    move();
     const double least = report_.shape_before.average - options_.average_loss;
     if (report_.stopped || shape_summary(state_.mesh, state_.problem.hexes).average >= least) return true;
     state_.mesh.points = points;
     state_.association.node_parameters = parameters;
-    state_.awake = awake;
     return false;
   }
 
   std::vector<double> distortions_;  // per hex of the problem
+  double least_corner_ = 0;          // scaled Jacobian
   SmoothState& state_;
   const SmoothOptions& options_;
   const SmoothProgress& progress_;
@@ -245,10 +277,12 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   if (problem.n_nodes() > 0) {
     const std::vector<Vec3> points = mesh.points;
     const std::vector<Parameters> parameters = association.node_parameters;
+    const Bounds before = bounds_of(mesh, problem.hexes, as_good_as_square);
     Smoother(state, options, progress, report).run();
     report.shape_after = shape_summary(mesh, problem.hexes);
     // Sweeps keep clear of the limit by more than rounding; should that ever not be enough, the guarantee still holds.
-    if (report.shape_after.min < least_shape(report)) {
+    if (report.shape_after.min < least_shape(report) ||
+        bounds_of(mesh, problem.hexes).scaled_jacobian < before.scaled_jacobian) {
       mesh.points = points;
       association.node_parameters = parameters;
       report.shape_after = report.shape_before;

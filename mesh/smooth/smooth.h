@@ -1,8 +1,10 @@
 // Smoothing and untangling: moves nodes so that hexes get better shapes.
 //
 // Guarantees, whatever the scheme and the options:
-//  1. the smallest shape (quality.h) of the hexes around nodes that moved is not below what it was (0 when one of them
-//     was inverted), and no hex is inverted (validity.h) that was not;
+//  1. the smallest shape and the smallest scaled Jacobian (quality.h) of the hexes around nodes that moved are not
+//  below
+//     what they were (0 when one of them was inverted; of a scaled Jacobian above 0.9 that much is kept), and no hex is
+//     inverted (validity.h) that was not;
 //  2. only `nodes` move, never `fixed` ones, nodes on vertices, or boundary nodes whose curve or surface is not known.
 //     Nodes on curves and surfaces stay on them (they are results of Model::project) and their parameters follow;
 //  3. what the user named inside the mesh keeps its shape: block boundaries, side sets, sheets, lines and points of
@@ -12,7 +14,8 @@
 //
 // The default scheme minimises a distortion that is convex in the place of each single node, node by node with exact
 // first and second derivatives, while a term of high power lifts the worst hexes; then takes back what that cost the
-// average, holding the smallest shape. docs/smoothing.md has energies, line search and stopping rule.
+// average, holding the smallest shape; at last lifts scaled Jacobians below 0.3. docs/smoothing.md has energies, line
+// search and stopping rule.
 #pragma once
 
 #include <cstdint>

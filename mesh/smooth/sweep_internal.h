@@ -69,14 +69,27 @@ inline bool within_limit(const SweepRule& rule, double before, double after) {
   return after <= (before < rule.limit * (1 - limit_slack) ? rule.limit : before) * (1 - limit_slack);
 }
 
+/// The smallest scaled Jacobian of the corners that a node at x is part of.
+double worst_corner(const Vec3* points, std::span<const Ring> rings, const Vec3& x);
+
+/// May the node go to `to`, where the largest distortion is `worst`? By the inequality of the means no scaled Jacobian
+/// is below one over its corner's distortion, so that few need a look.
+inline bool keeps_corners(const SmoothState& state, const SweepRule& rule, std::span<const Ring> rings,
+                          const Vec3& from, const Vec3& to, double worst) {
+  if (!(worst * rule.least_corner > 1 - limit_slack)) return true;
+  const double after = worst_corner(state.mesh.points.data(), rings, to);
+  return after > rule.least_corner * (1 + limit_slack) || after > worst_corner(state.mesh.points.data(), rings, from);
+}
+
 template <class Patch>
 bool improve_node(SmoothState& state, const SweepRule& rule, Index slot, Patch& patch, bool& moved) {
   const SmoothProblem& problem = state.problem;
   const Index node = problem.nodes[slot];
   const Vec3 x0 = state.mesh.points[node];
   const Index first = problem.first_ring[slot];
-  patch.load(state.mesh.points.data(), x0,
-             {problem.rings.data() + first, static_cast<std::size_t>(problem.first_ring[slot + 1] - first)});
+  const std::span<const Ring> rings(problem.rings.data() + first,
+                                    static_cast<std::size_t>(problem.first_ring[slot + 1] - first));
+  patch.load(state.mesh.points.data(), x0, rings);
   const Local local = patch.derivatives();
   if (!std::isfinite(local.energy)) return false;
   const bool slides = problem.slides(slot), on_model = problem.owner[slot].dim < 3;
@@ -93,6 +106,7 @@ bool improve_node(SmoothState& state, const SweepRule& rule, Index slot, Patch& 
     }
     const Local there = patch.at(y);
     if (!(there.energy <= local.energy + 1e-4 * slope) || !within_limit(rule, local.worst, there.worst)) continue;
+    if (!keeps_corners(state, rule, rings, x0, x0 + y, there.worst)) continue;
     moved = y.squaredNorm() > rule.tolerance * rule.tolerance * patch.edge_squared();
     move_node(state, slot, slides ? place.point : x0 + y, moved);
     if (on_model) state.association.node_parameters[node] = place.parameters;

@@ -243,8 +243,13 @@ Level begin_level(const Mesh& mesh, std::span<const Index> hexes, Regularized& t
 
 }  // namespace
 
+Bounds bounds_of(const Mesh& mesh, std::span<const Index> hexes, double wanted) {
+  const auto least = [&](Metric metric) { return std::max(0.0, summarize(quality(metric, mesh, hexes)).min); };
+  return {std::min(wanted, least(Metric::scaled_jacobian)), least(Metric::shape)};
+}
+
 void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::vector<Parameters>& parameters,
-               std::span<const Index> inverted_before, double least_shape) {
+               std::span<const Index> inverted_before, const Bounds& least) {
   for (;;) {
     bool any = false;
     const auto put_back = [&](Index hex) {
@@ -257,11 +262,13 @@ void take_back(SmoothState& state, const std::vector<Vec3>& points, const std::v
     };
     for (const Index h : inverted_hexes(state.mesh, state.problem.hexes))
       if (!std::ranges::binary_search(inverted_before, h)) put_back(h);
-    if (least_shape > 0)
-      for (const Index i : indices_where(static_cast<Index>(state.problem.hexes.size()), [&](Index k) {
-             return quality(Metric::shape, state.mesh, state.problem.hexes[k]) < least_shape;
-           }))
+    for (const auto& [metric, bound] :
+         {std::pair(Metric::shape, least.shape), std::pair(Metric::scaled_jacobian, least.scaled_jacobian)}) {
+      if (bound <= 0) continue;
+      const auto is_below = [&](Index k) { return quality(metric, state.mesh, state.problem.hexes[k]) < bound; };
+      for (const Index i : indices_where(static_cast<Index>(state.problem.hexes.size()), is_below))
         put_back(state.problem.hexes[i]);
+    }
     if (!any) return;
   }
 }
@@ -298,7 +305,7 @@ void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const
     target.eps = now.least < mu ? 2 * std::sqrt(mu * (mu - now.least)) : 1e-10;
     before = level(state.mesh, problem.hexes, target);
   }
-  take_back(state, points, parameters, inverted_before, 0);
+  take_back(state, points, parameters, inverted_before, {});
 }
 
 }  // namespace hextwist

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hextwist/mesh/smooth/condition_internal.h"
+#include "hextwist/mesh/smooth/lift_patch_internal.h"
 #include "hextwist/mesh/smooth/sweep_internal.h"
 #include "smooth_fixtures.h"
 
@@ -67,6 +68,17 @@ TEST(SmoothDerivatives, of_the_power_term_match_differences) {
 TEST(SmoothDerivatives, of_the_condition_number_match_differences) {
   expect_derivatives_right<ConditionPatch>(0);
   expect_derivatives_right<ConditionPatch>(0.3);
+}
+
+/// The patch of lifts, with a power of its own.
+struct Lift : LiftPatch {
+  Lift(const SmoothProblem& problem, const SweepRule& rule)
+      : LiftPatch(problem, {0.5, 0, static_cast<int>(rule.weight)}) {}
+};
+TEST(SmoothDerivatives, of_lifts_match_differences) {
+  expect_derivatives_right<Lift>(1);
+  expect_derivatives_right<Lift>(2);
+  expect_derivatives_right<Lift>(8);
 }
 
 TEST(SmoothDerivatives, hessian_of_the_mean_ratio_is_positive_definite) {

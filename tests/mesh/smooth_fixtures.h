@@ -36,4 +36,8 @@ inline double min_shape(const Mesh& mesh) {
   return summarize(quality(Metric::shape, mesh)).min;
 }
 
+inline double min_scaled_jacobian(const Mesh& mesh) {
+  return summarize(quality(Metric::scaled_jacobian, mesh)).min;
+}
+
 }  // namespace hextwist::test

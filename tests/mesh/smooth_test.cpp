@@ -29,7 +29,7 @@ TEST(Smooth, brings_perturbed_grids_back_to_cubes) {
   }
 }
 
-TEST(Smooth, never_lowers_the_smallest_shape_or_inverts_a_hex) {
+TEST(Smooth, never_lowers_the_smallest_shape_or_scaled_jacobian_or_inverts_a_hex) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
@@ -45,6 +45,10 @@ TEST(Smooth, never_lowers_the_smallest_shape_or_inverts_a_hex) {
       const SmoothReport report = smooth_inside(mesh, options);
       EXPECT_GE(report.shape_after.min, report.shape_before.min) << name(scheme);
       EXPECT_GE(min_shape(mesh), min_shape(start)) << name(scheme);
+      const double least = std::min(0.9, min_scaled_jacobian(start));
+      if (least > 0) {
+        EXPECT_GE(min_scaled_jacobian(mesh), least) << name(scheme);
+      }
       const auto after = min_corner_jacobian(mesh);
       for (std::size_t h = 0; h < after.size(); ++h)
         if (before[h] > 0) {
