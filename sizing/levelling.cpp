@@ -98,7 +98,8 @@ void LevelRun::adopt(LevelStep step) {
   if (step.forest.is_bare()) from.overlay = {};  // as if nothing had ever been done
   Overlay overlay = put_on(from.overlay, state.input.mesh, state.input.association, pinned, step, n_dropped);
   if (n_dropped > 0)
-    state.note(counted(n_dropped, "node") + " that had been smoothed went back, as hexes around changed");
+    state.note(counted(n_dropped, "node") +
+               " that had been moved for better shapes went back, as hexes around changed");
   state.report.graded_cells += step.n_forced;
   if (step.n_forced > 0)
     state.note("cut " + counted(step.n_forced, "cell") +

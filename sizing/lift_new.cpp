@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
-#include "hextwist/mesh/quality/validity.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/smooth/lift.h"
 
 namespace hextwist {
@@ -20,24 +21,41 @@ struct Freedom {
 };
 constexpr Freedom freedoms[] = {{0.3, false, 0, 6}, {0.3, true, 0, 6}, {0.25, true, 1, 10}, {0.2, true, 2, 10}};
 
+/// Scaled Jacobian of a box, but for rounding.
+constexpr double right = 0.9999;
+
+/// Those of the hexes (ascending) whose scaled Jacobian is in a range.
+std::vector<Index> between(const Mesh& mesh, std::span<const Index> hexes, double least, double most) {
+  const std::vector<double> q = quality(Metric::scaled_jacobian, mesh, hexes);
+  std::vector<Index> result;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (q[i] >= least && q[i] < most) result.push_back(hexes[i]);
+  return result;
+}
+
 }  // namespace
 
-std::vector<Index> lift_new_hexes(MeshedModel& refined, Index first_new_hex, Index first_new_node,
-                                  const Finish& finish) {
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish) {
   Mesh& mesh = refined.mesh;
-  std::vector<Vec3> before;
+  std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
+  for (const Index n : new_nodes) is_new[n] = 1;
+  const std::vector<Index> hexes = touching_hexes(mesh.hexes, is_new);
+  if (between(mesh, hexes, -1, freedoms[0].wanted).empty()) return {};
+
+  if (!refined.association.empty())  // along curves they stay as even as they are
+    std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });
+  new_nodes = difference(new_nodes, nodes_of_hexes(mesh, between(mesh, hexes, right, 2)));
   SmoothOptions options;
   options.fixed = finish.fixed;
   options.keep_jumps = finish.keep_jumps;
+  const std::vector<Vec3> before = mesh.points;
   for (const Freedom& freedom : freedoms) {
-    std::vector<Index> low = hexes_below(mesh, freedom.wanted, first_new_hex);
+    std::vector<Index> low = between(mesh, hexes, -1, freedom.wanted);
     if (low.empty()) break;
-    if (before.empty()) before = mesh.points;
     options.fix_boundary = !freedom.on_cad;
-    options.nodes = nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers), first_new_node);
+    options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
     lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps);
   }
-  if (before.empty()) return {};
   return indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
 }
 

@@ -7,10 +7,9 @@
 
 namespace hextwist {
 
-/// Lifts the low hexes among those from first_new_hex on (mesh/smooth/lift.h) by their nodes from first_new_node on,
-/// and those of the new hexes around; fixed ones stay. In the end, once: passes to come cut hexes as the templates made
-/// them. Returns the nodes that moved, ascending.
-std::vector<Index> lift_new_hexes(MeshedModel& refined, Index first_new_hex, Index first_new_node,
-                                  const Finish& finish);
+/// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
+/// nodes on curves and those of hexes with right angles everywhere stay. In the end, once: passes to come cut hexes as
+/// the templates made them. Returns the nodes that moved, ascending.
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish);
 
 }  // namespace hextwist

@@ -113,6 +113,15 @@ std::vector<Index> State::new_hexes() const {
   return fresh;
 }
 
+std::vector<Index> State::new_nodes() const {
+  const std::int64_t last_old = node_id(input.mesh, input.mesh.n_nodes() - 1);
+  const std::vector<Index>& old = result_.old_node;
+  return indices_where(mesh().n_nodes(), [&](Index n) {
+    if (old.empty()) return node_id(mesh(), n) > last_old;
+    return old[n] < 0 || mesh().points[n] != input.mesh.points[old[n]];
+  });
+}
+
 void State::smooth_band(bool fix_boundary) {
   smooth_around(new_hexes(), fix_boundary);
 }
@@ -159,13 +168,7 @@ void State::close() {
   const Index first_new = n_kept(mesh());
   // Layers are as thin as they were asked for.
   if (!std::holds_alternative<Layers>(request.how)) {
-    const std::int64_t last_old = node_id(input.mesh, input.mesh.n_nodes() - 1);
-    const auto all = std::views::iota(Index{0}, mesh().n_nodes());
-    const auto first_new_node =
-        std::ranges::partition_point(all, [&](Index n) { return node_id(mesh(), n) <= last_old; });
-    result_.smoothed = union_of(
-        result_.smoothed,
-        lift_new_hexes(result_.refined, first_new, static_cast<Index>(first_new_node - all.begin()), request.finish));
+    result_.smoothed = union_of(result_.smoothed, lift_new_hexes(result_.refined, new_nodes(), request.finish));
   }
   std::vector<Index> low;
   const auto look = [&] {

@@ -65,6 +65,8 @@ class State {
   /// Hexes of the input that a mesh made of it still has.
   Index n_kept(const Mesh& mesh) const;
   std::vector<Index> new_hexes() const;
+  /// And those that are not where they were.
+  std::vector<Index> new_nodes() const;
   void smooth_around(std::vector<Index> hexes, bool fix_boundary);
 
   const MeshedModel* current_;

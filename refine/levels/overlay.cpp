@@ -37,10 +37,6 @@ Overlay put_on(const Overlay& before, const Mesh& mesh_before, const Association
         on[n] = 1;
     }
   const auto is_same = [&](Index h) { return step.origin.kind[h] == HexOrigin::same; };
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    if (!is_same(h))
-      for (const Index n : mesh.hexes[h])
-        if (on[n] == 1) on[n] = 0;
 
   const std::vector<Index> asked = indices_where(mesh.n_nodes(), [&](Index n) { return on[n] != 0; });
   Mesh bare;  // the same hexes without it

