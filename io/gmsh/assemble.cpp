@@ -251,6 +251,7 @@ class Assembly {
         NodeSet& set = group_of_id(sets, taken ? free_id(sets) : id);
         set.name = group_name(dim, id);
         set.nodes = std::move(nodes);
+        if (dim == 1) file_.extras.curve_groups[set.id] = id;
         if (taken)
           notice("physical curve group " + std::to_string(id) + " is node set " + std::to_string(set.id) +
                  ": a physical point group has its id");

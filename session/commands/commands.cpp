@@ -41,6 +41,14 @@ std::vector<Index> Execution::chosen(const Item& range) const {
   return result;
 }
 
+bool Execution::asks_for_all_of_none(const Item& range) const {
+  const auto& [items, filters, token] = range.range;
+  if (is_cad(range.kind) || is_mesh(range.kind) || count(core.selector(), range.kind) > 0) return false;
+  if (!filters.empty() || (!items.empty() && items.front().kind != RangeItem::Kind::all)) return false;
+  note("there are no " + std::string(plural(range.kind)));
+  return true;
+}
+
 void note_ignored(const Execution& run, std::initializer_list<const char*> words) {
   for (const char* word : words)
     if (run.command.has(word)) run.note("'" + std::string(word) + "' changes nothing here");

@@ -165,6 +165,7 @@ void do_list(Execution& run) {
   const Item* range = run.command.find("range");
   if (run.command.has("undo")) return list_undo(run);
   if (!range) return list_model(run);
+  if (run.asks_for_all_of_none(*range)) return;
   const std::vector<Index> positions = run.chosen(*range);
   Lister lister(run);
   for (const Index i : positions) run.say(lister.line(range->kind, i));

@@ -100,6 +100,26 @@ How how_of(const Execution& run) {
   return result;
 }
 
+/// Nodes of a file may be corners of no hex (those of elements that were dropped): there is nothing to refine at them.
+void check_nodes(const Execution& run, const Target& target) {
+  if (target.kind != EntityKind::node) return;
+  const Mesh& mesh = run.meshed->mesh;
+  const auto is_loose = [&](Index n) { return !run.meshed->association.node_owner[n]; };
+  if (std::ranges::none_of(target.ids, is_loose)) return;
+  std::string ids;
+  std::size_t n = 0;
+  constexpr std::size_t most = 5;
+  for (const Index node : target.ids) {
+    if (!is_loose(node)) continue;
+    if (n++ < most) ids += " " + std::to_string(node_id(mesh, node));
+  }
+  ids = std::string(n == 1 ? "node" : "nodes") + ids + (n > most ? " ..." : "") + (n == 1 ? " belongs" : " belong") +
+        " to no hex";
+  if (n == target.ids.size())
+    throw error_at(run.command.statement, run.command.find("range")->range.token, "there is nothing to refine: " + ids);
+  run.note(ids + ": nothing is refined there");
+}
+
 Request request_of(const Execution& run) {
   const Command& command = run.command;
   Request request{
@@ -113,6 +133,7 @@ Request request_of(const Execution& run) {
     return request;
   }
   request.target = target_of(run);
+  check_nodes(run, request.target);
   request.how = how_of(run);
   if (command.has("nested")) request.transition = Transition::nested;
   if (command.has("regular")) request.transition = Transition::regular;

@@ -51,7 +51,10 @@ TEST(Groups, are_undone_and_forgotten_with_their_model) {
   f.session.run("create brick x 3 interval 3");
   EXPECT_EQ(f.error("list group 1"), "there are no groups");
   f.session.run("group a add curve 1; reset");
-  EXPECT_EQ(f.error("list group all"), "there are no groups");
+  EXPECT_EQ(f.error("list group 1"), "there are no groups");
+  EXPECT_EQ(f.error("list group all; list nodeset all; delete sideset all"), "no error");
+  EXPECT_EQ(f.notices,
+            (std::vector<std::string>{"there are no groups", "there are no nodesets", "there are no sidesets"}));
 }
 
 TEST(Groups, members_that_are_gone_count_no_longer) {
