@@ -34,10 +34,12 @@ void execute(Execution& run) {
 
 std::vector<Index> Execution::chosen(const Item& range) const {
   std::vector<std::string> notices;
-  std::vector<Index> result = select(core.selector(), command.statement, range.kind, range.range, notices);
+  std::string why;
+  std::vector<Index> result = select(core.selector(), command.statement, range.kind, range.range, notices, &why);
   for (const std::string& line : notices) note(line);
   if (result.empty())
-    throw error_at(command.statement, range.range.token, "this names no " + std::string(name(range.kind)));
+    throw error_at(command.statement, range.range.token,
+                   "there is no such " + std::string(name(range.kind)) + (why.empty() ? "" : ": " + why));
   return result;
 }
 

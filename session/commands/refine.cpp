@@ -196,10 +196,36 @@ void splice_in(Execution& run, PatchResult patch, Request request) {
   run.say(line);
 }
 
+/// `refine location x y z radius r`: hexes whose middle is that near.
+Target hexes_near_point(const Execution& run) {
+  const Command& command = run.command;
+  const Mesh& mesh = run.meshed->mesh;
+  const auto number = [&](std::string_view name) { return command.find(name)->number; };
+  const Vec3 point(number("x"), number("y"), number("z"));
+  const Item* radius = command.find("radius");
+  if (!radius)
+    throw error_at(command.statement, command.find("z")->token, "say how far around the point, such as 'radius 2'");
+  const std::vector<Vec3> middle = centroids(mesh);
+  Target target{.kind = EntityKind::hex};
+  Index nearest = 0;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    const double distance = (middle[h] - point).norm();
+    if (distance <= radius->number) target.ids.push_back(h);
+    if (distance < (middle[nearest] - point).norm()) nearest = h;
+  }
+  if (target.ids.empty())
+    throw error_at(command.statement, radius->token,
+                   "no hex has its middle within " + short_number(radius->number) + " of there; hex " +
+                       std::to_string(hex_id(mesh, nearest)) + " comes nearest with " +
+                       short_number((middle[nearest] - point).norm()));
+  return target;
+}
+
 }  // namespace
 
 Target target_of(const Execution& run) {
   const Command& command = run.command;
+  if (command.find("x")) return hexes_near_point(run);
   const Item& range = *command.find("range");
   Target target{.kind = range.kind, .ids = run.chosen(range)};
   if (is_cad(range.kind))

@@ -18,7 +18,7 @@ TEST(Groups, collect_entities_under_a_name) {
   f.session.run("group rim xor curve 3 4");
   EXPECT_EQ(f.output.back(), "group 1 'rim': 1 vertex, 2 curves");
   f.session.run("list curve in rim");
-  EXPECT_TRUE(f.output.back().starts_with("curve 4: "));
+  EXPECT_TRUE(f.output.back().starts_with("4      line "));
   f.session.run("group rim equals surface 1; list group 1");
   EXPECT_EQ(f.output.back(), "group 1 'rim': 1 surface");
   f.session.run("group other add hex 1; list group \"o*\"");
