@@ -9,7 +9,7 @@ namespace hextwist {
 /// limit_memory(). The largest number when that is unknown.
 std::size_t available_memory();
 
-/// Peak memory of the process so far, in bytes.
+/// Largest memory of this process so far, in bytes; not that of the program which started it.
 std::size_t peak_memory();
 
 /// From now on the process may have no more data than this (0: as much as the machine has): what asks for more gets

@@ -58,8 +58,16 @@ constexpr std::string_view range_text = R"(range: which entities a command is ab
                      hex all with quality shape < 0.3
                      curve with length < 2 and (x_coord > 1 or not z_max = 5)
                      about: id, x_coord y_coord z_coord, x_min .. z_max, length, area, volume, radius, quality <metric>,
-                     is_planar, is_spline, is_meshed, element_count, num_parents, block_assigned, name "in*"
+                     is_planar, is_spline, is_meshed, is_hole, element_count, num_parents, block_assigned,
+                     name "in*"; 'radius 4 to 6' is from 4 to 6
                      'and' and 'or' go from left to right; 'length of curve 5'; '= 5 tolerance 1e-3'
+  (within 2 of 0 1 2)             with a point that near
+  ... loop of surface 3 (at 0 1 2)  curves of the outer loop, or of the one nearest to that point
+  ... chain from curve 3          that go on smoothly from there; surfaces too
+  ... adjacent to surface 3       that meet it
+  ... parallel to surface 3       or 'perpendicular to'; also x, y, z
+  ... largest 3 by area           or 'smallest'
+  ... in box 0 0 0 1 1 1          with their middle there; 'in sphere x y z radius r', 'in cylinder x y z to x y z radius r'
 
   'except' belongs to the list of ids before it: in 'hex in volume all except 5' that is volume 5. 'in' belongs to the
   kind before it. 'with' is about the kind that the range began with, or about a kind without ids right before it.

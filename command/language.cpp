@@ -22,8 +22,8 @@ const std::vector<CommandSpec> table = {
      "block {<id>|all} {{hex|volume|group} <range> ... [name <text>]|add {hex|volume|group} <range> ... [name <text>]"
      "|remove {hex|volume|group} <range> ...|name <text>|element type <type>}",
      "define a block of hexes",
-     "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block that "
-     "nothing is left of goes. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
+     "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block without "
+     "hexes is deleted. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
      "a hex belong to its blocks.",
      {{"id", Kind::integer, 0, max_group_id, false, "number of the block"},
       {"range", Kind::range, 0, 0, false, range_help},
@@ -124,10 +124,13 @@ const std::vector<CommandSpec> table = {
       {"blocks", Kind::range, 0, 0, false, ""}},
      {"import step \"part.step\"", "import mesh \"part.msh\""}},
     {"list",
-     "list [{model|=totals|undo|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [=geometry|=mesh|=ids|=position]}]",
-     "show entities and their properties", "Without arguments: the model and mesh as a whole. 'undo': what can be undone, and the memory that it takes.",
+     "list [{model|=totals|undo|field|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [=geometry|=mesh|=ids|=position]}]",
+     "show entities and their properties",
+     "Without arguments: the model and mesh as a whole. One entity of the CAD: what it is, how large, its radius, centre and axis or direction, where "
+     "it begins and ends, what it bounds, its box and groups; several: a table. 'field': the fields of the mesh. 'undo': what can be "
+     "undone, and the memory that it takes.",
      {{"range", Kind::range, 0, 0, false, range_help}},
-     {"list", "list undo", "list curve all", "list hex in sheet 3", "list sheet in hex 17"}},
+     {"list", "list undo", "list field", "list curve all", "list curve loop of surface 3 (at 0 0 1)", "list hex in sheet 3", "list sheet in hex 17"}},
     {"node", "node <range> position {fixed|free}", "fix nodes where they are, or free them",
      "Smoothing leaves fixed nodes alone, that of 'refine ... smooth' too, and the repair of inverted children. "
      "'list node' says which are fixed.",
@@ -172,7 +175,7 @@ const std::vector<CommandSpec> table = {
      {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
      {"redo", "redo 2"}},
     {"refine",
-     "refine {{node|edge|face|hex|vertex|curve|surface|volume} <range> "
+     "refine {{{node|edge|face|hex|vertex|curve|surface|volume} <range>|=location <x> <y> <z>} "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
      "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] [allow off_cad] "
      "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded]"
@@ -202,6 +205,9 @@ const std::vector<CommandSpec> table = {
      "until it is convex. New nodes lie on the CAD. A result that would be inverted, or "
      "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note.",
      {{"range", Kind::range, 0, 0, false, range_help},
+      {"x", Kind::number, -1e100, 1e100, false, ""},
+      {"y", Kind::number, -1e100, 1e100, false, ""},
+      {"z", Kind::number, -1e100, 1e100, false, ""},
       {"splits", Kind::integer, 1, max_uniform_pieces - 1, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
       {"size", Kind::number, 0, 1e100, true, "wished size of elements at the target"},

@@ -102,7 +102,7 @@ std::optional<std::size_t> Reader::match(std::span<const Keyword> words) {
     if (candidates.size() > 1) {
       std::vector<std::string> names;
       for (const std::size_t c : candidates) names.emplace_back(words[c].word);
-      fail(token, "'" + token.text + "' is short for " + alternatives(names) + ": please write more of it");
+      fail(token, "'" + token.text + "' may be " + alternatives(names) + ": please write more of it");
     }
   }
   for (const Keyword& keyword : words)

@@ -98,8 +98,11 @@ void read_fields(const hextwist_arrays& in, Mesh& mesh) {
     if (given.n_components < 1) throw Error("field '" + name + "' has no component");
     const std::int64_t n = given.on_hexes ? in.n_hexes : in.n_nodes;
     const auto values = items(given.values, n, given.n_components, "field '" + name + "'");
-    mesh.fields.push_back(
-        {name, given.on_hexes ? Field::On::hex : Field::On::node, given.n_components, {values.begin(), values.end()}});
+    mesh.fields.push_back({name,
+                           given.on_hexes ? Field::On::hex : Field::On::node,
+                           given.n_components,
+                           {values.begin(), values.end()},
+                           given.is_integer != 0});
   }
 }
 

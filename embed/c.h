@@ -145,6 +145,7 @@ typedef struct hextwist_field {
   int32_t on_hexes;     /* 0: on nodes */
   int32_t n_components; /* 1 scalar, 3 vector, ... */
   const double* values; /* n_components per node or hex */
+  int32_t is_integer;   /* classes, flags, numbers of things: never interpolated */
 } hextwist_field;
 int64_t hextwist_n_fields(const hextwist_mesh* mesh);
 hextwist_field hextwist_field_at(const hextwist_mesh* mesh, int64_t i);

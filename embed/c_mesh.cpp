@@ -136,7 +136,7 @@ hextwist_field hextwist_field_at(const hextwist_mesh* mesh, std::int64_t i) {
   const auto& fields = mesh->view.mesh().fields;
   if (!within(i, fields)) return {};
   const Field& field = fields[static_cast<std::size_t>(i)];
-  return {field.name.c_str(), field.on == Field::On::hex, field.components, field.values.data()};
+  return {field.name.c_str(), field.on == Field::On::hex, field.components, field.values.data(), field.integer};
 }
 
 hextwist_status hextwist_quality(const hextwist_mesh* mesh, const char* metric, double* values) {

@@ -42,9 +42,12 @@ struct FileExtras {
   std::vector<AbaqusCard> cards;
   std::vector<int> node_surfaces;  ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
   std::vector<PeriodicPairs> periodic;
+  /// Gmsh: node sets that are physical groups of curves, and their tags there.
+  std::map<int, int> curve_groups;
 
   bool empty() const {
-    return element_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty();
+    return element_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty() &&
+           curve_groups.empty();
   }
 };
 

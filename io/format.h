@@ -173,8 +173,10 @@ static_assert(in_file_order({0, 1, 2, 3, 4, 5, 6, 7}) == file_corner);
 // ---- fields ----
 
 /// Fields for formats that know scalars only: a vector's components become name_x name_y name_z, any other number of
-/// components name_1 .. name_n. merge_components() puts neighbours with such names together again.
-std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep);
+/// components name_1 .. name_n, which is told of the latter. merge_components() puts neighbours with such names
+/// together again.
+std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep,
+                                    std::vector<std::string>& notices);
 std::vector<Field> merge_components(std::vector<Field> scalars);
 
 // ---- associations ----

@@ -141,7 +141,8 @@ void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string
   notices.push_back(std::string(format) + " has no fields: " + names + " left out");
 }
 
-std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep) {
+std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep,
+                                    std::vector<std::string>& notices) {
   std::vector<Field> result;
   for (const Field& field : fields) {
     const int n = field.components;
@@ -149,6 +150,10 @@ std::vector<Field> split_components(const std::vector<Field>& fields, const std:
       result.push_back(field);
       continue;
     }
+    if (n != 3)  // name_x, name_y, name_z are vectors to all readers
+      notices.push_back("the components of field '" + field.name + "' are the fields '" +
+                        component_name(field.name, 0, n) + "' to '" + component_name(field.name, n - 1, n) +
+                        "' in the file");
     for (int c = 0; c < n; ++c) {
       Field scalar{component_name(field.name, c, n), field.on, 1, {}};
       scalar.values.reserve(field.values.size() / n);

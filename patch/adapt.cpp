@@ -19,7 +19,9 @@ Request request_of(const Mesh& mesh, std::size_t n, const char* what, const Adap
           .finish = {.smooth = options.smooth,
                      .fixed = options.fixed,
                      .level_field = options.level_field,
-                     .extensive = options.extensive}};
+                     .extensive = options.extensive,
+                     .keep_jumps = options.keep_jumps,
+                     .allow_off_cad = options.allow_off_cad}};
 }
 
 /// Of a result that is not by levels, or the first one of a base.

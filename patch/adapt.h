@@ -33,6 +33,10 @@ struct AdaptOptions {
   bool level_field = true;
   /// Fields of hexes whose sum stays; others are copied, and averaged where hexes become coarser.
   std::vector<std::string> extensive = {};
+  /// Hex fields whose jumps smoothing leaves in place (Finish::keep_jumps).
+  std::vector<std::string> keep_jumps = {};
+  /// New nodes that can't be put on the CAD are left off it, and told (Finish::allow_off_cad).
+  bool allow_off_cad = false;
   /// AdaptResult::levelling of the call that made the mesh. Null: it is the base.
   std::shared_ptr<const Levelling> levelling = nullptr;
 };

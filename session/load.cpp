@@ -165,8 +165,11 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
     if (in_mesh < in_model) {
       run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" + counted(in_mesh, "piece") +
-               " of mesh, " + std::to_string(in_model) + " of CAD): reading it again with touching solids glued");
-      model = read_model(run, state.cad_file, true);
+               " of mesh, " + std::to_string(in_model) + " of CAD): its touching solids are glued");
+      run.stage("glue CAD");
+      CadImport joined = glued(*model);
+      for (const std::string& line : joined.notices) run.note(line);
+      model = std::move(joined.model);
       state.glued = true;
     }
   }

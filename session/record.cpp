@@ -68,7 +68,9 @@ std::string record_violations(CommandRecord& record, const Mesh& mesh, const std
 }
 
 std::string off_text(const char* separator, const OffModel& off, bool has_cad) {
-  if (off.node < 0) return "";
+  // A mesh without CAD lies on its own skin but for rounding, which is nothing to say.
+  constexpr double rounding = 1e-12;
+  if (off.node < 0 || (!has_cad && off.max_relative < rounding)) return "";
   return std::string(separator) + "nodes at most " + short_number(off.max) + " off " +
          (has_cad ? "the CAD" : "the skin");
 }

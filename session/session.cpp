@@ -100,6 +100,7 @@ AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& valu
     if (run.meshed->mesh.n_hexes() == 0) throw Error("there is no mesh to adapt");
     if (const auto& fixed = run.state.fixed_nodes)
       options.fixed.insert(options.fixed.end(), fixed->begin(), fixed->end());
+    options.keep_jumps.insert(options.keep_jumps.end(), run.state.keep_jumps.begin(), run.state.keep_jumps.end());
     options.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
     AdaptResult result = adapt(*run.meshed, values, options, core.callbacks.progress);
     for (const std::string& line : result.report.notices) run.note(line);

@@ -73,6 +73,7 @@ struct LevelRun {
         }) {
     const Finish& finish = state.request.finish;
     options.extensive = finish.extensive;
+    options.keep_jumps = finish.keep_jumps;
     std::ranges::copy_if(finish.fixed, std::back_inserter(options.fixed),
                          [&](Index n) { return n < from.forest.base->mesh.n_nodes(); });
     options.progress = [this](const char* stage, double) {

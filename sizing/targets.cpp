@@ -151,6 +151,9 @@ CombinationTarget sub_element_target(const MeshedModel& input, const Target& wan
   switch (wanted.kind) {
     case EntityKind::node:
       target.nodes = wanted.ids;
+      if (const auto& owner = input.association.node_owner;
+          !owner.empty() && std::ranges::none_of(wanted.ids, [&](Index n) { return static_cast<bool>(owner[n]); }))
+        throw Error("none of the nodes belongs to a hex: there is nothing to refine");
       break;
     case EntityKind::edge: {
       const Edges all = edges(input.mesh);

@@ -6,6 +6,7 @@
 
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/select/selection.h"
+#include "hextwist/command/select/shapes.h"
 #include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
@@ -42,9 +43,17 @@ BilinearPatch patch_of(const Selector& selector, Index face) {
   return {p[quad[0]], p[quad[1]], p[quad[3]], p[quad[2]]};
 }
 
+}  // namespace
+
 /// Of arcs: the chord between two points over that between their normals, which is the radius whatever the angle.
-double surface_radius(const Model& model, int id) {
-  const std::string type = model.type({2, id});
+double radius(const Model& model, Owner entity) {
+  const int id = entity.id;
+  const std::string type = model.type(entity);
+  if (entity.dim == 1) {
+    if (type != "circle") return 0;
+    const CurveRange range = model.range(id);  // of angles
+    return model.measure(entity) / (range.last - range.first);
+  }
   if (type != "cylinder" && type != "sphere" && type != "torus") return 0;
   // A corner of the box: its middle may be the centre or on the axis.
   const Parameters at = model.project({2, id}, model.box({2, id}).max).parameters;
@@ -56,11 +65,7 @@ double surface_radius(const Model& model, int id) {
   return (model.point({2, id}, beside) - model.point({2, id}, at)).norm() / turn.norm();
 }
 
-double curve_radius(const Model& model, int id) {
-  if (model.type({1, id}) != "circle") return 0;
-  const CurveRange range = model.range(id);  // of angles
-  return model.measure({1, id}) / (range.last - range.first);
-}
+namespace {
 
 class Evaluation {
  public:
@@ -196,13 +201,15 @@ class Evaluation {
       case Attribute::volume:
         return owner ? model().measure(owner) : mesh_measure(kind, i);
       case Attribute::radius:
-        return owner.dim == 1 ? curve_radius(model(), owner.id) : surface_radius(model(), owner.id);
+        return radius(model(), owner);
       case Attribute::is_planar:
         return is_planar(owner.id);
       case Attribute::is_spline: {
         const std::string type = model().type(owner);
         return type.starts_with("bspline") || type.starts_with("bezier");
       }
+      case Attribute::is_hole:
+        return is_hole(model(), owner.id);
       case Attribute::is_meshed:
         return n_elements(kind, i) > 0;
       case Attribute::element_count:
@@ -334,6 +341,11 @@ Vec3 middle(const Selector& selector, EntityKind kind, Index i) {
   Vec3 centre = (box.min + box.max) / 2;  // NaN where there is nothing
   if (kind != EntityKind::curve && kind != EntityKind::surface) return centre;
   return selector.meshed.model->project({dimension(kind), i + 1}, centre).point;
+}
+
+std::vector<double> values_of(const Selector& selector, const Statement& statement, EntityKind kind,
+                              const Criterion& measure, std::span<const Index> positions) {
+  return Evaluation(selector, statement, kind, positions).values(measure);
 }
 
 std::vector<char> meets(const Selector& selector, const Statement& statement, EntityKind kind,

@@ -23,7 +23,7 @@ constexpr unsigned every_kind = (1u << n_entity_kinds) - 1;
 constexpr unsigned cad = only(EntityKind::vertex, EntityKind::curve, EntityKind::surface, EntityKind::volume);
 constexpr unsigned named = cad | only(EntityKind::block, EntityKind::nodeset, EntityKind::sideset, EntityKind::group);
 
-constexpr std::array<AttributeSpec, 24> table = {{
+constexpr std::array<AttributeSpec, 25> table = {{
     {Attribute::id, "id", every_kind},
     {Attribute::x_coord, "x_coord", every_kind, false, true},
     {Attribute::y_coord, "y_coord", every_kind, false, true},
@@ -46,6 +46,7 @@ constexpr std::array<AttributeSpec, 24> table = {{
     {Attribute::element_count, "element_count", every_kind & ~only(EntityKind::group)},
     {Attribute::num_parents, "num_parents", cad & ~only(EntityKind::volume)},
     {Attribute::block_assigned, "block_assigned", only(EntityKind::hex), true},
+    {Attribute::is_hole, "is_hole", only(EntityKind::curve), true},
     {Attribute::name, "name", named, true},
     {Attribute::name, "has_name", named, true, false, "name"},
 }};
@@ -116,6 +117,11 @@ class CriterionReader {
       if (op == Op::truth) return left;
       left = joined(op, token, std::move(left), operand());
     }
+  }
+
+  Criterion measure() {
+    Criterion result = attribute();
+    return want_number(result);
   }
 
  private:
@@ -205,9 +211,27 @@ class CriterionReader {
     return Op::truth;
   }
 
+  /// radius 4 to 6
+  Criterion between(Criterion of, const Token& token) {
+    Criterion low = sum();
+    if (!reader_.accept("to")) reader_.fail();
+    Criterion high = sum();
+    want_number(low);
+    want_number(high);
+    // The ends are in it, whatever rounding has made of them.
+    const auto side = [&](Op op, Criterion end) {
+      Criterion beyond = joined(op, token, of, end);
+      return joined(Op::or_, token, std::move(beyond), joined(Op::equal, token, of, std::move(end)));
+    };
+    Criterion above = side(Op::greater, std::move(low));
+    return joined(Op::and_, token, std::move(above), side(Op::less, std::move(high)));
+  }
+
   Criterion comparison() {
     Criterion left = sum();
     const Token token = reader_.peek();
+    if (left.op == Op::attribute && !is_condition(left) && token.kind == Token::Kind::number)
+      return between(std::move(left), token);
     const Op op = accept_sign(comparisons);
     if (op == Op::truth) {
       if (!is_condition(left)) reader_.expect("a comparison");
@@ -415,6 +439,10 @@ std::span<const AttributeSpec> attributes() {
 
 Criterion read_criterion(Reader& reader, EntityKind kind) {
   return CriterionReader(reader, kind).condition();
+}
+
+Criterion read_measure(Reader& reader, EntityKind kind) {
+  return CriterionReader(reader, kind).measure();
 }
 
 std::string to_string(const Criterion& c) {

@@ -42,6 +42,7 @@ enum class Attribute {
   element_count,  ///< mesh entities of its own dimension
   num_parents,    ///< CAD entities of the next dimension that it bounds
   block_assigned,
+  is_hole,  ///< a curve of a loop inside another around the same surface
   name,
 };
 
@@ -89,6 +90,8 @@ struct Criterion {
 
 /// Reads what stands behind `with`. Throws CommandError where it makes no sense for the kind, or is no condition.
 Criterion read_criterion(Reader& reader, EntityKind kind);
+/// Reads one attribute that is a number, as behind `largest 3 by`.
+Criterion read_measure(Reader& reader, EntityKind kind);
 /// As the language writes it, with the parentheses it needs.
 std::string to_string(const Criterion& criterion);
 

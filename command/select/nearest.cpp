@@ -68,7 +68,9 @@ Values hex_distances(const Selector& selector, const Vec3& p) {
   return result;
 }
 
-Values distances(const Selector& selector, EntityKind kind, const Vec3& p) {
+}  // namespace
+
+std::vector<double> distances(const Selector& selector, EntityKind kind, const Vec3& p) {
   const Mesh& mesh = selector.meshed.mesh;
   if (is_cad(kind)) return cad_distances(*selector.meshed.model, dimension(kind), p);
   Values result;
@@ -103,8 +105,6 @@ Values distances(const Selector& selector, EntityKind kind, const Vec3& p) {
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<Index> by_distance(const Selector& selector, EntityKind kind, const Vec3& point) {
   const Values distance = distances(selector, kind, point);

@@ -1,5 +1,6 @@
 #include "hextwist/command/select/range.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -63,24 +64,41 @@ void close_parenthesis(Reader& reader) {
 }
 
 bool starts_point(const Reader& reader) {
-  return reader.at_symbol("(") && is_word(reader.ahead(), "at");
+  return reader.at_symbol("(") && (is_word(reader.ahead(), "at") || is_word(reader.ahead(), "within"));
 }
 
-/// ( at x y z [ordinal n] [ordered] )
-RangeItem read_point(Reader& reader) {
-  RangeItem item;
-  item.kind = RangeItem::Kind::at;
-  item.first = 1;
-  item.token = item.last_token = reader.take();
-  reader.take();
-  for (double& x : item.point) {
-    if (reader.peek().kind != Token::Kind::number) {
-      reader.expect("a number");
-      reader.fail();
-    }
-    x = reader.take().value;
+double read_number(Reader& reader) {
+  if (reader.peek().kind != Token::Kind::number) {
+    reader.expect("a number");
+    reader.fail();
+  }
+  return reader.take().value;
+}
+
+template <class Numbers>
+void read_numbers(Reader& reader, Numbers& numbers) {
+  for (double& x : numbers) {
+    x = read_number(reader);
     if (reader.at_symbol(",")) reader.take();
   }
+}
+
+/// ( at x y z [ordinal n] [ordered] ), ( within r [of] x y z )
+RangeItem read_point(Reader& reader) {
+  RangeItem item;
+  item.token = item.last_token = reader.take();
+  item.kind = is_word(reader.take(), "at") ? RangeItem::Kind::at : RangeItem::Kind::within;
+  item.first = 1;
+  if (item.kind == RangeItem::Kind::within) {
+    const Token number = reader.peek();
+    item.distance = read_number(reader);
+    if (item.distance < 0) reader.fail(number, "a distance can't be negative");
+    skip_word(reader, "of");
+    read_numbers(reader, item.point);
+    close_parenthesis(reader);
+    return item;
+  }
+  read_numbers(reader, item.point);
   if (reader.accept("ordinal")) item.first = read_whole_number(reader, "a whole number", "ordinals");
   skip_word(reader, "ordered");  // says nothing that the ordinal doesn't
   close_parenthesis(reader);
@@ -97,11 +115,24 @@ bool belongs_to_range(const Token& token) {
   return begins("except", 3) || begins("common_to", 6) || begins("step", 3);
 }
 
+/// Two words that begin a filter; by itself the first may be a name.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> word_pairs = {
+    {{"adjacent", "to"}, {"parallel", "to"}, {"perpendicular", "to"}, {"loop", "of"}, {"chain", "from"}}};
+
+bool starts_filter(const Reader& reader, std::size_t from = 0) {
+  const Token& first = from == 0 ? reader.peek() : reader.ahead(from);
+  const Token& second = reader.ahead(from + 1);
+  if (is_word(first, "largest") || is_word(first, "smallest"))
+    return second.kind == Token::Kind::number || is_word(second, "by");
+  return std::ranges::any_of(
+      word_pairs, [&](const auto& pair) { return is_word(first, pair.first) && is_word(second, pair.second); });
+}
+
 bool starts_item(const Reader& reader, bool names, bool first) {
   const Token& token = reader.peek();
   if (token.kind == Token::Kind::number || starts_point(reader)) return true;
   if (first && is_word(token, "all")) return true;
-  if (!names) return false;
+  if (!names || starts_filter(reader)) return false;
   // A name without quotes may stand first only: later it could be meant for an option.
   return token.kind == Token::Kind::string || (token.kind == Token::Kind::word && first && !belongs_to_range(token));
 }
@@ -168,6 +199,27 @@ void read_field_test(Reader& reader, RangeFilter& filter) {
   skip_word(reader, "%");
 }
 
+constexpr const char* solid_words[] = {"box", "sphere", "cylinder"};
+
+/// {box corner corner | sphere x y z [radius] r | cylinder x y z [to] x y z [radius] r}
+void read_solid(Reader& reader, RangeFilter& filter) {
+  filter.token = reader.take();
+  for (const char* word : solid_words)
+    if (is_word(filter.token, word)) filter.field = word;
+  const bool sphere = filter.field == "sphere", box = filter.field == "box";
+  std::array<double, 3> point{};
+  for (int end = 0; end < (sphere ? 1 : 2); ++end) {
+    if (end == 1) skip_word(reader, "to");
+    read_numbers(reader, point);
+    filter.numbers.insert(filter.numbers.end(), point.begin(), point.end());
+  }
+  if (box) return;
+  skip_word(reader, "radius");
+  const Token number = reader.peek();
+  filter.numbers.push_back(read_number(reader));
+  if (!(filter.numbers.back() > 0)) reader.fail(number, "a radius must be positive");
+}
+
 /// Where a range stands: that decides what may follow it.
 enum class Place { whole, term };
 
@@ -189,13 +241,20 @@ class RangeReader {
       if (!filter) break;
       RangeFilter read;
       read.kind = *filter;
+      read.token = last_;
       if (*filter == RangeFilter::Kind::field)
         read_field_test(reader_, read);
       else if (*filter == RangeFilter::Kind::with)
         read.criterion = read_criterion(reader_, kind);
       else if (*filter == RangeFilter::Kind::except)
         read.terms.push_back(exception(kind, place, nesting));
-      else
+      else if (*filter == RangeFilter::Kind::inside)
+        read_solid(reader_, read);
+      else if (*filter == RangeFilter::Kind::loop)
+        loop(kind, read);
+      else if (*filter == RangeFilter::Kind::most)
+        most(kind, read);
+      else if (!axis(read))
         read.terms = terms(nesting + 1);
       range.filters.push_back(std::move(read));
     }
@@ -207,6 +266,39 @@ class RangeReader {
 
  private:
   Reader& reader_;
+  Token last_;  // of the filter
+
+  /// x, y or z behind `parallel to`.
+  bool axis(RangeFilter& filter) {
+    if (filter.kind != RangeFilter::Kind::parallel && filter.kind != RangeFilter::Kind::perpendicular) return false;
+    for (const char* word : {"x", "y", "z"})
+      if (is_word(reader_.peek(), word)) {
+        filter.field = word;
+        reader_.take();
+        return true;
+      }
+    return false;
+  }
+
+  void loop(EntityKind kind, RangeFilter& filter) {
+    if (kind != EntityKind::curve) reader_.fail(filter.token, "a loop is of curves: 'curve loop of surface 3'");
+    filter.terms.push_back(read_single(reader_));
+    if (filter.terms[0].kind != EntityKind::surface)
+      reader_.fail(filter.terms[0].range.token, "loops are around surfaces");
+    if (!reader_.at_symbol("(") || !is_word(reader_.ahead(), "at")) return;
+    const RangeItem at = read_point(reader_);
+    filter.numbers.assign(at.point.begin(), at.point.end());
+  }
+
+  /// [n] by attribute
+  void most(EntityKind kind, RangeFilter& filter) {
+    filter.test = is_word(filter.token, "largest") ? RangeFilter::Test::top : RangeFilter::Test::bottom;
+    filter.value = 1;
+    if (reader_.peek().kind == Token::Kind::number)
+      filter.value = static_cast<double>(read_whole_number(reader_, "a whole number", "numbers of entities"));
+    if (!reader_.accept("by")) reader_.fail();
+    filter.criterion = read_measure(reader_, kind);
+  }
 
   /// A term leaves to the range around it what is not about itself.
   std::optional<RangeFilter::Kind> accept_filter(EntityKind kind, Place place, bool bare, bool first) {
@@ -220,6 +312,26 @@ class RangeReader {
       reader_.take();
       reader_.take();
       return RangeFilter::Kind::field;
+    }
+    last_ = reader_.peek();
+    if (is_word(last_, "in"))
+      for (const char* word : solid_words)
+        if (is_word(reader_.ahead(), word) && reader_.ahead(2).kind == Token::Kind::number) {
+          if (!whole && !(bare && first)) return std::nullopt;
+          reader_.take();
+          return RangeFilter::Kind::inside;
+        }
+    const bool in_loop = is_word(last_, "in") && is_word(reader_.ahead(), "loop") && is_word(reader_.ahead(2), "of");
+    if (in_loop) reader_.take();
+    if (starts_filter(reader_)) {
+      const Token word = last_ = reader_.take();
+      if (is_word(word, "largest") || is_word(word, "smallest")) return RangeFilter::Kind::most;
+      reader_.take();
+      constexpr std::array kinds = {RangeFilter::Kind::adjacent, RangeFilter::Kind::parallel,
+                                    RangeFilter::Kind::perpendicular, RangeFilter::Kind::loop,
+                                    RangeFilter::Kind::chain};
+      for (std::size_t i = 0; i < kinds.size(); ++i)
+        if (is_word(word, word_pairs[i].first)) return kinds[i];
     }
     if (reader_.accept("in")) return RangeFilter::Kind::in;
     if (reader_.accept("common_to", 6)) return RangeFilter::Kind::common_to;
@@ -338,6 +450,11 @@ std::string to_string(const std::vector<RangeItem>& items) {
         for (const double x : item.point) result += " " + number_text(x);
         result += (item.first > 1 ? " ordinal " + std::to_string(item.first) : "") + ")";
         break;
+      case RangeItem::Kind::within:
+        result += "(within " + number_text(item.distance) + " of";
+        for (const double x : item.point) result += " " + number_text(x);
+        result += ")";
+        break;
       case RangeItem::Kind::span:
         result += std::to_string(item.first) + " to " + std::to_string(item.last);
         if (item.step != 1) result += " by " + std::to_string(item.step);
@@ -418,8 +535,34 @@ std::string to_string(const Range& range) {
     } else if (filter.kind == RangeFilter::Kind::except) {
       const Range& list = filter.terms[0].range;
       result += "except " + (list.filters.empty() ? to_string(list.items) : "(" + to_string(filter.terms[0]) + ")");
+    } else if (filter.kind == RangeFilter::Kind::inside) {
+      result += "in " + filter.field;
+      for (std::size_t k = 0; k < filter.numbers.size(); ++k)
+        result += (filter.field == "cylinder" && k == 3           ? " to "
+                   : k % 3 == 0 && k > 0 && filter.field != "box" ? " radius "
+                                                                  : " ") +
+                  number_text(filter.numbers[k]);
+    } else if (filter.kind == RangeFilter::Kind::most) {
+      result += (filter.test == RangeFilter::Test::top ? "largest " : "smallest ") + number_text(filter.value) +
+                " by " + to_string(filter.criterion);
+    } else if (filter.kind == RangeFilter::Kind::loop) {
+      result += "loop of " + to_string(filter.terms[0]);
+      if (!filter.numbers.empty()) {
+        result += " (at";
+        for (const double x : filter.numbers) result += " " + number_text(x);
+        result += ")";
+      }
+    } else if (!filter.field.empty()) {
+      result += filter.kind == RangeFilter::Kind::parallel ? "parallel to " : "perpendicular to ";
+      result += filter.field;
     } else {
-      result += filter.kind == RangeFilter::Kind::in ? "in" : "common_to";
+      using Kind = RangeFilter::Kind;
+      result += filter.kind == Kind::in              ? "in"
+                : filter.kind == Kind::common_to     ? "common_to"
+                : filter.kind == Kind::adjacent      ? "adjacent to"
+                : filter.kind == Kind::parallel      ? "parallel to"
+                : filter.kind == Kind::perpendicular ? "perpendicular to"
+                                                     : "chain from";
       bool followed = false;
       for (std::size_t j = i + 1; j < range.filters.size(); ++j)
         followed |= range.filters[j].kind != RangeFilter::Kind::with;

@@ -1,9 +1,12 @@
 // Ranges as written: `1 3 to 17 by 2 except 5 in volume 2 with x_coord > 3`. What they mean is decided in selection.h.
 //
 //   range      list filter ...                                        an empty list stands for all
-//   list       {id [to id [by step]] | name | all | (at x y z [ordinal n])} ...
-//   filter     {in | common_to} term [kind range] ...  |  with criterion  |  except {list | kind range}
-//              in field "name" {above v | below v | top p [%]}
+//   list       {id [to id [by step]] | name | all | (at x y z [ordinal n]) | (within r of x y z)} ...
+//   filter     {in | common_to | adjacent to} term [kind range] ...  |  with criterion  |  except {list | kind range}
+//              in field "name" {above v | below v | top p [%]}  |  {largest | smallest} n by attribute
+//              in {box corner corner | sphere x y z radius r | cylinder x y z to x y z radius r}
+//              {parallel | perpendicular} to {x | y | z | term}  |  [in] loop of surface id [(at x y z)]  |  chain from
+//              term
 //   term       kind range | name | ( {kind range | name} ... )
 //
 // What binds to what: `except` belongs to the list of ids before it, and so does a kind word behind it; `in` and
@@ -25,11 +28,12 @@ namespace hextwist {
 
 /// One id, one span of ids, a name, everything, or the entity nearest to a point.
 struct RangeItem {
-  enum class Kind { id, span, name, all, at };
+  enum class Kind { id, span, name, all, at, within };
   Kind kind = Kind::all;
   std::int64_t first = 0, last = 0, step = 1;  ///< of an id (first) or a span; of `at`, first is the ordinal
   std::string name;                            ///< may hold the wildcards * and ?
-  std::array<double, 3> point = {};            ///< of `at`
+  std::array<double, 3> point = {};            ///< of `at` and `within`
+  double distance = 0;                         ///< of `within`
   Token token;                                 ///< where it starts
   Token last_token;                            ///< of a span: its end
 };
@@ -44,13 +48,21 @@ struct RangeFilter {
     with,       ///< meet the criterion
     except,     ///< are none of the term, which is of the same kind
     field,      ///< have values of a field of the mesh that pass the test
+    adjacent,   ///< meet any of the terms without being one of them
+    parallel,   ///< run, or lie, as the terms or the axis `field` (x, y, z) do
+    perpendicular,
+    loop,    ///< curves of one loop around the surface of the term: the outer one, or the one nearest to `point`
+    chain,   ///< go on smoothly from the terms, and from there, and so on
+    most,    ///< those with the largest (test is top) or smallest values of the criterion, `value` of them
+    inside,  ///< have their middle in the solid `field` (box, sphere, cylinder) of `numbers`
   };
   enum class Test { above, below, top, bottom };
   Kind kind = Kind::in;
   std::vector<RangeTerm> terms;
   Criterion criterion;
-  std::string field;        ///< its name
-  Test test = Test::above;  ///< `top`, `bottom`: the largest, smallest so many percent of those so far
+  std::string field;            ///< its name
+  std::vector<double> numbers;  ///< of loop the point, if there is one; of inside two corners, or ends and radius
+  Test test = Test::above;      ///< `top`, `bottom`: the largest, smallest so many percent of those so far
   double value = 0;
   Token token;  ///< of the field's name
 };

@@ -7,8 +7,11 @@
 #include <span>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/reader.h"
+#include "hextwist/command/select/nothing_left_internal.h"
+#include "hextwist/command/select/shapes.h"
 
 namespace hextwist {
 namespace {
@@ -63,6 +66,7 @@ class Evaluation {
     Flags chosen(count(selector_, kind), range.items.empty());
     items(kind, range.items, chosen);
     for (const RangeFilter& filter : range.filters) {
+      const std::vector<Index> before = positions(chosen);
       switch (filter.kind) {
         case RangeFilter::Kind::in:
           in(kind, filter, chosen);
@@ -76,17 +80,160 @@ class Evaluation {
         case RangeFilter::Kind::field:
           field(kind, filter, chosen);
           break;
+        case RangeFilter::Kind::adjacent:
+          adjacent(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::parallel:
+        case RangeFilter::Kind::perpendicular:
+          aligned(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::loop:
+          loop(filter, chosen);
+          break;
+        case RangeFilter::Kind::chain:
+          chain(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::most:
+          most(kind, filter, chosen);
+          break;
+        case RangeFilter::Kind::inside:
+          inside(kind, filter, chosen);
+          break;
         case RangeFilter::Kind::except:
           except(kind, filter, chosen);
       }
+      if (!before.empty() && std::ranges::find(chosen, 1) == chosen.end())
+        why = nothing_left(selector_, statement_, kind, filter, before);
     }
     return positions(chosen);
   }
+
+  std::string why;  ///< nothing is left
 
  private:
   const Selector& selector_;
   const Statement& statement_;
   std::vector<std::string>& notices_;
+
+  /// Those of chosen that are in a list of positions.
+  static void keep(const std::vector<Index>& list, Flags& chosen) {
+    Flags kept(chosen.size(), 0);
+    for (const Index i : list) kept[i] = chosen[i];
+    chosen = std::move(kept);
+  }
+
+  /// What all terms name, by kind.
+  template <class F>
+  void for_each_term(const RangeFilter& filter, F f) {
+    for (const RangeTerm& term : filter.terms) for_each_kind(term, f);
+  }
+
+  void adjacent(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    Flags meet(chosen.size(), 0), own(chosen.size(), 0);
+    for_each_term(filter, [&](EntityKind from, const std::vector<Index>& of) {
+      const bool same = from == kind;
+      for (const Index i : related(selector_, same ? meeting_kind(kind) : from,
+                                   same ? related(selector_, kind, of, meeting_kind(kind)) : of, kind))
+        meet[i] = 1;
+      if (same)
+        for (const Index i : of) own[i] = 1;
+    });
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] && meet[i] && !own[i];
+  }
+
+  void aligned(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    if (kind != EntityKind::curve && kind != EntityKind::surface)
+      throw error_at(statement_, filter.token,
+                     "curves and surfaces can be parallel, " + std::string(plural(kind)) + " can't");
+    const Model& model = *selector_.meshed.model;
+    std::vector<Direction> as;
+    if (!filter.field.empty()) as.push_back({Vec3::Unit(filter.field[0] - 'x'), false});
+    for_each_term(filter, [&](EntityKind from, const std::vector<Index>& of) {
+      if (from != EntityKind::curve && from != EntityKind::surface)
+        throw error_at(statement_, filter.token,
+                       "curves and surfaces have directions, " + std::string(plural(from)) + " don't");
+      for (const Index i : of)
+        if (const auto found = direction(model, {dimension(from), i + 1})) as.push_back(*found);
+    });
+    const bool across = filter.kind == RangeFilter::Kind::perpendicular;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (!chosen[i]) continue;
+      const auto own = direction(model, {dimension(kind), static_cast<int>(i) + 1});
+      const bool circle = own && kind == EntityKind::curve && own->is_normal;  // it runs in no direction
+      chosen[i] = own && std::ranges::any_of(as, [&](const Direction& other) {
+                    return (!circle || other.is_normal) && is_aligned(*own, other, across);
+                  });
+    }
+  }
+
+  void loop(const RangeFilter& filter, Flags& chosen) {
+    const RangeTerm& term = filter.terms[0];
+    const Model& model = *selector_.meshed.model;
+    std::vector<Index> curves;
+    for (const Index surface : range(term.kind, term.range)) {
+      const auto loops = surface_loops(model, surface + 1);
+      if (loops.empty()) continue;
+      std::size_t best = 0;
+      if (!filter.numbers.empty()) {
+        const Vec3 at(filter.numbers.data());
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < loops.size(); ++k)
+          for (const int curve : loops[k])
+            if (const double distance = model.project({1, curve}, at).distance; distance < nearest) {
+              nearest = distance;
+              best = k;
+            }
+      }
+      for (const int curve : loops[best]) curves.push_back(curve - 1);
+    }
+    keep(curves, chosen);
+  }
+
+  void chain(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    if (kind != EntityKind::curve && kind != EntityKind::surface)
+      throw error_at(statement_, filter.token,
+                     "chains are of curves or of surfaces, not of " + std::string(plural(kind)));
+    std::vector<int> ids;
+    for_each_term(filter, [&](EntityKind from, const std::vector<Index>& of) {
+      if (from != kind)
+        throw error_at(statement_, filter.token,
+                       "a chain of " + std::string(plural(kind)) + " begins at a " + std::string(name(kind)));
+      for (const Index i : of) ids.push_back(i + 1);
+    });
+    std::vector<Index> found;
+    for (const int id : smooth_chain(*selector_.meshed.model, dimension(kind), std::move(ids))) found.push_back(id - 1);
+    keep(found, chosen);
+  }
+
+  void most(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    std::vector<Index> candidates = positions(chosen);
+    const std::vector<double> values = values_of(selector_, statement_, kind, filter.criterion, candidates);
+    std::vector<std::size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const double sign = filter.test == RangeFilter::Test::top ? -1 : 1;
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return sign * values[k]; });
+    order.resize(std::min(order.size(), static_cast<std::size_t>(filter.value)));
+    std::ranges::fill(chosen, 0);
+    for (const std::size_t k : order) chosen[candidates[k]] = 1;
+  }
+
+  void inside(EntityKind kind, const RangeFilter& filter, Flags& chosen) {
+    const std::vector<double>& x = filter.numbers;
+    const Vec3 a(x.data()), b(x.size() >= 6 ? x.data() + 3 : x.data());
+    const Vec3 along = b - a;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (!chosen[i]) continue;
+      const Vec3 p = middle(selector_, kind, static_cast<Index>(i));
+      if (filter.field == "box") {
+        chosen[i] = (p.array() >= a.cwiseMin(b).array()).all() && (p.array() <= a.cwiseMax(b).array()).all();
+      } else if (filter.field == "sphere") {
+        chosen[i] = (p - a).norm() <= x.back();
+      } else {
+        const double t = (p - a).dot(along) / std::max(along.squaredNorm(), 1e-300);
+        chosen[i] = t >= 0 && t <= 1 && (p - a - t * along).norm() <= x.back();
+      }
+    }
+  }
 
   static std::vector<Index> positions(const Flags& flags) {
     std::vector<Index> result;
@@ -240,6 +387,18 @@ class Evaluation {
         case RangeItem::Kind::at:
           nearest(kind, item, chosen);
           break;
+        case RangeItem::Kind::within: {
+          const std::vector<double> distance = distances(selector_, kind, Vec3(item.point.data()));
+          for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] |= distance[i] <= item.distance;
+          if (std::ranges::find(chosen, 1) == chosen.end()) {
+            const auto least = std::ranges::min_element(distance);
+            why = "none of the " + std::to_string(chosen.size()) + " " + std::string(plural(kind)) + " is that near; " +
+                  std::string(name(kind)) + " " +
+                  std::to_string(id_of(selector_, kind, static_cast<Index>(least - distance.begin()))) +
+                  " comes nearest with a distance of " + short_number(*least);
+          }
+          break;
+        }
         case RangeItem::Kind::id: {
           const Index rank = table.lower(item.first);
           if (rank == table.size() || table.id(rank) != item.first) missing(kind, table, item.token, item.first);
@@ -343,81 +502,6 @@ class Evaluation {
 
 }  // namespace
 
-const Edges& DerivedTopology::edges() {
-  if (!edges_) edges_ = hextwist::edges(mesh_);
-  return *edges_;
-}
-const Faces& DerivedTopology::faces() {
-  if (!faces_) faces_ = hextwist::faces(mesh_);
-  return *faces_;
-}
-const Sheets& DerivedTopology::sheets() {
-  if (!sheets_) sheets_ = hextwist::sheets(mesh_, edges());
-  return *sheets_;
-}
-
-Index count(const Selector& selector, EntityKind kind) {
-  const auto& [meshed, topology, groups] = selector;
-  if (kind == EntityKind::group) return static_cast<Index>(groups.size());
-  if (is_cad(kind)) return meshed.model ? meshed.model->count(dimension(kind)) : 0;
-  if (meshed.mesh.n_hexes() == 0) return 0;
-  switch (kind) {
-    case EntityKind::node:
-      return meshed.mesh.n_nodes();
-    case EntityKind::edge:
-      return static_cast<Index>(topology.edges().nodes.size());
-    case EntityKind::face:
-      return static_cast<Index>(topology.faces().nodes.size());
-    case EntityKind::hex:
-      return meshed.mesh.n_hexes();
-    case EntityKind::block:
-      return static_cast<Index>(meshed.mesh.blocks.size());
-    case EntityKind::nodeset:
-      return static_cast<Index>(meshed.mesh.node_sets.size());
-    case EntityKind::sideset:
-      return static_cast<Index>(meshed.mesh.side_sets.size());
-    default:
-      return topology.sheets().edges.size();
-  }
-}
-
-std::int64_t id_of(const Selector& selector, EntityKind kind, Index position) {
-  const Mesh& mesh = selector.meshed.mesh;
-  switch (kind) {
-    case EntityKind::node:
-      return node_id(mesh, position);
-    case EntityKind::hex:
-      return hex_id(mesh, position);
-    case EntityKind::block:
-      return mesh.blocks[position].id;
-    case EntityKind::nodeset:
-      return mesh.node_sets[position].id;
-    case EntityKind::sideset:
-      return mesh.side_sets[position].id;
-    case EntityKind::group:
-      return selector.groups[position].id;
-    default:
-      return std::int64_t{position} + 1;
-  }
-}
-
-std::string name_of(const Selector& selector, EntityKind kind, Index position) {
-  const Mesh& mesh = selector.meshed.mesh;
-  if (is_cad(kind)) return selector.meshed.model->name({dimension(kind), position + 1});
-  switch (kind) {
-    case EntityKind::block:
-      return mesh.blocks[position].name;
-    case EntityKind::nodeset:
-      return mesh.node_sets[position].name;
-    case EntityKind::sideset:
-      return mesh.side_sets[position].name;
-    case EntityKind::group:
-      return selector.groups[position].name;
-    default:
-      return "";
-  }
-}
-
 bool matches(std::string_view name, std::string_view pattern) {
   // The last * is tried against longer and longer text; earlier ones need not be tried again.
   std::size_t n = 0, p = 0, star = std::string_view::npos, resume = 0;
@@ -439,8 +523,11 @@ bool matches(std::string_view name, std::string_view pattern) {
 }
 
 std::vector<Index> select(const Selector& selector, const Statement& statement, EntityKind kind, const Range& range,
-                          std::vector<std::string>& notices) {
-  return Evaluation(selector, statement, notices).range(kind, range);
+                          std::vector<std::string>& notices, std::string* why) {
+  Evaluation evaluation(selector, statement, notices);
+  std::vector<Index> result = evaluation.range(kind, range);
+  if (why) *why = std::move(evaluation.why);
+  return result;
 }
 
 }  // namespace hextwist

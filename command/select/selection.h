@@ -44,12 +44,12 @@ Index count(const Selector& selector, EntityKind kind);
 std::int64_t id_of(const Selector& selector, EntityKind kind, Index position);
 std::string name_of(const Selector& selector, EntityKind kind, Index position);
 
-/// Positions, ascending, each once; may be empty when an `in` or `except` leaves nothing. Remarks (ids of a span that
-/// do not exist, exceptions without effect) are appended to notices.
-/// Throws CommandError at the first id or name that does not exist. Memory and time are bounded by what exists, not by
-/// the ids written.
+/// Positions, ascending, each once; may be empty when a filter leaves nothing. Remarks (ids of a span that
+/// do not exist, exceptions without effect) are appended to notices. why: says what left nothing, and what comes
+/// nearest. Throws CommandError at the first id or name that does not exist. Memory and time are bounded by what
+/// exists, not by the ids written.
 std::vector<Index> select(const Selector& selector, const Statement& statement, EntityKind kind, const Range& range,
-                          std::vector<std::string>& notices);
+                          std::vector<std::string>& notices, std::string* why = nullptr);
 
 /// Positions of the members of a group that still exist, ascending.
 std::vector<Index> members(const Selector& selector, const Group& group, EntityKind kind);
@@ -69,6 +69,12 @@ Vec3 middle(const Selector& selector, EntityKind kind, Index position);
 std::vector<char> meets(const Selector& selector, const Statement& statement, EntityKind kind,
                         const Criterion& criterion, std::span<const Index> positions);
 
+/// A number per position: the value of an attribute.
+std::vector<double> values_of(const Selector& selector, const Statement& statement, EntityKind kind,
+                              const Criterion& measure, std::span<const Index> positions);
+
+/// Distance of each entity of a kind from a point, as by_distance() has it.
+std::vector<double> distances(const Selector& selector, EntityKind kind, const Vec3& point);
 /// Positions of all entities of a kind by their distance from a point: that of the entity itself, of the nearest member
 /// for blocks, sets, groups and sheets, 0 inside of hexes and volumes. Those equally near (within rounding, as entities
 /// that meet at the point are) by the distance of their middle, then by id.

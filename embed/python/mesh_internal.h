@@ -84,8 +84,8 @@ class PyArrays {
         std::int64_t rows = 0;
         const double* values =
             keep(doubles_, doubles(array, names_.back().c_str(), width), std::max<py::ssize_t>(1, width), rows);
-        fields_.push_back(
-            {names_.back().c_str(), hexes, static_cast<std::int32_t>(std::max<py::ssize_t>(1, width)), values});
+        fields_.push_back({names_.back().c_str(), hexes, static_cast<std::int32_t>(std::max<py::ssize_t>(1, width)),
+                           values, std::string_view("biu").find(array.dtype().kind()) != std::string_view::npos});
       }
     arrays.fields = fields_.data();
     arrays.n_fields = static_cast<std::int64_t>(fields_.size());

@@ -252,6 +252,23 @@ CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options) {
   });
 }
 
+CadImport glued(const Model& model, double tolerance) {
+  const auto* occ_model = dynamic_cast<const OccModel*>(&model);
+  if (!occ_model) throw Error("this model has no CAD shape to glue");
+  return guarded("shape", [&] {
+    const std::lock_guard lock(occ_files());
+    const Silence silence;
+    Part part;
+    part.shape = occ_model->shape();
+    const occ::ShapeMaps maps = occ::entity_maps(part.shape);
+    for (std::size_t dim = 0; dim <= 3; ++dim)
+      for (std::size_t id = 1; id < occ_model->names()[dim].size(); ++id)
+        if (const std::string& name = occ_model->names()[dim][id]; !name.empty())
+          part.names.emplace(maps[dim](static_cast<int>(id)).TShape().get(), name);
+    return finish(std::move(part), {.glue = true, .glue_tolerance = tolerance}, "shape");
+  });
+}
+
 namespace {
 
 bool write_step(const std::filesystem::path& file, const OccModel& model) {

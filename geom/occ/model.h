@@ -37,6 +37,10 @@ CadImport read_cad(const std::filesystem::path& file, const CadOptions& options 
 /// The same for a shape in memory. The shape is shared, not copied, and must not be changed while the model lives.
 CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options = {});
 
+/// The same model with touching solids glued (CadOptions::glue), and notices about that alone; ids may be others.
+/// Throws Error if it did not come from OpenCASCADE.
+CadImport glued(const Model& model, double tolerance = 0);
+
 /// Writes the shape behind a model made by the functions above; format by extension (.step, .brep, .iges).
 /// Throws Error if the model did not come from OpenCASCADE or the file can't be written.
 void write_cad(const std::filesystem::path& file, const Model& model);

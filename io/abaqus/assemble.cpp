@@ -169,7 +169,8 @@ class Assembly {
         if (scope) quads(placed, *scope);
     parts_.quad_sides = oriented_sides(out_.mesh, parts_.quads);
     if (const auto lost = std::ranges::count(parts_.quad_sides, -1, &Side::hex))
-      out_.notices.push_back("dropped " + std::to_string(lost) + " quads that are no side of a hex");
+      out_.notices.push_back("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") +
+                             " no side of a hex");
   }
 
   int type_number(const std::string& type) {

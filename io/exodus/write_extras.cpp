@@ -35,7 +35,8 @@ ExodusValues::ExodusValues(const Mesh& mesh, std::vector<std::string>& notices)
       extras_(mesh.results ? *mesh.results : none_),
       now_(mesh, extras_),
       has_places_(extras_.mesh && now_.knows()),
-      fields_(split_components(mesh.fields, [](int) { return false; })),
+      fields_(split_components(
+          mesh.fields, [](int) { return false; }, notices)),
       times_(extras_.times) {
   if (extras_.has_places() && !has_places_) {
     notices_.push_back("left out, as it is no longer known where in their file the hexes lie: " + extras_text(extras_));

@@ -206,7 +206,7 @@ class Assembly {
     std::vector<Side> lower;
     const auto sides = oriented_sides(file_.mesh, cycles, &lower);
     const auto lost = std::ranges::count(sides, -1, &Side::hex);
-    if (lost) notice("dropped " + std::to_string(lost) + " quads that are no side of a hex");
+    if (lost) notice("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") + " no side of a hex");
     for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>&group) {
            if (sides[i].hex >= 0) group.push_back(sides[i]);
          }))
@@ -238,7 +238,7 @@ class Assembly {
         file_.tags.edge_curve.push_back(curves[i]);
       }
     if (const auto lost = std::ranges::count(good, 0))
-      notice("dropped " + std::to_string(lost) + " lines that are no edge of a hex");
+      notice("dropped " + counted(lost, "line") + (lost == 1 ? " that is" : " that are") + " no edge of a hex");
     derive_node_owners(1);
     derive_node_owners(0);
 
@@ -251,6 +251,7 @@ class Assembly {
         NodeSet& set = group_of_id(sets, taken ? free_id(sets) : id);
         set.name = group_name(dim, id);
         set.nodes = std::move(nodes);
+        if (dim == 1) file_.extras.curve_groups[set.id] = id;
         if (taken)
           notice("physical curve group " + std::to_string(id) + " is node set " + std::to_string(set.id) +
                  ": a physical point group has its id");

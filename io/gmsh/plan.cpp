@@ -16,14 +16,17 @@ constexpr std::array<int, 4> n_element_nodes = {1, 2, 4, 8};
 /// Makes the plan in the order of dimensions 3, 2, 1, 0.
 class Planner {
  public:
-  Planner(const Mesh& mesh, const Association& association, bool split, const Model* model)
-      : mesh_(mesh), tags_(association), split_(split), directions_(curve_directions(mesh, association, model)) {}
+  Planner(const Mesh& mesh, const Association& association, bool split, const Model* model, const FileExtras* extras)
+      : mesh_(mesh),
+        tags_(association),
+        split_(split),
+        extras_(extras),
+        directions_(curve_directions(mesh, association, model)) {}
 
   GmshPlan result() {
     reserve_owned_entities();
     hexes();
     sides();
-    node_sets_on_curves();
     lines();
     points();
     nodes();
@@ -128,35 +131,17 @@ class Planner {
     });
   }
 
-  /// A node set that is exactly the nodes of some curves is a physical group of those.
-  void node_sets_on_curves() {
-    is_on_curves_.assign(mesh_.node_sets.size(), 0);
-    std::vector<char> inside(mesh_.points.size());
-    for (std::size_t s = 0; s < mesh_.node_sets.size() && !tags_.curve_edges.empty(); ++s) {
-      const NodeSet& set = mesh_.node_sets[s];
-      if (set.nodes.empty()) continue;
-      std::ranges::fill(inside, 0);
-      for (const Index n : set.nodes) inside[n] = 1;
-      std::map<int, bool> whole;
-      for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i) {
-        const auto [a, b] = tags_.curve_edges[i];
-        const auto at = whole.try_emplace(tags_.edge_curve[i], true).first;
-        at->second = at->second && inside[a] && inside[b];
-      }
-      std::size_t n_covered = 0;
-      for (std::size_t i = 0; i < tags_.curve_edges.size(); ++i)
-        if (whole[tags_.edge_curve[i]])
-          for (const Index n : tags_.curve_edges[i]) n_covered += std::exchange(inside[n], 0);
-      if (n_covered != set.nodes.size()) continue;
-      for (const auto& [curve, all] : whole)
-        if (all) plan_.entity(1, curve).physicals.push_back(set.id);
-      is_on_curves_[s] = 1;
-    }
-  }
-
   void lines() {
-    add_classes(1, classify(tags_.edge_curve, {}), {}, [&](Index i, std::vector<Index>& nodes) {
-      for (const int k : {0, 1}) nodes.push_back(tags_.curve_edges[i][k ^ directions_.reversed[i]]);
+    lines_ = plan_lines(mesh_, tags_, extras_);
+    std::vector<std::span<const Index>> members;
+    for (std::size_t s = 0; s < lines_.is_group.size(); ++s)
+      if (lines_.is_group[s]) {
+        members.push_back(lines_.members[s]);
+        group_ids_[1].push_back(lines_.tag[s]);
+      }
+    add_classes(1, classify(lines_.curve, members), group_ids_[1], [&](Index i, std::vector<Index>& nodes) {
+      const int first = static_cast<std::size_t>(i) < directions_.reversed.size() && directions_.reversed[i];
+      for (const int k : {0, 1}) nodes.push_back(lines_.edges[i][k ^ first]);
     });
   }
 
@@ -167,7 +152,7 @@ class Planner {
       if (tags_.node_owner[n].dim == 0) all.emplace_back(static_cast<Index>(n), tags_.node_owner[n].id);
     for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s)
       for (const Index n : mesh_.node_sets[s].nodes)
-        if (!is_on_curves_[s]) all.emplace_back(n, owner(tags_, n).dim == 0 ? owner(tags_, n).id : 0);
+        if (!lines_.is_group[s]) all.emplace_back(n, owner(tags_, n).dim == 0 ? owner(tags_, n).id : 0);
     sort_unique(all);
     std::vector<int> vertex;
     std::vector<Index> items;
@@ -178,8 +163,8 @@ class Planner {
     std::vector<std::vector<Index>> members;
     for (std::size_t s = 0; s < mesh_.node_sets.size(); ++s) {
       const NodeSet& set = mesh_.node_sets[s];
-      plan_.groups.push_back({{is_on_curves_[s], set.id}, set.name, set.nodes.empty(), {}});
-      if (is_on_curves_[s]) continue;
+      plan_.groups.push_back({{lines_.is_group[s], lines_.tag[s]}, set.name, set.nodes.empty(), {}});
+      if (lines_.is_group[s]) continue;
       auto& to = members.emplace_back();
       for (const Index n : set.nodes) to.push_back(position_in(items, n));
       group_ids_[0].push_back(set.id);
@@ -205,9 +190,6 @@ class Planner {
       plan_.elements[dim].first_tag = next;
       next += static_cast<std::int64_t>(plan_.elements[dim].size);
     }
-    for (auto& lines : plan_.elements[1].runs)
-      if (const auto& physicals = plan_.entity(1, lines.entity).physicals; !physicals.empty())
-        lines.physical = physicals[0];
   }
 
   /// Without splitting, entities are in no group; each element names its first group, these are the rest.
@@ -216,15 +198,6 @@ class Planner {
     for (PlannedGroup& group : plan_.groups) {
       const int dim = group.group.dim;
       const auto& ids = group_ids_[dim];
-      if (dim == 1) {
-        for (const auto& lines : plan_.elements[1].runs) {
-          const auto& physicals = plan_.entity(1, lines.entity).physicals;
-          if (std::ranges::find(physicals, group.group.id) != physicals.end() && physicals[0] != group.group.id)
-            for (std::size_t k = lines.first; k < lines.first + lines.n; ++k)
-              group.more.push_back(plan_.tag(mesh_, 1, k));
-        }
-        continue;
-      }
       const Classes& classes = groups_of_item_[dim];
       const int g = static_cast<int>(std::ranges::find(ids, group.group.id) - ids.begin());
       std::vector<char> extra(classes.key.size(), 0);
@@ -311,13 +284,14 @@ class Planner {
   const Mesh& mesh_;
   const Association& tags_;
   const bool split_;
+  const FileExtras* const extras_;
   const CurveDirections directions_;
   GmshPlan plan_;
   std::array<int, 4> next_tag_ = {1, 1, 1, 1};
   std::array<std::vector<int>, 4> group_ids_;
   std::array<Classes, 4> groups_of_item_;
   PlannedSides sides_;
-  std::vector<char> is_on_curves_;  // per node set: is it a physical group of curves?
+  PlannedLines lines_;
 };
 
 }  // namespace
@@ -332,8 +306,9 @@ std::size_t GmshPlan::n_elements() const {
   return n;
 }
 
-GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model) {
-  return Planner(mesh, association, split, model).result();
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
+                   const FileExtras* extras) {
+  return Planner(mesh, association, split, model, extras).result();
 }
 
 }  // namespace hextwist::io

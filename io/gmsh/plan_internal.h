@@ -66,6 +66,18 @@ struct CurveDirections {
 };
 CurveDirections curve_directions(const Mesh& mesh, const Association& association, const Model* model);
 
+/// Lines of a file: those on curves, then others that groups have; and which node sets are groups of lines.
+struct PlannedLines {
+  std::vector<Edge> edges;
+  std::vector<int> curve;                   ///< per line, 0 none
+  std::vector<char> is_group;               ///< per node set
+  std::vector<std::vector<Index>> members;  ///< per node set: its lines
+  std::vector<int> tag;                     ///< per node set: of its physical group
+};
+/// A node set is a group of lines where it is exactly the nodes of some whole curves, and where it came from such a
+/// group (FileExtras::curve_groups) and lines between its nodes have all of them.
+PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras);
+
 /// Curves around surfaces, negative where the loop runs against them; a seam occurs both ways.
 class SurfaceLoops {
  public:
@@ -95,6 +107,7 @@ std::vector<PlannedPeriodic> plan_periodic(const Mesh& mesh, const Association& 
 std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split);
 
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
-GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model);
+GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
+                   const FileExtras* extras);
 
 }  // namespace hextwist::io

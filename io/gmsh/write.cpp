@@ -318,10 +318,11 @@ void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) 
 }
 
 /// Gmsh's views have 1, 3 or 9 components.
-void write_fields(const Writer& to, const Mesh& mesh, const Selection& selection) {
+void write_fields(const Writer& to, const Mesh& mesh, const Selection& selection, std::vector<std::string>& notices) {
   if (!mesh.fields.empty() && !mesh.hexes.empty())
     check_int32(std::max(node_id(mesh, mesh.n_nodes() - 1), hex_id(mesh, mesh.n_hexes() - 1)), "fields in ");
-  for (const Field& field : split_components(mesh.fields, [](int n) { return n == 3 || n == 9; })) {
+  for (const Field& field : split_components(
+           mesh.fields, [](int n) { return n == 3 || n == 9; }, notices)) {
     const bool node = field.on == Field::On::node;
     const std::size_t n = node ? selection.n_nodes(mesh) : selection.n_hexes(mesh);
     to.out << (node ? "$NodeData\n" : "$ElementData\n") << "1\n\"" << plain(field.name) << "\"\n1\n0\n3\n0\n"
@@ -382,7 +383,7 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   if (options.gmsh_version != 22 && options.gmsh_version != 41)
     throw Error("Gmsh version " + std::to_string(options.gmsh_version) + " is neither 22 nor 41");
   const bool v4 = options.gmsh_version == 41;
-  GmshPlan plan = plan_gmsh(mesh, association, v4, options.model);
+  GmshPlan plan = plan_gmsh(mesh, association, v4, options.model, options.extras);
   const Selection selection = options.groups_only ? groups_only(plan, mesh, v4, notices) : Selection{};
   if (!v4 && std::ranges::any_of(plan.groups, [](const PlannedGroup& group) { return !group.more.empty(); }))
     notices.emplace_back(
@@ -412,7 +413,7 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   if (options.extras && !options.groups_only)
     write_periodic(to, mesh, plan_periodic(mesh, association, options.extras->periodic, notices), v4);
   write_parts(out, plan);
-  write_fields(to, mesh, selection);
+  write_fields(to, mesh, selection, notices);
 }
 
 }  // namespace hextwist::io

@@ -231,7 +231,8 @@ class Reader {
       for (int k = 0; k < 4; ++k) cycles[i][k] = quads_.nodes[4 * i + k];
     const auto sides = oriented_sides(mesh, cycles);
     if (const auto lost = std::ranges::count(sides, -1, &Side::hex))
-      out_.notices.push_back("dropped " + std::to_string(lost) + " quads that are no side of a hex");
+      out_.notices.push_back("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") +
+                             " no side of a hex");
     each_group<Side>(
         2, quads_.references,
         [&](std::size_t i, auto& group) {

@@ -7,7 +7,7 @@
 namespace hextwist::io {
 
 std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, const Classes& classes,
-                                  std::span<const NamedGroup> groups) {
+                                  std::span<const NamedGroup> groups, std::vector<std::string>& notices) {
   // A class that is a whole group, or a whole entity where there are no groups, has that id; the rest get new ones.
   std::vector<int> n_classes(groups.size(), 0);
   std::map<int, int> n_of_entity;
@@ -33,13 +33,27 @@ std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, cons
     if (classes.key[c] > 0) of_entity[classes.key[c]].push_back(reference[c]);
     for (const int g : in) of_group[g].push_back(reference[c]);
   }
-  const auto comment = [&](const char* kind, int id, const std::vector<int>& references, std::string name) {
-    for (char& c : name)
+  const auto comment = [&](const char* kind, int id, const std::vector<int>& references, const std::string& name) {
+    std::string plain = name;
+    for (char& c : plain)
       if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    say_renamed(std::string(kind) + " " + std::to_string(id), name, plain, notices);
     out << "# hextwist " << kind << ' ' << id << ' ' << references.size();
     for (const int r : references) out << ' ' << r;
-    out << ' ' << name << '\n';
+    out << ' ' << plain << '\n';
   };
+  std::string others;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (of_group[g].size() == 1 && of_group[g][0] == groups[g].id) continue;
+    others += (others.empty() ? "" : "; ") + std::to_string(groups[g].id) + " is";
+    for (const int r : of_group[g]) others += " " + std::to_string(r);
+    if (of_group[g].empty()) others += " empty";
+  }
+  if (!others.empty())
+    notices.push_back(std::string("groups overlap, and MEDIT has one reference of each element, so that a ") +
+                      kinds.group + " has others: " + others);
+  if (std::ranges::any_of(groups, [](const NamedGroup& group) { return !group.name.empty(); }))
+    notices.push_back(std::string("MEDIT has no names: those of ") + kinds.group + "s are in comments");
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (!of_entity.empty() || !groups[g].name.empty() || of_group[g] != std::vector{groups[g].id})
       comment(kinds.group, groups[g].id, of_group[g], groups[g].name);

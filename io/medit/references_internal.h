@@ -24,7 +24,7 @@ struct NamedGroup {
 
 /// The reference of each class, and writes the comments that explain them.
 std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, const Classes& classes,
-                                  std::span<const NamedGroup> groups);
+                                  std::span<const NamedGroup> groups, std::vector<std::string>& notices);
 
 /// What comments of a file say: by kind and id.
 struct ReferenceComments {

@@ -26,15 +26,15 @@ void write_medit(Output& out, const Mesh& mesh, const Association& association, 
   std::vector<std::span<const Index>> members;
   for (const Block& block : mesh.blocks) members.push_back(block.hexes);
   const Classes hexes = classify(volume, members);
-  const auto hex_reference = write_references(out, {"block", "volume"}, hexes, names(mesh.blocks));
+  const auto hex_reference = write_references(out, {"block", "volume"}, hexes, names(mesh.blocks), notices);
 
   const PlannedSides sides = plan_sides(mesh, association);
   members.assign(sides.members.begin(), sides.members.end());
   const Classes quads = classify(sides.surface, members);
-  const auto quad_reference = write_references(out, {"sideset", "surface"}, quads, names(mesh.side_sets));
+  const auto quad_reference = write_references(out, {"sideset", "surface"}, quads, names(mesh.side_sets), notices);
 
   const Classes edges = classify(association.edge_curve, {});
-  const auto edge_reference = write_references(out, {"edgeset", "curve"}, edges, {});
+  const auto edge_reference = write_references(out, {"edgeset", "curve"}, edges, {}, notices);
 
   std::vector<int> vertex(mesh.points.size(), 0);
   for (Index n = 0; n < mesh.n_nodes(); ++n)
@@ -42,7 +42,7 @@ void write_medit(Output& out, const Mesh& mesh, const Association& association, 
   members.clear();
   for (const NodeSet& set : mesh.node_sets) members.push_back(set.nodes);
   const Classes nodes = classify(vertex, members);
-  const auto node_reference = write_references(out, {"nodeset", "vertex"}, nodes, names(mesh.node_sets));
+  const auto node_reference = write_references(out, {"nodeset", "vertex"}, nodes, names(mesh.node_sets), notices);
 
   out << "Vertices\n" << mesh.points.size() << '\n';
   for (std::size_t n = 0; n < mesh.points.size(); ++n) {

@@ -285,7 +285,8 @@ class Assembly {
   void groups() {
     const auto sides = oriented_sides(out_.mesh, quads_);
     if (const auto lost = std::ranges::count(sides, -1, &Side::hex))
-      out_.notices.push_back("dropped " + std::to_string(lost) + " quads that are no side of a hex");
+      out_.notices.push_back("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") +
+                             " no side of a hex");
     for (const std::string_view name : group_arrays) {
       const VtkArray* array = find(VtkArray::On::cell, name);
       if (!array || array->components != 1 || array->size() != in_.types.size()) continue;

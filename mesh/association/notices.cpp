@@ -69,7 +69,8 @@ struct Overruled {
   }
   void report(const char* kind, std::vector<std::string>& notices) const {
     if (count)
-      notices.push_back("the geometry contradicts " + counted(count, kind) + ", replaced (first: " + first + ")");
+      notices.push_back(counted(count, kind) + (count == 1 ? " of the file numbers" : " of the file number") +
+                        " the CAD in another way: matched by geometry (first: " + first + ")");
   }
 };
 

@@ -185,7 +185,7 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   grown->marks = with_gradation(step.forest);
   for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
   LevelledMesh built = build_levels(base, grown->marks, options.reuse.empty() ? before.stack : options.reuse,
-                                    {options.keep_meshes, options.fixed, options.progress});
+                                    {options.keep_meshes, options.fixed, options.progress, options.keep_jumps});
   grown->stack = std::move(built.stack);
   grown->pieces = level_pieces(grown->stack, base.mesh.n_hexes());
 

@@ -74,6 +74,7 @@ struct LevelOptions {
   bool keep_meshes = false;            ///< StackOptions
   LevelStack reuse = {};               ///< a stack on the same base to begin from, instead of that of before
   SmoothProgress progress;
+  std::vector<std::string> keep_jumps = {};  ///< hex fields whose jumps repairing leaves in place
 };
 
 struct LevelStep {

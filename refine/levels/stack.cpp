@@ -78,7 +78,7 @@ Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& 
     place(from.mesh, from.association, parts, *made.mesh.model, made.mesh.mesh, made.mesh.association);
   check_interrupt();
   pass.off_nodes = repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
-                                   options.fixed, options.progress);
+                                   options.fixed, options.progress, options.keep_jumps);
   pass.marks = marks;
   pass.n_kept = parts.n_kept();
   pass.n_hexes = made.mesh.mesh.n_hexes();

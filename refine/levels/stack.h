@@ -37,6 +37,7 @@ struct StackOptions {
   /// Nodes of the base that repairing inverted children must not move.
   std::span<const Index> fixed = {};
   SmoothProgress progress = {};  ///< as in repair_children()
+  std::span<const std::string> keep_jumps = {};
 };
 
 struct LevelledMesh {

@@ -34,11 +34,21 @@ void execute(Execution& run) {
 
 std::vector<Index> Execution::chosen(const Item& range) const {
   std::vector<std::string> notices;
-  std::vector<Index> result = select(core.selector(), command.statement, range.kind, range.range, notices);
+  std::string why;
+  std::vector<Index> result = select(core.selector(), command.statement, range.kind, range.range, notices, &why);
   for (const std::string& line : notices) note(line);
   if (result.empty())
-    throw error_at(command.statement, range.range.token, "this names no " + std::string(name(range.kind)));
+    throw error_at(command.statement, range.range.token,
+                   "there is no such " + std::string(name(range.kind)) + (why.empty() ? "" : ": " + why));
   return result;
+}
+
+bool Execution::asks_for_all_of_none(const Item& range) const {
+  const auto& [items, filters, token] = range.range;
+  if (is_cad(range.kind) || is_mesh(range.kind) || count(core.selector(), range.kind) > 0) return false;
+  if (!filters.empty() || (!items.empty() && items.front().kind != RangeItem::Kind::all)) return false;
+  note("there are no " + std::string(plural(range.kind)));
+  return true;
 }
 
 void note_ignored(const Execution& run, std::initializer_list<const char*> words) {

@@ -21,6 +21,8 @@ struct Execution : Transaction {
 
   /// Positions chosen by the command's range. Throws when there are none.
   std::vector<Index> chosen(const Item& range) const;
+  /// Whether it is all blocks, sets or groups where there are none: said, for that is no mistake (of `list`, `delete`).
+  bool asks_for_all_of_none(const Item& range) const;
 };
 
 /// Does what the command says, by one of these. Each throws Error when it can't do what was asked.

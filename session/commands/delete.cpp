@@ -5,6 +5,7 @@ namespace hextwist {
 
 void do_delete(Execution& run) {
   const Item& range = *run.command.find("range");
+  if (run.asks_for_all_of_none(range)) return;
   const std::vector<Index> positions = run.chosen(range);
   if (range.kind == EntityKind::group) {
     std::vector<Group> groups = *run.state.groups;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "hextwist/base/text.h"
+#include "hextwist/command/select/shapes.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/commands/commands.h"
@@ -14,6 +17,22 @@ namespace {
 
 std::string ids_text(const auto& ids) {
   return ids.empty() ? "none" : joined(ids);
+}
+
+/// Lines of a table whose columns are as wide as they need to be.
+std::vector<std::string> table_lines(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> width;
+  for (const auto& row : rows) {
+    width.resize(std::max(width.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+  }
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    std::string& line = lines.emplace_back();
+    for (std::size_t c = 0; c < row.size(); ++c) line += row[c] + std::string(width[c] - row[c].size() + 2, ' ');
+    line.erase(line.find_last_not_of(' ') + 1);
+  }
+  return lines;
 }
 
 class Lister {
@@ -26,7 +45,70 @@ class Lister {
     return result + ": " + (is_cad(kind) ? cad(kind, i) : is_mesh(kind) ? mesh_entity(kind, i) : group(kind, i));
   }
 
+  /// Of several entities of the CAD.
+  std::vector<std::string> table(EntityKind kind, const std::vector<Index>& positions) const {
+    const int dim = dimension(kind);
+    const std::vector<std::int64_t> n = n_owned(dim);
+    std::vector<std::vector<std::string>> rows = {header(dim)};
+    for (const Index i : positions) {
+      const Owner owner{dim, i + 1};
+      const Box box = model().box(owner);
+      std::vector<std::string>& row = rows.emplace_back();
+      row.push_back(std::to_string(owner.id));
+      if (dim == 0) row.push_back(point_text(model().point(owner, {})));
+      if (dim > 0) {
+        if (dim < 3) row.push_back(model().type(owner));
+        row.push_back(short_number(model().measure(owner)));
+      }
+      if (dim == 1 || dim == 2) {
+        const double r = radius(model(), owner);
+        row.push_back(r > 0 ? short_number(r) : "-");
+      }
+      if (dim == 1) {
+        const CurveRange range = model().range(owner.id);
+        for (const double end : {range.first, range.last}) row.push_back(place(model().point(owner, {end, 0})));
+      } else if (dim > 1) {
+        row.push_back(point_text(box.min));
+        row.push_back(point_text(box.max));
+      }
+      if (dim > 0) row.push_back(ids_text(model().adjacent(owner, dim - 1)));
+      if (dim < 3) row.push_back(ids_text(model().adjacent(owner, dim + 1)));
+      if (!n.empty()) row.push_back(std::to_string(n[i]));
+      row.push_back(name_of(selector_, kind, i));
+    }
+    return table_lines(rows);
+  }
+
  private:
+  std::vector<std::string> header(int dim) const {
+    std::vector<std::string> row = {
+        std::string(name(static_cast<EntityKind>(static_cast<int>(EntityKind::vertex) + dim)))};
+    if (dim == 0) row.insert(row.end(), {"at", "curves"});
+    if (dim == 1) row.insert(row.end(), {"type", "length", "radius", "from", "to", "vertices", "surfaces"});
+    if (dim == 2) row.insert(row.end(), {"type", "area", "radius", "box from", "to", "curves", "volumes"});
+    if (dim == 3) row.insert(row.end(), {"volume", "box from", "to", "surfaces"});
+    constexpr std::array<const char*, 4> meshed = {"nodes", "edges", "faces", "hexes"};
+    if (!association().empty()) row.emplace_back(meshed[dim]);
+    row.emplace_back("name");
+    return row;
+  }
+  /// How many mesh entities lie on each CAD entity of a dimension.
+  std::vector<std::int64_t> n_owned(int dim) const {
+    if (association().empty()) return {};
+    std::vector<std::int64_t> n(static_cast<std::size_t>(model().count(dim)), 0);
+    const auto count = [&](const std::vector<int>& ids) {
+      for (const int id : ids)
+        if (id > 0) ++n[static_cast<std::size_t>(id - 1)];
+    };
+    if (dim == 0)
+      for (const Owner owner : association().node_owner)
+        if (owner.dim == 0) ++n[static_cast<std::size_t>(owner.id - 1)];
+    if (dim == 1) count(association().edge_curve);
+    if (dim == 2) count(association().face_surface);
+    if (dim == 3) count(association().hex_volume);
+    return n;
+  }
+
   const Execution& run_;
   Selector selector_;
   std::map<std::pair<EntityKind, EntityKind>, std::vector<Index>> sizes_;
@@ -61,6 +143,44 @@ class Lister {
     }
   }
 
+  /// Radius, centre and directions, where a shape has them.
+  std::string shape(Owner owner) const {
+    std::string result;
+    if (owner.dim == 0 || owner.dim == 3) return result;
+    if (const double r = radius(model(), owner); r > 0) result += ", radius " + short_number(r);
+    const auto along = direction(model(), owner);
+    const bool straight = owner.dim == 1 && along && !along->is_normal,
+               plane = owner.dim == 2 && along && along->is_normal;
+    const auto middle = centre(model(), owner);
+    if (middle) result += (model().type(owner) == "cylinder" ? ", around " : ", centre ") + place(*middle);
+    if (along)
+      result += (straight ? ", direction " : plane ? ", normal " : ", axis ") + point_text(clean(along->along));
+    if (owner.dim == 1) {
+      const CurveRange range = model().range(owner.id);
+      if (range.period == 0)
+        result += ", from " + place(model().point(owner, {range.first, 0})) + " to " +
+                  place(model().point(owner, {range.last, 0}));
+    }
+    return result;
+  }
+  /// Without the noise of what is 0 but for rounding; of points at the size of the model.
+  static Vec3 clean(Vec3 p, double size = 1) {
+    constexpr double noise = 1e-12;
+    for (double& x : p)
+      if (std::abs(x) < noise * size) x = 0;
+    return p;
+  }
+  std::string place(const Vec3& p) const { return point_text(clean(p, model().box().diagonal())); }
+
+  /// Groups that it is a member of.
+  std::string groups_with(EntityKind kind, Index i) const {
+    std::string result;
+    for (const Group& group : selector_.groups)
+      if (std::ranges::binary_search(members(selector_, group, kind), i))
+        result += (result.empty() ? ", in group '" : ", '") + group.name + "'";
+    return result;
+  }
+
   std::string cad(EntityKind kind, Index i) const {
     const Owner owner{dimension(kind), i + 1};
     std::string result = model().type(owner);
@@ -76,8 +196,13 @@ class Lister {
     if (owner.dim < 3)
       result += ", in " + std::string(plural(static_cast<EntityKind>(static_cast<int>(kind) + 1))) + " " +
                 ids_text(model().adjacent(owner, owner.dim + 1));
+    result += shape(owner);
     if (!association().empty()) result += ", " + counted(n_owned(owner), static_cast<EntityKind>(owner.dim));
-    return result;
+    if (owner.dim > 0) {
+      const Box box = model().box(owner);
+      result += ", box " + point_text(box.min) + " to " + point_text(box.max);
+    }
+    return result + groups_with(kind, i);
   }
 
   std::string mesh_entity(EntityKind kind, Index i) {
@@ -159,14 +284,39 @@ void list_model(Execution& run) {
           short_number(state.measured.shape.average));
 }
 
+/// `list field`: every field, where it has values, and from where to where these go.
+void list_fields(Execution& run) {
+  const Mesh& mesh = run.meshed->mesh;
+  if (mesh.fields.empty()) return run.note("there are no fields");
+  std::vector<std::vector<std::string>> rows = {{"field", "on", "components", "smallest", "largest", ""}};
+  for (const Field& field : mesh.fields) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double x : field.values) {
+      if (!(x >= low)) low = std::isnan(x) ? low : x;
+      if (!(x <= high)) high = std::isnan(x) ? high : x;
+    }
+    rows.push_back({"'" + field.name + "'", field.on == Field::On::node ? "nodes" : "hexes",
+                    std::to_string(field.components), short_number(low), short_number(high),
+                    field.integer ? "integers" : ""});
+  }
+  for (const std::string& line : table_lines(rows)) run.say(line);
+  if (const std::string steps = steps_text(mesh); !steps.empty()) run.say(steps);
+}
+
 }  // namespace
 
 void do_list(Execution& run) {
   const Item* range = run.command.find("range");
+  if (run.command.has("field")) return list_fields(run);
   if (run.command.has("undo")) return list_undo(run);
   if (!range) return list_model(run);
+  if (run.asks_for_all_of_none(*range)) return;
   const std::vector<Index> positions = run.chosen(*range);
   Lister lister(run);
+  if (is_cad(range->kind) && positions.size() > 1) {
+    for (const std::string& line : lister.table(range->kind, positions)) run.say(line);
+    return;
+  }
   for (const Index i : positions) run.say(lister.line(range->kind, i));
 }
 

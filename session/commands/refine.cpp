@@ -100,6 +100,26 @@ How how_of(const Execution& run) {
   return result;
 }
 
+/// Nodes of a file may be corners of no hex (those of elements that were dropped): there is nothing to refine at them.
+void check_nodes(const Execution& run, const Target& target) {
+  if (target.kind != EntityKind::node) return;
+  const Mesh& mesh = run.meshed->mesh;
+  const auto is_loose = [&](Index n) { return !run.meshed->association.node_owner[n]; };
+  if (std::ranges::none_of(target.ids, is_loose)) return;
+  std::string ids;
+  std::size_t n = 0;
+  constexpr std::size_t most = 5;
+  for (const Index node : target.ids) {
+    if (!is_loose(node)) continue;
+    if (n++ < most) ids += " " + std::to_string(node_id(mesh, node));
+  }
+  ids = std::string(n == 1 ? "node" : "nodes") + ids + (n > most ? " ..." : "") + (n == 1 ? " belongs" : " belong") +
+        " to no hex";
+  if (n == target.ids.size())
+    throw error_at(run.command.statement, run.command.find("range")->range.token, "there is nothing to refine: " + ids);
+  run.note(ids + ": nothing is refined there");
+}
+
 Request request_of(const Execution& run) {
   const Command& command = run.command;
   Request request{
@@ -113,6 +133,7 @@ Request request_of(const Execution& run) {
     return request;
   }
   request.target = target_of(run);
+  check_nodes(run, request.target);
   request.how = how_of(run);
   if (command.has("nested")) request.transition = Transition::nested;
   if (command.has("regular")) request.transition = Transition::regular;
@@ -175,10 +196,36 @@ void splice_in(Execution& run, PatchResult patch, Request request) {
   run.say(line);
 }
 
+/// `refine location x y z radius r`: hexes whose middle is that near.
+Target hexes_near_point(const Execution& run) {
+  const Command& command = run.command;
+  const Mesh& mesh = run.meshed->mesh;
+  const auto number = [&](std::string_view name) { return command.find(name)->number; };
+  const Vec3 point(number("x"), number("y"), number("z"));
+  const Item* radius = command.find("radius");
+  if (!radius)
+    throw error_at(command.statement, command.find("z")->token, "say how far around the point, such as 'radius 2'");
+  const std::vector<Vec3> middle = centroids(mesh);
+  Target target{.kind = EntityKind::hex};
+  Index nearest = 0;
+  for (Index h = 0; h < mesh.n_hexes(); ++h) {
+    const double distance = (middle[h] - point).norm();
+    if (distance <= radius->number) target.ids.push_back(h);
+    if (distance < (middle[nearest] - point).norm()) nearest = h;
+  }
+  if (target.ids.empty())
+    throw error_at(command.statement, radius->token,
+                   "no hex has its middle within " + short_number(radius->number) + " of there; hex " +
+                       std::to_string(hex_id(mesh, nearest)) + " comes nearest with " +
+                       short_number((middle[nearest] - point).norm()));
+  return target;
+}
+
 }  // namespace
 
 Target target_of(const Execution& run) {
   const Command& command = run.command;
+  if (command.find("x")) return hexes_near_point(run);
   const Item& range = *command.find("range");
   Target target{.kind = range.kind, .ids = run.chosen(range)};
   if (is_cad(range.kind))

@@ -147,7 +147,7 @@ add("b",scene.title,key);
 if(scene.metric){
   const row=add("div","",key),bar=add("span","",row);
   bar.id="bar";bar.style.background="linear-gradient("+scene.scale.join(",")+")";
-  add("span",scene.metric+" "+scene.top+" (above) to "+scene.bottom,row);
+  add("span",scene.metric+": from "+scene.top+" (top) to "+scene.bottom+" (bottom)",row);
 }
 for(const [colour,text] of scene.legend){const row=add("div","",key);add("i","",row).style.background=colour;add("span",text,row)}
 reset();resize();

@@ -77,8 +77,9 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
   for (;;) {
     state_.begin("levels");
     const LevelMarks marks = with_gradation(forest);
-    LevelledMesh built = build_levels(base, marks, options.reuse,
-                                      {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress});
+    LevelledMesh built = build_levels(
+        base, marks, options.reuse,
+        {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress, .keep_jumps = options.keep_jumps});
     options.reuse = std::move(built.stack);
     const LevelPieces pieces = level_pieces(options.reuse, base.mesh.n_hexes());
     const LevelOrigin origin = level_origin(pieces, forest_.grown->pieces);

@@ -45,8 +45,8 @@ double length_of(const Mesh& mesh, const Edge& edge) {
 }
 
 /// Edges that leave the faces into the hexes behind them, and on from hex to hex to the other side of the mesh.
-std::vector<std::uint8_t> edges_behind(const Mesh& mesh, const Edges& edges, const CombinationTarget& target) {
-  const Faces all = faces(mesh);
+std::vector<std::uint8_t> edges_behind(const Mesh& mesh, const Edges& edges, const Faces& all,
+                                       const CombinationTarget& target) {
   std::vector<std::uint8_t> cut(edges.nodes.size(), 0);
   for (const Quad& quad : target.faces) {
     const Index start = find_face(all, quad);
@@ -64,6 +64,24 @@ std::vector<std::uint8_t> edges_behind(const Mesh& mesh, const Edges& edges, con
     }
   }
   return cut;
+}
+
+/// Whether the faces are the whole skin of the mesh.
+bool is_whole_skin(const Faces& all, const CombinationTarget& target) {
+  std::vector<std::uint8_t> is_target(all.nodes.size(), 0);
+  for (const Quad& quad : target.faces) is_target[find_face(all, quad)] = 1;
+  for (std::size_t f = 0; f < all.nodes.size(); ++f)
+    if (all.sides[f][1].hex < 0 && !is_target[f]) return false;
+  return true;
+}
+
+/// Then no side is left for a transition to run out at, which would only make shapes worse: each sheet that is cut
+/// anywhere is cut everywhere.
+void cut_whole_sheets(const Mesh& mesh, const Edges& edges, std::vector<std::uint8_t>& cut) {
+  const Sheets of = sheets(mesh, edges);
+  std::vector<std::uint8_t> chosen(of.size(), 0);
+  for (std::size_t e = 0; e < cut.size(); ++e) chosen[of.of_edge[e]] |= cut[e];
+  for (std::size_t e = 0; e < cut.size(); ++e) cut[e] = chosen[of.of_edge[e]];
 }
 
 class AcrossTheSheets : public Technique {
@@ -124,7 +142,9 @@ class ThroughThickness : public Technique {
     if (n_left_-- == 0) return std::nullopt;
     state.begin("close");
     const Edges all = edges(state.mesh());
-    std::vector<std::uint8_t> cut = edges_behind(state.mesh(), all, target_);
+    const Faces all_faces = faces(state.mesh());
+    std::vector<std::uint8_t> cut = edges_behind(state.mesh(), all, all_faces, target_);
+    if (is_whole_skin(all_faces, target_)) cut_whole_sheets(state.mesh(), all, cut);
     return cut_edges(state, all, cut);
   }
   void follow(const Lineage& lineage, const Mesh&, const Mesh& after) override {

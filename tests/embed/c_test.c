@@ -235,8 +235,11 @@ static void arrays_go_round(void) {
   CHECK(a.n_side_sets >= 1 && side_sets[a.n_side_sets - 1].n > 0);
   double* twice = malloc((size_t)a.n_nodes * 2 * sizeof *twice);
   for (int64_t i = 0; i < 2 * a.n_nodes; ++i) twice[i] = (double)i / 3;
-  fields[0] = (hextwist_field){"twice", 0, 2, twice};
-  a.blocks = blocks, a.node_sets = node_sets, a.side_sets = side_sets, a.fields = fields, a.n_fields = 1;
+  double* classes = malloc((size_t)a.n_hexes * sizeof *classes);
+  for (int64_t i = 0; i < a.n_hexes; ++i) classes[i] = (double)(i % 3);
+  fields[0] = (hextwist_field){"twice", 0, 2, twice, 0};
+  fields[1] = (hextwist_field){"class", 1, 1, classes, 1};
+  a.blocks = blocks, a.node_sets = node_sets, a.side_sets = side_sets, a.fields = fields, a.n_fields = 2;
 
   hextwist_session* other = hextwist_create();
   char text[2048];
@@ -257,11 +260,12 @@ static void arrays_go_round(void) {
     CHECK(set.id == side_sets[i].id && set.n == side_sets[i].n && strcmp(set.name, side_sets[i].name) == 0);
     CHECK(memcmp(set.members, side_sets[i].members, (size_t)set.n * 16) == 0);
   }
-  CHECK(hextwist_n_fields(same) == 1);
+  CHECK(hextwist_n_fields(same) == 2);
+  CHECK(hextwist_field_at(same, 1).is_integer == 1 && hextwist_field_at(same, 0).is_integer == 0);
   const hextwist_field field = hextwist_field_at(same, 0);
   CHECK(strcmp(field.name, "twice") == 0 && !field.on_hexes && field.n_components == 2);
   CHECK(memcmp(field.values, twice, (size_t)a.n_nodes * 2 * sizeof *twice) == 0);
-  CHECK(hextwist_field_at(same, 1).name == NULL && hextwist_group_at(same, HEXTWIST_BLOCK, 99).id == 0);
+  CHECK(hextwist_field_at(same, 2).name == NULL && hextwist_group_at(same, HEXTWIST_BLOCK, 99).id == 0);
   CHECK(hextwist_run(other, "refine curve 5; undo; undo") == HEXTWIST_OK); /* the taking, too */
 
   /* What is wrong with arrays is said; the session stays as it was. */
@@ -317,6 +321,7 @@ static void arrays_go_round(void) {
   CHECK(hextwist_points(kept) == a.points);
   hextwist_mesh_free(kept);
   free(points), free(owners), free(ids), free(hexes), free(twice);
+  free(classes);
   hextwist_mesh_free(same);
   hextwist_mesh_free(mesh);
   hextwist_free(other);

@@ -110,7 +110,8 @@ class Arrays(unittest.TestCase):
         other.import_cad(MODELS / "inclusion.brep")
         arguments = dict(
             node_ids=mesh.node_ids, hex_ids=mesh.hex_ids, blocks=mesh.blocks, node_sets=mesh.node_sets,
-            side_sets=mesh.side_sets, node_fields={"f": field}, hex_fields={"g": np.arange(mesh.n_hexes)},
+            side_sets=mesh.side_sets, hex_fields={"g": np.arange(mesh.n_hexes)},
+            node_fields={"f": field, "kind": 7 * (np.arange(len(mesh.points)) % 2)},
             node_owners=mesh.node_owners, hex_volumes=mesh.hex_volumes, curve_edges=mesh.curve_edges,
             edge_curves=mesh.edge_curves, surface_quads=mesh.surface_quads, quad_surfaces=mesh.quad_surfaces)
         other.take(mesh.points, mesh.hexes, **arguments)
@@ -133,6 +134,8 @@ class Arrays(unittest.TestCase):
                          sorted(f"blocks/{id}" for id in mesh.blocks))
         self.assertTrue((same.hex_fields["g"] == np.arange(mesh.n_hexes)).all())
         self.assertTrue(other.has_cad)
+        other.cmd("refine curve 5")
+        self.assertEqual(sorted(set(other.mesh.node_fields["kind"])), [0, 7])  # of integers: nothing in between
 
     def test_without_cad_get_a_model_of_their_skin(self):
         points = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in range(3)], dtype=float)

@@ -319,6 +319,10 @@ TEST(occ_model, glueing_merges_what_touches_and_says_how_much) {
   EXPECT_NEAR(glued.model->measure({3, 2}), 36, 1e-10);
   ASSERT_EQ(glued.notices.size(), 1u);
   EXPECT_EQ(glued.notices[0], "glued 2 solids: 12 -> 11 faces, 24 -> 20 edges, 16 -> 12 vertices");
+  const CadImport later = hextwist::glued(*apart.model);
+  EXPECT_EQ(later.notices, glued.notices);
+  EXPECT_EQ(later.model->count(2), 11);
+  EXPECT_EQ(later.model->adjacent({3, 1}, 2), glued.model->adjacent({3, 1}, 2));
   EXPECT_EQ(OccShape::brick(1, 1, 1).import(glue).notices[0], "nothing to glue: the model has one solid");
 }
 

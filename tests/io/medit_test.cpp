@@ -129,5 +129,18 @@ TEST(medit_files, real_meshes_have_the_known_counts) {
   }
 }
 
+TEST(medit_files, what_names_and_references_have_become_is_said) {
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.blocks = {{3, "a\tb", {0}}, {4, "", {0, 1}}};
+  const auto notices = write_mesh(test::output_folder() / "names.mesh", mesh, nullptr);
+  EXPECT_EQ(notices,
+            (std::vector<std::string>{
+                "groups overlap, and MEDIT has one reference of each element, so that a block has others: 3 is "
+                "5; 4 is 5 6",
+                "MEDIT has no names: those of blocks are in comments",
+                "block 3 'a\tb' is called 'a b' in the "
+                "file"}));
+}
+
 }  // namespace
 }  // namespace hextwist

@@ -143,7 +143,9 @@ TEST(association_on_other_cad, dangling_tags_are_named_and_change_nothing) {
   EXPECT_EQ(check_association(file.mesh, by_tags.association, *model), std::vector<std::string>{});
   EXPECT_TRUE(test::complete(file.mesh, by_tags.association, *model));
   ASSERT_GE(by_tags.notices.size(), 2);
-  EXPECT_EQ(by_tags.notices[0], "the geometry contradicts 1 vertex tag, replaced (first: node 17, tag 17, on nothing)");
+  EXPECT_EQ(by_tags.notices[0],
+            "1 vertex tag of the file numbers the CAD in another way: matched by geometry (first: node 17, tag 17, on "
+            "nothing)");
   EXPECT_EQ(by_tags.notices[1], "1 surface has no face of the mesh: 23");
 }
 

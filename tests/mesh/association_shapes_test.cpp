@@ -174,11 +174,14 @@ TEST(association, right_tags_change_nothing_and_wrong_ones_are_replaced_with_a_n
   EXPECT_TRUE(same_owners(repaired.association, truth));
   ASSERT_EQ(repaired.notices.size(), 3);
   EXPECT_EQ(repaired.notices[0],
-            "the geometry contradicts 54 surface tags, replaced (first: face of hex 1, tag 6, on surface 5)");
+            "54 surface tags of the file number the CAD in another way: matched by geometry (first: face of hex 1, tag "
+            "6, on surface 5)");
   EXPECT_EQ(repaired.notices[1],
-            "the geometry contradicts 36 curve tags, replaced (first: edge between nodes 1 and 2, tag 12, on curve 1)");
+            "36 curve tags of the file number the CAD in another way: matched by geometry (first: edge between nodes 1 "
+            "and 2, tag 12, on curve 1)");
   EXPECT_EQ(repaired.notices[2],
-            "the geometry contradicts 8 vertex tags, replaced (first: node 1, tag 8, on vertex 1)");
+            "8 vertex tags of the file number the CAD in another way: matched by geometry (first: node 1, tag 8, on "
+            "vertex 1)");
   EXPECT_TRUE(associate(mesh, *model, &wrong, {.use_tags = false}).notices.empty());
 }
 
@@ -197,7 +200,8 @@ TEST(association, tags_of_entities_that_are_not_are_ignored_with_a_notice) {
   EXPECT_EQ(result.notices[0], "tags name vertex 17, the model has 8: ignored");
   EXPECT_EQ(result.notices[1], "tags name surface 23, the model has 6: ignored");
   EXPECT_EQ(result.notices[2],
-            "the geometry contradicts 1 surface tag, replaced (first: face of hex 1, tag 4, on volume 1)");
+            "1 surface tag of the file numbers the CAD in another way: matched by geometry (first: face of hex 1, tag "
+            "4, on volume 1)");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What files say beyond the mesh goes through a session: refinement, undo, another file.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 
 #include "hextwist/io/io.h"
@@ -15,6 +16,54 @@ std::string text_of(const std::filesystem::path& file) {
   std::ostringstream out;
   out << std::ifstream(file).rdbuf();
   return out.str();
+}
+
+TEST(SessionFiles, groups_of_curves_stay_groups_of_curves_with_their_tags) {
+  // Along half of an edge of a brick, across its inside, of nothing; and points of the same tag.
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n0 1 \"p\"\n1 1 \"half\"\n1 2 "
+      "\"across\"\n1 7 \"none\"\n$EndPhysicalNames\n$Nodes\n27\n";
+  std::ostringstream text;
+  text << head;
+  for (int n = 0; n < 27; ++n) text << n + 1 << ' ' << n % 3 << ' ' << n / 3 % 3 << ' ' << n / 9 << '\n';
+  text << "$EndNodes\n$Elements\n12\n1 15 2 1 1 3\n2 1 2 1 1 1 2\n3 1 2 2 50 5 14\n4 1 2 2 50 14 23\n";
+  for (int h = 0; h < 8; ++h) {
+    const int a = 1 + h % 2 + 3 * (h / 2 % 2) + 9 * (h / 4);
+    text << 5 + h << " 5 2 0 1";
+    for (const int step : {0, 1, 4, 3, 9, 10, 13, 12}) text << ' ' << a + step;
+    text << '\n';
+  }
+  text << "$EndElements\n";
+  const auto in = test::written("in.msh", text.str());
+  for (const std::string version : {"2.2", "4.1"}) {
+    Fixture f;
+    const auto out = test::folder() / ("out" + version + ".msh");
+    f.session.run("import mesh '" + in.string() + "'; refine hex all numsplit 1; export gmsh '" + out.string() +
+                  "' text version " + version);
+    const std::string written = text_of(out);
+    EXPECT_NE(written.find("4\n0 1 \"p\"\n1 1 \"half\"\n1 2 \"across\"\n1 7 \"none\"\n"), std::string::npos)
+        << written.substr(0, 200);
+    Fixture again;
+    again.session.import_mesh(out);
+    std::map<std::string, std::size_t> size;
+    for (const NodeSet& set : again.session.meshed().mesh.node_sets) size[set.name] = set.nodes.size();
+    EXPECT_EQ(size, (std::map<std::string, std::size_t>{{"p", 1}, {"half", 4}, {"across", 7}, {"none", 0}})) << version;
+  }
+}
+
+TEST(SessionFiles, a_node_of_no_hex_is_nothing_to_refine) {
+  std::string text = "*NODE\n";
+  for (int n = 0; n < 8; ++n)
+    text += std::to_string(n + 1) + ", " + std::to_string(n % 2) + ", " + std::to_string(n / 2 % 2) + ", " +
+            std::to_string(n / 4) + "\n";
+  text += "18, 0.5, 0.5, 0.5\n*ELEMENT, TYPE=C3D8\n1, 1,2,4,3,5,6,8,7\n*NSET, NSET=loose\n18\n";
+  Fixture f;
+  f.session.import_mesh(test::written("in.inp", text));
+  for (const char* range : {"node 18", "node 18 depth 1", "node in nodeset 1 numsplit 2", "node 18 size 0.1"})
+    EXPECT_EQ(f.error(std::string("refine ") + range), "there is nothing to refine: node 18 belongs to no hex");
+  f.session.run("refine node 1 18");
+  EXPECT_EQ(f.notices.back(), "node 18 belongs to no hex: nothing is refined there");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 4);
 }
 
 TEST(SessionFiles, abaqus_types_and_cards_come_out_of_a_refinement) {

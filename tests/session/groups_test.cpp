@@ -18,7 +18,7 @@ TEST(Groups, collect_entities_under_a_name) {
   f.session.run("group rim xor curve 3 4");
   EXPECT_EQ(f.output.back(), "group 1 'rim': 1 vertex, 2 curves");
   f.session.run("list curve in rim");
-  EXPECT_TRUE(f.output.back().starts_with("curve 4: "));
+  EXPECT_TRUE(f.output.back().starts_with("4      line "));
   f.session.run("group rim equals surface 1; list group 1");
   EXPECT_EQ(f.output.back(), "group 1 'rim': 1 surface");
   f.session.run("group other add hex 1; list group \"o*\"");
@@ -51,7 +51,10 @@ TEST(Groups, are_undone_and_forgotten_with_their_model) {
   f.session.run("create brick x 3 interval 3");
   EXPECT_EQ(f.error("list group 1"), "there are no groups");
   f.session.run("group a add curve 1; reset");
-  EXPECT_EQ(f.error("list group all"), "there are no groups");
+  EXPECT_EQ(f.error("list group 1"), "there are no groups");
+  EXPECT_EQ(f.error("list group all; list nodeset all; delete sideset all"), "no error");
+  EXPECT_EQ(f.notices,
+            (std::vector<std::string>{"there are no groups", "there are no nodesets", "there are no sidesets"}));
 }
 
 TEST(Groups, members_that_are_gone_count_no_longer) {

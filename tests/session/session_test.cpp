@@ -118,7 +118,7 @@ TEST(Session, a_failed_command_leaves_everything_as_it_was) {
     EXPECT_EQ(f.last().after.hexes, 8);
     EXPECT_EQ(f.last().command, text);
   }
-  EXPECT_EQ(f.error("refine hex 1 except 1"), "this names no hex");
+  EXPECT_EQ(f.error("refine hex 1 except 1"), "there is no such hex: 'except' takes away all of them");
   EXPECT_EQ(f.error("refine curve 1 bias 1.5"), "a bias other than 1 needs a size or a sizing function to grow from");
   EXPECT_EQ(f.error("help bogus"), "there is no command 'bogus'; 'help' lists them");
   EXPECT_EQ(f.error("export vtk \"a.msh\""), "vtk files end in .vtu here, not in '.msh'");
@@ -209,6 +209,41 @@ TEST(Session, lists_what_there_is) {
     f.session.run(text);
     EXPECT_NE(f.all_output().find(line), std::string::npos) << text << "\n" << f.all_output();
   }
+}
+
+TEST(Session, lists_say_what_shapes_are_and_several_are_a_table) {
+  Fixture f;
+  f.session.run("create cylinder radius 2 height 6 interval 2; group rims add curve with radius = 2");
+  const auto listed = [&](const std::string& text) {
+    f.output.clear();
+    f.session.run(text);
+    return f.all_output();
+  };
+  const std::string rim = listed("list curve with radius = 2 and z_coord > 0");
+  for (const char* part : {"circle", "closed", "radius 2, centre (0, 0, 3), axis (0, 0, ",
+                           "box (-2, -2, 3) to (2, 2, 3)", "in group 'rims'"})
+    EXPECT_NE(rim.find(part), std::string::npos) << part << "\n" << rim;
+  const std::string side = listed("list surface with radius = 2");
+  for (const char* part : {"cylinder", "radius 2, around (0, 0, 0), axis (0, 0, "})
+    EXPECT_NE(side.find(part), std::string::npos) << part << "\n" << side;
+  const std::string seam = listed("list curve with radius = 0");
+  EXPECT_NE(seam.find("direction (0, 0, "), std::string::npos) << seam;
+  listed("list surface all");
+  EXPECT_EQ(f.output.size(), 4u);
+  EXPECT_TRUE(f.output[0].starts_with("surface  type      area   radius  box from")) << f.output[0];
+  EXPECT_EQ(listed("list field"), "");
+  EXPECT_EQ(f.notices.back(), "there are no fields");
+}
+
+TEST(Session, a_location_is_refined_by_the_hexes_near_it) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4; refine location 0 0 0 radius 1");
+  Fixture g;
+  g.session.run("create brick x 4 interval 4; refine hex in sphere 0 0 0 radius 1");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), g.session.meshed().mesh.n_hexes());
+  EXPECT_EQ(f.error("refine location 0 0 0"), "say how far around the point, such as 'radius 2'");
+  EXPECT_NE(f.error("refine location 9 9 9 radius 1").find("no hex has its middle within 1 of there; hex "),
+            std::string::npos);
 }
 
 TEST(Session, quality_is_a_table) {
@@ -412,7 +447,7 @@ TEST(Session, solids_that_the_mesh_joins_are_glued) {
   EXPECT_LT(f.session.meshed().model->count(2), apart);
   std::string notices;
   for (const std::string& line : f.notices) notices += line + "\n";
-  EXPECT_NE(notices.find("reading it again with touching solids glued"), std::string::npos) << notices;
+  EXPECT_NE(notices.find("its touching solids are glued"), std::string::npos) << notices;
   Fixture off;
   off.session.run("set glue off");
   off.session.import_cad(cad / "two_material.step");

@@ -173,7 +173,8 @@ TEST(Sizing, hexes_in_a_field_above_below_and_top) {
   EXPECT_EQ(f.error("refine hex in field \"nope\" above 1"), "there is no field 'nope' of hexes; there are h, error");
   EXPECT_EQ(f.error("list node in field \"error\" above 1"), "there is no field 'error' of nodes; there are h");
   EXPECT_EQ(f.error("list face in field \"h\" above 1"), "fields have values at hexes and nodes, not at faces");
-  EXPECT_EQ(f.error("refine hex in field \"error\" above 100"), "this names no hex");
+  EXPECT_EQ(f.error("refine hex in field \"error\" above 100"),
+            "there is no such hex: none of the 64 hexes has such values");
 }
 
 TEST(Sizing, graded_refinement_keeps_levels_within_one) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "geom/occ_shapes.h"
 #include "hextwist/io/io.h"
@@ -137,6 +138,68 @@ TEST(Kept, jumps_of_a_field_stay_when_asked_for) {
     else
       EXPECT_GT(std::abs(volume_of(after, ones) - 64), 1e-6);
   }
+}
+
+TEST(Kept, jumps_of_a_field_stay_in_adaptive_calls) {
+  Mesh mesh = test::grid(8, 4, 4);
+  Field field{"grain", Field::On::hex, 1, {}};
+  for (Index h = 0; h < mesh.n_hexes(); ++h) field.values.push_back(h % 8 < 4 ? 1 : 2);
+  mesh.fields = {field};
+  std::vector<std::int8_t> changes(mesh.hexes.size(), 0);
+  changes[3] = 2;  // beside the jump, in a corner
+  for (const bool keep : {false, true}) {
+    Fixture f;
+    f.session.take(mesh, nullptr);
+    if (keep) f.session.run("set keep_jumps \"grain\"");
+    f.session.adapt(changes, {.smooth = true});
+    const Mesh& after = f.session.meshed().mesh;
+    const Field& grain = *std::ranges::find(after.fields, "grain", &Field::name);
+    std::vector<Index> ones;
+    for (Index h = 0; h < after.n_hexes(); ++h)
+      if (grain.values[h] == 1) ones.push_back(h);
+    if (keep)
+      EXPECT_NEAR(volume_of(after, ones), 64, 1e-9);
+    else
+      EXPECT_GT(std::abs(volume_of(after, ones) - 64), 1e-6);
+  }
+}
+
+/// A hole of radius 1 with four hexes around it in a thin first layer: the middle of a quarter of the hole lies beyond
+/// the layer.
+Fixture hole_behind_a_thin_layer() {
+  const auto cad = folder() / "hole.brep";
+  test::OccShape::brick_with_hole(2.4, 2.4, 1, 1).write(cad);
+  Mesh mesh;
+  for (const double z : {0.0, 1.0})
+    for (const double r : {1.0, 1.02, 1.2 * std::sqrt(2.0)})
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        const double angle = (2 * quarter + 1) * std::numbers::pi / 4;
+        mesh.points.emplace_back(1.2 + r * std::cos(angle), 1.2 + r * std::sin(angle), z);
+      }
+  for (int layer = 0; layer < 2; ++layer)
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const Index a = 4 * layer + quarter, b = 4 * layer + (quarter + 1) % 4;
+      mesh.hexes.push_back({a, a + 4, b, b + 4, a + 12, a + 16, b + 12, b + 16});
+    }
+  Fixture f;
+  f.session.run("import geometry '" + cad.string() + "'");
+  f.session.take_mesh(std::move(mesh));
+  return f;
+}
+
+TEST(OffCad, a_refinement_that_cannot_put_nodes_on_the_cad_is_refused_unless_that_is_allowed) {
+  Fixture f = hole_behind_a_thin_layer();
+  const Mesh before = f.session.meshed().mesh;
+  const std::string error = f.error("refine curve with radius = 1");
+  EXPECT_NE(error.find("could not be put on"), std::string::npos) << error;
+  EXPECT_NE(error.find("'allow off_cad' would leave it there"), std::string::npos) << error;
+  EXPECT_EQ(f.session.meshed().mesh.points, before.points);
+  EXPECT_EQ(f.session.meshed().mesh.hexes, before.hexes);
+  EXPECT_FALSE(f.last().violations.empty());
+  EXPECT_EQ(f.error("refine curve with radius = 1 allow off_cad"), "no error");
+  EXPECT_TRUE(has(f.notices, "could not be put where they belong"));
+  EXPECT_GT(f.last().off_cad.max, 1e-3);
+  EXPECT_TRUE(test::uninverted(f.session.meshed().mesh));
 }
 
 TEST(Snap, nodes_that_a_file_has_rounded_are_put_on_the_cad) {

@@ -186,5 +186,15 @@ TEST(direction, options_that_make_no_sense_are_refused) {
             "a direction goes with numsplit, not with sizes, depth, radius or a method");
 }
 
+TEST(through_the_thickness, from_the_whole_skin_there_is_no_transition) {
+  // A ball of seven blocks: all sheets begin at the skin, so all hexes become 27.
+  const MeshedModel input = shipped("sphere");
+  const Mesh mesh = checked(input, {.target = {EntityKind::surface, {1}}, .how = Thickness{}});
+  EXPECT_EQ(mesh.n_hexes(), 27 * input.mesh.n_hexes());
+  const MeshedModel part = brick(4, 3, 2);
+  EXPECT_EQ(checked(part, {.target = {EntityKind::surface, {1, 2, 3, 4, 5, 6}}, .how = Thickness{}}).n_hexes(),
+            27 * part.mesh.n_hexes());
+}
+
 }  // namespace
 }  // namespace hextwist
