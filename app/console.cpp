@@ -1,10 +1,16 @@
 #include "console.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
+
+#include "exit_status.h"
 
 namespace hextwist::app {
 namespace {
@@ -12,10 +18,12 @@ namespace {
 using namespace std::chrono_literals;
 
 std::atomic<bool> interrupted = false;  // lock-free, so a signal handler may set it
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> ending = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) _exit(130);
+extern "C" void on_interrupt(int signal) {
+  if (signal != SIGINT) ending = signal;
+  if (interrupted.exchange(true)) _exit(128 + signal);
 }
 
 }  // namespace
@@ -24,7 +32,22 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    // Who starts a program with nohup wants it to go on.
+    if (signal == SIGHUP && sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
+  signal(SIGPIPE, SIG_IGN);
+}
+
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) < 0) _exit(command_failed);
+}
+
+int ending_signal() {
+  return ending;
 }
 
 bool take_interrupt() {
@@ -46,7 +69,11 @@ SessionCallbacks Console::callbacks() {
   return {
       .output = [this](const std::string& line) { print(stdout, line); },
       .notice = [this](const std::string& line) { print(stdout, "note: " + line); },
-      .error = [this](const CommandError& problem) { error(problem.what()); },
+      .error =
+          [this](const CommandError& problem) {
+            if (problem_.empty()) problem_ = problem.message();
+            error(problem.what());
+          },
       .progress = [this](const char* stage, double fraction) { return progress(stage, fraction); },
   };
 }
@@ -77,7 +104,18 @@ void Console::print(std::FILE* to, const std::string& text) {
   clear();
   running_ = false;
   std::fprintf(to, "%s\n", text.c_str());
-  std::fflush(to);
+  if (std::fflush(to) != 0 && to == stdout && write_error_ == 0) write_error_ = errno;
+}
+
+std::string Console::problem() {
+  std::cout.flush();
+  if (write_error_ == 0 && std::fflush(stdout) != 0) write_error_ = errno;
+  if (write_error_ == 0 && (std::ferror(stdout) || !std::cout)) write_error_ = EIO;
+  if (write_error_ == 0) return problem_;
+  const std::string text = std::string("standard output can't be written: ") + std::strerror(write_error_);
+  // Who has closed it knows.
+  if (write_error_ != EPIPE) error(text);
+  return problem_.empty() ? text : problem_;
 }
 
 void Console::clear() {

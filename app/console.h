@@ -22,6 +22,9 @@ class Console {
 
   SessionCallbacks callbacks();
   void error(const std::string& text);
+  /// What went wrong where no command failed, "" if nothing did: a journal or standard output that could not be
+  /// written.
+  std::string problem();
   /// Nothing is running from here on: takes the progress line away.
   void idle();
 
@@ -32,6 +35,8 @@ class Console {
   std::chrono::steady_clock::time_point since_;
   std::string stage_;
   double fraction_ = 0;
+  std::string problem_;
+  int write_error_ = 0;  // of standard output; 0: none
   std::jthread painter_;
 
   bool progress(const char* stage, double fraction);
@@ -40,9 +45,14 @@ class Console {
   void paint(const std::stop_token& stop);
 };
 
-/// From now on the first Ctrl-C asks the running command to stop; a second one before it has ends the program.
+/// From now on the first Ctrl-C asks the running command to stop; a second one before it has ends the program. SIGTERM
+/// and SIGHUP do the same, and end the program after the command. A reader that is gone (SIGPIPE) does not.
 void catch_interrupts();
 /// Was Ctrl-C pressed since the last call?
 bool take_interrupt();
+/// The signal that the program is to end by; 0: none.
+int ending_signal();
+/// Standard streams that are closed lead nowhere from now on, so that no file gets their numbers.
+void open_standard_streams();
 
 }  // namespace hextwist::app

@@ -69,6 +69,7 @@ char** complete(const char* beginning, int start, int end) {
 }
 
 int on_signal() {
+  if (ending_signal()) rl_done = 1;
   if (take_interrupt()) {
     std::cout << "\n" << std::flush;  // the terminal has shown the ^C
     rl_replace_line("", 0);
@@ -88,7 +89,7 @@ bool read_command(std::string& text) {
     if (!text.empty()) text += '\n';
     text += line.get();
     if (*line && std::strspn(line.get(), " \t") < std::strlen(line.get())) add_history(line.get());
-  } while (wants_more(text));
+  } while (wants_more(text) && !ending_signal());
   return true;
 }
 
@@ -107,7 +108,7 @@ void run_interactive(Session& session, Console& console) {
   if (!history.empty()) read_history(history.c_str());
   std::cout << "hextwist " HEXTWIST_VERSION ". 'help' lists the commands, 'quit' ends.\n" << std::flush;
   std::string text;
-  while (!session.finished() && read_command(text)) {
+  while (!session.finished() && read_command(text) && !ending_signal()) {
     take_interrupt();
     try {
       session.run(text);
@@ -124,7 +125,7 @@ void run_interactive(Session& session, Console& console) {
 int run_standard_input(Session& session) {
   int n_failed = 0, line_number = 0;
   std::string line;
-  while (!session.finished() && std::getline(std::cin, line)) {
+  while (!session.finished() && !ending_signal() && std::getline(std::cin, line)) {
     const int first = ++line_number;
     std::string text = line;
     while (wants_more(text) && std::getline(std::cin, line)) {

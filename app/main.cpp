@@ -1,4 +1,5 @@
 // The hextwist program: reads options, runs a session, writes the result and the report.
+#include <string.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -30,6 +31,10 @@ std::string attempt(Console& console, F step) {
   } catch (const std::exception& error) {
     console.error(error.what());
     return error.what();
+  } catch (...) {
+    const char* const text = "an error of an unknown kind";
+    console.error(text);
+    return text;
   }
 }
 
@@ -57,9 +62,10 @@ std::string run(const Options& options, Session& session, Console& console) {
     attempt_step([&] { return session.run("check"); });
     return error;
   }
+  if (options.safe) attempt_step([&] { return session.run("set safe on"); });
   session.set_keep_going(options.keep_going);
   for (const Step& step : options.steps) {
-    if (session.finished()) break;
+    if (session.finished() || ending_signal()) break;
     const bool ok = attempt_step([&] { return step.is_file ? session.playback(step.text) : session.run(step.text); });
     if (!ok && !options.keep_going) return error;
   }
@@ -70,11 +76,13 @@ std::string run(const Options& options, Session& session, Console& console) {
       attempt_step([&] { return run_standard_input(session); });
   }
   session.set_keep_going(false);
+  if (const int signal = ending_signal(); signal && error.empty()) error = std::string("ended by ") + strsignal(signal);
   if (error.empty() && !options.output.empty()) attempt_step(once([&] { session.export_mesh(options.output); }));
   return error;
 }
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   catch_interrupts();
@@ -84,6 +92,7 @@ int main(int argc, char** argv) {
   session.set_callbacks(console.callbacks());
   std::string error = run(options, session, console);
   console.idle();
+  if (const std::string problem = console.problem(); error.empty()) error = problem;
   if (!options.json.empty()) {
     const std::string problem = attempt(console, [&] {
       write_report(options.json, session.records(), error);
@@ -91,6 +100,7 @@ int main(int argc, char** argv) {
     });
     if (error.empty()) error = problem;
   }
+  if (const int signal = ending_signal()) return 128 + signal;
   return error.empty() ? done : command_failed;
 }
 

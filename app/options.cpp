@@ -66,6 +66,8 @@ int read_options(int argc, char** argv, Options& options) {
                  "write the mesh here when every command succeeded; format by extension: " + writable_extensions());
   app.add_option("--json", options.json, "write a report on every command to this file, also when one failed");
   app.add_flag("--keep-going", options.keep_going, "go on after a command that failed");
+  app.add_flag("--safe", options.safe,
+               "for journals of others: commands read and write only files below this folder, by known endings");
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   app.set_version_flag("--version", "hextwist " HEXTWIST_VERSION);
   if (const int status = parsed(app, [&] { app.parse(argc, argv); }); status >= 0) return status;

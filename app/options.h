@@ -16,6 +16,7 @@ struct Options {
   std::filesystem::path cad, mesh, output, json;  ///< empty: not given
   std::vector<Step> steps;                        ///< -c and journals, as they came
   bool keep_going = false;
+  bool safe = false;   ///< no command touches a file outside of the working folder
   bool check = false;  ///< hextwist check MESH
   int threads = 0;     ///< 0: all
 };

@@ -1,11 +1,10 @@
 #include "report.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
+#include "hextwist/base/replacement.h"
 #include "hextwist/session/record_json.h"
 
 namespace hextwist::app {
@@ -20,21 +19,13 @@ void write_report(const std::filesystem::path& file, std::span<const CommandReco
   for (const CommandRecord& record : records) report["commands"].push_back(record_json(record));
   // What users typed need not be UTF-8.
   const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  // A device or pipe is written to as it is.
-  std::error_code ignored;
-  const bool special = std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
-  std::filesystem::path temporary = file;
-  if (!special) temporary += ".tmp" + std::to_string(getpid());
+  Replacement replacement(file, true);
   errno = 0;
-  std::ofstream stream(temporary, std::ios::binary);
+  std::ofstream stream(replacement.temporary(), std::ios::binary);
   stream << text;
   stream.close();
-  std::error_code failed;
-  if (stream && !special) std::filesystem::rename(temporary, file, failed);
-  if (stream && !failed) return;
-  const std::string reason = failed ? failed.message() : std::strerror(errno ? errno : EIO);
-  if (!special) std::filesystem::remove(temporary, ignored);
-  throw Error(file.string() + ": the report can't be written: " + reason);
+  if (!stream) replacement.fail(std::string("the report can't be written: ") + std::strerror(errno ? errno : EIO));
+  replacement.commit();
 }
 
 }  // namespace hextwist::app

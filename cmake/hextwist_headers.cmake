@@ -3,6 +3,7 @@
 set(HEXTWIST_HEADERS
   base/export.h
   base/types.h
+  base/fence.h
   geom/owner.h
   geom/model.h
   geom/occ/model.h

@@ -46,10 +46,13 @@ struct Place {
   std::size_t begin = 0;  // of the line
 };
 
-Place place_of(const Source& source, std::size_t offset) {
-  const std::string_view text = source.text;
+Place place_of(const Statement& statement, std::size_t offset) {
+  const std::string_view text = statement.source->text;
   Place place;
-  place.line = source.first_line + static_cast<int>(std::ranges::count(text.substr(0, offset), '\n'));
+  const bool known = statement.line > 0 && statement.begin <= offset;
+  const std::size_t from = known ? statement.begin : 0;
+  place.line = (known ? statement.line : statement.source->first_line) +
+               static_cast<int>(std::ranges::count(text.substr(from, offset - from), '\n'));
   const std::size_t before = offset == 0 ? std::string_view::npos : text.rfind('\n', offset - 1);
   place.begin = before == std::string_view::npos ? 0 : before + 1;
   place.text = text.substr(place.begin, std::min(text.find('\n', offset), text.size()) - place.begin);
@@ -76,7 +79,7 @@ Window window_of(const Place& place, std::size_t offset) {
   while (begin > 0 && (static_cast<unsigned char>(place.text[begin]) & 0xc0) == 0x80) --begin;
   Window window{begin ? "..." : "", 0};
   window.column = static_cast<int>(window.text.size()) + n_characters(place.text.substr(begin, at - begin));
-  window.text += printable(place.text.substr(begin), 2 * reach);
+  window.text += printable(place.text.substr(begin, 8 * reach), 2 * reach);
   return window;
 }
 
@@ -95,7 +98,7 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
 }
 
 CommandError error_at(const Statement& statement, const Token& token, const std::string& message) {
-  const Place place = place_of(*statement.source, token.offset);
+  const Place place = place_of(statement, token.offset);
   const Window window = window_of(place, token.offset);
   const int wide =
       std::max(1, n_characters(std::string_view(statement.source->text).substr(token.offset, token.length)));
@@ -106,7 +109,7 @@ CommandError error_at(const Statement& statement, const Token& token, const std:
 }
 
 CommandError error_in(const Statement& statement, const std::string& message) {
-  const Place place = place_of(*statement.source, statement.tokens.front().offset);
+  const Place place = place_of(statement, statement.tokens.front().offset);
   return {prefix(statement, place, false) + message, message, place.line, 0};
 }
 

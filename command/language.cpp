@@ -228,23 +228,28 @@ const std::vector<CommandSpec> table = {
     {"reset", "reset [{block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
-     "|max_hexes <most>|max_memory <gigabytes>|untangle {on|off}|snap {on|off}|keep_jumps {off|<field>}|=duplicate block elements {on|off}}",
+     "|max_hexes <most>|max_memory <gigabytes>|reading {fenced {on|off}|time <seconds>|memory <megabytes>}|safe on|untangle {on|off}|snap {on|off}|keep_jumps {off|<field>}|=duplicate block elements {on|off}}",
      "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
      "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores. "
      "undo: whether commands can be undone, and the memory for that (default 1000 MB; the oldest go first). max_hexes, max_memory: "
-     "what would make a larger mesh or take more is refused (0: whatever the machine has). untangle: "
+     "what would make a larger mesh or take more is refused (0: whatever the machine has). "
+     "reading: whether CAD and Exodus files are read in a process of their own, which a damaged file cannot take this one down with "
+     "(default: where the programs for it are installed), and what such a file may take: seconds of CPU time and MB of memory (0, the default: by "
+     "its size). safe: from then on, and for good, commands read and write only files below the working folder, with the endings of their kinds, "
+     "and files are read in a process of their own. untangle: "
      "whether a mesh that is read with inverted hexes is untangled (default) or refused. snap: whether nodes of a mesh that is "
      "read are put on the CAD (default). keep_jumps: a hex field whose jumps smoothing leaves in place, as it does block boundaries.",
      {{"degrees", Kind::number, 0, 180, false, "angle in degrees"},
       {"limit", Kind::number, 0, 1, true, "relative to the model size"},
       {"count", Kind::integer, 0, 1024, false, "number of threads"},
-      {"megabytes", Kind::number, 0, 1e9, false, "memory for undo, in MB"},
+      {"megabytes", Kind::number, 0, 1e9, false, "memory, in MB"},
+      {"seconds", Kind::number, 0, 1e9, false, "seconds"},
       {"most", Kind::integer, 0, 9e15, false, "hexes of a mesh at most"},
       {"gigabytes", Kind::number, 0, 1e9, false, "memory of the program, in GB"},
       {"field", Kind::string, 0, 0, false, "name of a hex field, in quotes"}},
-     {"set keep_jumps \"grain\"", "set glue on", "set undo limit 200", "set max_hexes 2000000", "set feature_angle 20"}},
+     {"set keep_jumps \"grain\"", "set glue on", "set undo limit 200", "set max_hexes 2000000", "set reading time 300", "set feature_angle 20"}},
     {"sideset",
      "sideset <id> {{face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
      "|add {face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"

@@ -111,7 +111,9 @@ void comment(std::string_view text, std::size_t at, std::vector<Token>& tokens) 
 }  // namespace
 
 std::size_t closing_brace(std::string_view text, std::size_t open) {
-  constexpr std::size_t longest = 10000;  // so that a line of open braces is not searched over and over
+  // So that a line of open braces is not searched over and over.
+  constexpr std::size_t longest = 10000;
+  constexpr int deepest = 30;
   int depth = 0;
   char quote = '\0';
   for (std::size_t at = open; at < std::min(text.size(), open + longest) && text[at] != '\n'; ++at) {
@@ -121,7 +123,7 @@ std::size_t closing_brace(std::string_view text, std::size_t open) {
     } else if (c == '"' || c == '\'') {
       quote = c;
     } else if (c == '{') {
-      ++depth;
+      if (++depth > deepest) return std::string_view::npos;
     } else if (c == '}' && --depth == 0) {
       return at;
     }
@@ -147,8 +149,15 @@ std::vector<Statement> split_statements(std::string_view input, std::string_view
   const std::string_view text = source->text;
   std::vector<Statement> result;
   Statement statement{source, {}};
+  std::size_t counted = 0;
+  int line = first_line;
   const auto finish = [&](std::size_t at) {
     if (statement.tokens.empty()) return;
+    const std::size_t begin = statement.tokens.front().offset;
+    line += static_cast<int>(std::ranges::count(text.substr(counted, begin - counted), '\n'));
+    counted = begin;
+    statement.begin = begin;
+    statement.line = line;
     // Behind the last token rather than at the line end, so that the caret stays close to the words.
     const Token& last = statement.tokens.back();
     statement.tokens.push_back({Token::Kind::end, "", 0, std::min(at, last.offset + last.length), 0});

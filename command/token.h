@@ -40,6 +40,9 @@ struct Token {
 struct Statement {
   std::shared_ptr<const Source> source;
   std::vector<Token> tokens;
+  /// A place in the source and its line, so that lines need not be counted from the start; 0: not known.
+  std::size_t begin = 0;
+  int line = 0;
 };
 
 /// Splits text into statements. Never throws on any input: what can't be read becomes a bad token, so that the
@@ -50,7 +53,7 @@ std::vector<Statement> split_statements(std::string_view text, std::string_view 
 std::vector<Token> tokens_of(std::string_view text);
 
 /// Where the brace at `open` is closed on its line, quotes and inner braces skipped; npos if it is not,
-/// or not within 10,000 bytes.
+/// or not within 10,000 bytes, or if there are more than 30 in one another.
 std::size_t closing_brace(std::string_view text, std::size_t open);
 
 /// Does the text end in a backslash that asks for another line?

@@ -121,6 +121,9 @@ void read_owners(const hextwist_arrays& in, MeshFile& file) {
       if (owner.dim >= 0) tags.node_owner[i] = owner;
     }
   if (in.hex_volumes) tags.hex_volume.assign(in.hex_volumes, in.hex_volumes + in.n_hexes);
+  for (std::size_t i = 0; i < tags.hex_volume.size(); ++i)
+    if (tags.hex_volume[i] < 0)
+      throw Error(place("hex_volumes", i, 1) + ": there is no volume " + std::to_string(tags.hex_volume[i]));
 
   const auto edges = items(in.curve_edges, in.n_curve_edges, 2, "curve_edges");
   const auto curves = items(in.edge_curves, in.n_curve_edges, 1, "edge_curves");

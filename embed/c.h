@@ -91,7 +91,8 @@ void hextwist_free_array(void* array); /* NULL is allowed */
 /* ---- the mesh as arrays ---- */
 
 /* The mesh of the session as it is now; without hexes where the session has none. Costs nothing: arrays are those of
- * the session, which copies when it changes them. NULL when there is no memory or the session is busy. */
+ * the session, which copies when it changes them. NULL when there is no memory or the session is busy;
+ * the functions below take that for a mesh without nodes. */
 hextwist_mesh* hextwist_mesh_of(hextwist_session* session);
 void hextwist_mesh_free(hextwist_mesh* mesh); /* NULL is allowed */
 

@@ -1,16 +1,16 @@
 #include "hextwist/io/file.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
+
+#include "hextwist/io/mapped.h"
 
 namespace hextwist::io {
 namespace {
@@ -23,12 +23,13 @@ std::string reason(int error) {
 
 namespace {
 
-/// An ordinary file, open for reading.
+/// An ordinary file, open for reading. A pipe that nobody writes to must not be waited for.
 struct Input {
   int descriptor;
   std::size_t size = 0;
 
-  explicit Input(const std::filesystem::path& file) : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit Input(const std::filesystem::path& file)
+      : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     const std::string name = file.string();
     if (descriptor < 0) throw Error(name + ": cannot be opened: " + reason(errno));
     struct stat status {};
@@ -50,7 +51,7 @@ struct Input {
 
 void ReleaseBytes::operator()(const char* data) const {
   if (mapped > 0)
-    ::munmap(const_cast<char*>(data), mapped);
+    unmap(data, mapped);
   else
     delete[] data;
 }
@@ -58,9 +59,8 @@ void ReleaseBytes::operator()(const char* data) const {
 Bytes read_bytes(const std::filesystem::path& file) {
   const Input input(file);
   Bytes bytes{file.string(), nullptr, 0};
-  void* mapped = ::mmap(nullptr, input.size, PROT_READ, MAP_PRIVATE, input.descriptor, 0);
-  if (mapped != MAP_FAILED) {
-    bytes.data = {static_cast<const char*>(mapped), ReleaseBytes{input.size}};
+  if (const char* mapped = map(input.descriptor, input.size)) {
+    bytes.data = {mapped, ReleaseBytes{input.size}};
     bytes.size = input.size;
     return bytes;
   }
@@ -76,57 +76,14 @@ Bytes read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-void check_readable(const std::filesystem::path& file) {
-  Input{file};
-}
-
-Replacement::Replacement(const std::filesystem::path& file, bool overwrite)
-    : name_(file.string()), overwrite_(overwrite) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  const bool exists = std::filesystem::exists(status);
-  if (exists && !overwrite) fail("exists already and may not be overwritten");
-  if (std::filesystem::is_directory(status)) fail("is a folder");
-  target_ = exists ? std::filesystem::canonical(file, error) : file;
-  if (error && exists) fail("cannot be written: " + error.message());
-  if (exists && !std::filesystem::is_regular_file(status)) {
-    direct_ = true;
-    temporary_ = target_;
-    return;
-  }
-  const auto folder = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, error)) fail("cannot be written: there is no folder " + folder.string());
-  static std::atomic<unsigned> counter = 0;
-  temporary_ = folder / (".hextwist-" + std::to_string(::getpid()) + "-" + std::to_string(++counter) + ".part");
-}
-
-Replacement::~Replacement() {
-  if (committed_ || direct_) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
-
-void Replacement::commit() {
-  if (!direct_) {
-    std::error_code error;
-    const auto old = std::filesystem::status(target_, error);
-    const bool exists = std::filesystem::exists(old);
-    if (exists && !overwrite_) fail("exists already and may not be overwritten");
-    if (exists) std::filesystem::permissions(temporary_, old.permissions(), error);  // as the old file had them
-    std::filesystem::rename(temporary_, target_, error);
-    if (error) fail("cannot be written: " + error.message());
-  }
-  committed_ = true;
-}
-
-void Replacement::fail(const std::string& what) const {
-  throw Error(name_ + ": " + what);
+void check_unchanged(const Bytes& bytes) {
+  if (bytes.data.get_deleter().mapped > 0 && has_changed(bytes.data.get()))
+    throw Error(bytes.name + ": was changed by somebody while it was read");
 }
 
 Output::Output(const std::filesystem::path& file, bool overwrite)
     : file_(file, overwrite), buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {
-  const int flags = file_.direct() ? O_WRONLY : O_WRONLY | O_CREAT | O_EXCL;
-  descriptor_ = ::open(file_.temporary().c_str(), flags | O_CLOEXEC, 0666);
+  descriptor_ = ::open(file_.temporary().c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor_ < 0) file_.fail("cannot be written: " + reason(errno));
 }
 

@@ -1,4 +1,4 @@
-// Whole files in, whole files out: reading in one go, and writing that leaves either the complete file or the old one.
+// Whole files in, whole files out.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "hextwist/base/types.h"
+#include "hextwist/base/replacement.h"
 
 namespace hextwist::io {
 
@@ -29,38 +29,24 @@ struct Bytes {
 };
 
 /// The bytes of a whole file, mapped where the system can: no copy of them is made, and pages that were read can go.
-/// As with every mapped file, it must not be truncated meanwhile (our own writers replace files and never do).
-/// Throws Error when it is missing, a folder, unreadable or empty.
+/// Somebody may write it meanwhile: what is gone reads as zeros (mapped.h), and check_unchanged() tells.
+/// Throws Error when it is missing, a folder, a pipe, unreadable or empty.
 Bytes read_bytes(const std::filesystem::path& file);
 
-/// Throws the same Errors for a file that a library will read.
-void check_readable(const std::filesystem::path& file);
-
-/// The file that is written in place of another one: a temporary name in the same folder that commit() renames, and
-/// the destructor removes when commit() was not reached. Links are followed; anything but an ordinary file (a
-/// device, a pipe) is written directly.
-class Replacement {
- public:
-  /// Throws Error when the folder is missing or `overwrite` is false and the file exists.
-  Replacement(const std::filesystem::path& file, bool overwrite);
-  ~Replacement();
-  Replacement(const Replacement&) = delete;
-  Replacement& operator=(const Replacement&) = delete;
-
-  /// Where to write.
-  const std::filesystem::path& temporary() const { return temporary_; }
-  bool direct() const { return direct_; }
-  /// As the caller named it.
-  const std::string& name() const { return name_; }
-  /// Throws Error when the rename fails.
-  void commit();
-  [[noreturn]] void fail(const std::string& what) const;
-
- private:
-  std::string name_;
-  std::filesystem::path target_, temporary_;
-  bool overwrite_, direct_ = false, committed_ = false;
-};
+/// Throws Error when somebody has written the file after read_bytes().
+void check_unchanged(const Bytes& bytes);
+/// Reads by f; whatever comes of it, a file that was changed meanwhile is said to be the reason.
+template <class F>
+auto unchanged_by(const Bytes& bytes, F&& f) {
+  try {
+    auto result = f();
+    check_unchanged(bytes);
+    return result;
+  } catch (const Error&) {
+    check_unchanged(bytes);
+    throw;
+  }
+}
 
 /// Buffered output. Numbers in text are the shortest that read back to the same bits. Every failed write (full disk)
 /// throws Error.

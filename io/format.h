@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/base/fence.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/io.h"
@@ -22,7 +23,7 @@ namespace hextwist::io {
 MeshFile read_gmsh(const Bytes& bytes);
 void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                 std::vector<std::string>& notices);
-MeshFile read_abaqus(const std::filesystem::path& file);
+MeshFile read_abaqus(const std::filesystem::path& file, const Fence& fence);
 void write_abaqus(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                   std::vector<std::string>& notices);
 MeshFile read_medit(const Bytes& bytes);
@@ -33,7 +34,9 @@ MeshFile read_vtu(const Bytes& bytes);
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                std::vector<std::string>& notices);
 
-MeshFile read_exodus(const std::filesystem::path& file);
+MeshFile read_exodus(const std::filesystem::path& file, const Fence& fence);
+/// Of the reader of HDF5 files: it writes them as classic NetCDF.
+inline constexpr const char* fenced_hdf5 = "hdf5";
 void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
                   std::vector<std::string>& notices);
 

@@ -10,8 +10,9 @@ namespace hextwist {
 namespace {
 
 template <MeshFile (*read)(const io::Bytes&)>
-MeshFile read_whole(const std::filesystem::path& file) {
-  return read(io::read_bytes(file));
+MeshFile read_whole(const std::filesystem::path& file, const Fence&) {
+  const io::Bytes bytes = io::read_bytes(file);
+  return io::unchanged_by(bytes, [&] { return read(bytes); });
 }
 
 using Notices = std::vector<std::string>;
@@ -31,7 +32,7 @@ void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Ass
 
 struct Format {
   std::string_view extension, name;
-  MeshFile (*read)(const std::filesystem::path&);
+  MeshFile (*read)(const std::filesystem::path&, const Fence&);
   void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&);
 };
 
@@ -121,11 +122,11 @@ std::string writable_extensions() {
   return extensions([](const Format& format) { return format.write != nullptr; });
 }
 
-MeshFile read_mesh(const std::filesystem::path& file, std::string_view name) {
+MeshFile read_mesh(const std::filesystem::path& file, std::string_view name, const Fence& fence) {
   const Format* format = format_to_read(file, name);
   if (!format || !format->read)
     throw Error(file.string() + ": meshes of this kind cannot be read; known are " + readable_extensions());
-  return format->read(file);
+  return format->read(file, fence);
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,

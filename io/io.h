@@ -30,6 +30,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hextwist/base/fence.h"
 #include "hextwist/io/extras.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
@@ -51,7 +52,9 @@ struct MeshFile {
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
 /// format: "gmsh", "exodus", "genesis", "abaqus", "medit" or "vtk", whatever the file's name is. Default: by extension,
 /// and where that is none of those below by content, which tells Exodus (out.e-s002, mesh.e.4.0).
-MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {});
+/// fence: where Exodus files in the form of HDF5 are read, a library that damaged files can crash. Default: in this
+/// process.
+MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
 struct WriteOptions {
   bool binary = true;                  ///< where the format has both

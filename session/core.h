@@ -1,6 +1,7 @@
 // The inside of a session.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct [[gnu::visibility("hidden")]] Session::Core {
   SessionState state;
   SessionCallbacks callbacks;
   bool keep_going = false;
+  /// Set once, by 'set safe on': commands touch no file outside of this folder. Empty: they may.
+  std::filesystem::path only_below;
   std::vector<CommandRecord> records;
   Variables variables;  ///< of expressions in braces
   int nesting = 0;      ///< of playback

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <map>
 
-#include "hextwist/io/file.h"
+#include "hextwist/io/format.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/refine/levels/reorder.h"
@@ -76,6 +76,8 @@ class PieceReader {
     if (piece.count > 0) std::memcpy(static_cast<void*>(items.data()), piece.data, piece.count * sizeof(T));
     return items;
   }
+  const std::string& name() const { return bytes_.name; }
+  void check_unchanged() const { io::check_unchanged(bytes_); }
   bool has(const std::string& name) const { return pieces_.contains(name); }
   [[noreturn]] void fail(const std::string& what) const { throw Error(bytes_.name + " " + what); }
 
@@ -114,10 +116,9 @@ struct Scratch {
 
 MeshedModel read_base(Transaction& run, const PieceReader& in) {
   const auto bytes = in.get<char>("base");
-  const Scratch scratch(std::filesystem::temp_directory_path() /
-                        ("hextwist-" + std::to_string(reinterpret_cast<std::uintptr_t>(&run))));
-  std::ofstream(scratch.file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  MeshFile read = read_mesh(scratch.file);
+  auto copy = std::make_unique_for_overwrite<char[]>(bytes.size());
+  std::ranges::copy(bytes, copy.get());
+  MeshFile read = io::read_vtu({in.name() + ", its base", {copy.release(), io::ReleaseBytes{}}, bytes.size()});
   MeshedModel base;
   if (run.state.has_cad) {
     AssociateResult on_cad =
@@ -180,7 +181,7 @@ void write_levels(const Transaction& run, const std::filesystem::path& file, boo
   levelling.forest = grown(std::move(levelling.forest));
   const MeshedModel& base = *levelling.forest.base;
   const GrownForest& forest = *levelling.forest.grown;
-  io::Replacement replacement(file, overwrite);
+  Replacement replacement(file, overwrite);
   const Scratch scratch(replacement.temporary());
   write_mesh(scratch.file, base.mesh, &base.association, {.write_quality = false});
   const io::Bytes vtu = io::read_bytes(scratch.file);
@@ -254,6 +255,7 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
     check_same(in, mesh.mesh, there);
     mesh.mesh.fields = there.fields;
   }
+  in.check_unchanged();
   load_meshed(run, std::move(mesh));
   run.state.tags = nullptr;
   run.state.levelling = std::make_shared<const Levelling>(std::move(levelling));

@@ -88,12 +88,17 @@ void snap(const Transaction& run, Mesh& mesh, const Association& association, co
              std::to_string(node_id(mesh, worst)) + "); 'import ... no_snap' leaves them");
 }
 
+/// Long loops ask whether the user wants to go on.
+Interruptible interruptible_as(const Transaction& run, const char* stage) {
+  return Interruptible([&run, stage] {
+    const auto& progress = run.core.callbacks.progress;
+    if (progress && !progress(stage, 0)) throw Cancelled();
+  });
+}
+
 /// On the model, or on its own skin where that is null.
 MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
-  const Interruptible interruptible([&] {
-    const auto& progress = run.core.callbacks.progress;
-    if (progress && !progress("associate", 0)) throw Cancelled();
-  });
+  const Interruptible interruptible = interruptible_as(run, "associate");
   if (!model) {
     FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
@@ -115,9 +120,22 @@ void find_meant(const Transaction& run, MeshedModel& meshed) {
 
 }  // namespace
 
+Fence fence_of(const Transaction& run) {
+  const SessionState& state = run.state;
+  const bool safe = !run.core.only_below.empty();
+  Fence fence{.required = safe || state.fenced == Fenced::on,
+              .seconds = state.reading_seconds,
+              .megabytes = state.reading_megabytes,
+              .folder = run.core.only_below};
+  if (state.fenced == Fenced::off && !safe) return fence;
+  fence.readers = find_readers();
+  return fence;
+}
+
 std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue) {
   run.stage("read CAD");
-  CadImport read = read_cad(file, {.glue = glue});
+  const Interruptible interruptible = interruptible_as(run, "read CAD");
+  CadImport read = read_cad(file, {.glue = glue, .fence = fence_of(run)});
   for (const std::string& line : read.notices) run.note(line);
   return read.model;
 }

@@ -4,9 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "hextwist/base/fence.h"
 #include "hextwist/session/transaction.h"
 
 namespace hextwist {
+
+/// Where CAD and Exodus files are read.
+Fence fence_of(const Transaction& run);
 
 std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue);
 

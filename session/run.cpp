@@ -83,6 +83,7 @@ void run_with_file(Session::Core& core, std::string_view name, std::string_view 
                    std::string_view last_word) {
   const Command command = command_with_file(name, word, file, last_word);
   Execution run(core, command);
+  run.by_caller = true;
   transact(run, [&] { execute(run); });
 }
 

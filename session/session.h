@@ -89,7 +89,8 @@ struct SessionCallbacks {
   std::function<void(const std::string&)> output;
   /// Remarks: what was repaired, glued, skipped. One line each.
   std::function<void(const std::string&)> notice;
-  /// Errors that run() does not throw because of `keep_going`.
+  /// Errors that run() does not throw: because of `keep_going`, or of a journal that can't be written any more (what
+  /// was to be written there has been done; without this callback it is a notice).
   std::function<void(const CommandError&)> error;
   /// Progress of a long command; returning false cancels it.
   Progress progress;

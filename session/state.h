@@ -19,6 +19,8 @@ namespace hextwist {
 struct Levelling;
 
 enum class Glue { automatic, on, off };
+/// Are the libraries of others fenced in where they read files? Automatic: where the program for it is there.
+enum class Fenced { automatic, on, off };
 
 /// What is known of mesh and model, and is brought back with them by `undo`. Cheap to copy: the heavy parts are shared
 /// and never change.
@@ -53,7 +55,9 @@ struct SessionState : ModelState {
   double tolerance = 1e-5;              ///< of a mesh on its CAD, relative to the model size
   bool untangle = true;                 ///< repair inverted hexes of a mesh that is read
   std::vector<std::string> keep_jumps;  ///< hex fields whose jumps smoothing leaves in place
-  bool snap = true;                     ///< put its boundary nodes on the CAD
+  Fenced fenced = Fenced::automatic;
+  double reading_seconds = 0, reading_megabytes = 0;  ///< limits there; 0: by the size of the file
+  bool snap = true;                                   ///< put its boundary nodes on the CAD
   bool finished = false;
 };
 

@@ -176,9 +176,13 @@ void transact(Transaction& run, const std::function<void()>& f) {
   run.record().ok = true;
   run.close_record();
   if (!run.is_journaled || !core.recording || core.recording->write(run.record().command)) return;
-  const std::string file = core.recording->file.string();
+  // What was done stays done.
+  const std::string text = core.recording->file.string() + ": can't be written, recording has ended";
   core.recording = nullptr;
-  if (core.callbacks.notice) core.callbacks.notice(file + ": can't be written, recording has ended");
+  if (core.callbacks.error)
+    core.callbacks.error(CommandError(text, text, 0, 0));
+  else if (core.callbacks.notice)
+    core.callbacks.notice(text);
 }
 
 }  // namespace hextwist

@@ -48,11 +48,20 @@ py::array_t<T> array_of(std::vector<T> values) {
   return py::array_t<T>(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
 }
 
+/// What numpy takes for an array of numbers. Throws TypeError naming it.
+inline py::array numbers(const py::object& given, const char* name) {
+  const py::array array = py::array::ensure(given);
+  const char kind = array ? array.dtype().kind() : ' ';
+  if (kind != 'i' && kind != 'u' && kind != 'b' && kind != 'f')
+    throw py::type_error(std::string(name) + ": an array of numbers is wanted" +
+                         (array ? ", not of " + std::string(py::str(array.dtype())) : ""));
+  return array;
+}
+
 /// Anything that numpy takes for an array of that many columns (0: one-dimensional). Throws ValueError or TypeError
 /// naming it.
 inline py::array checked(const py::object& given, const char* name, py::ssize_t width) {
-  const py::array array = py::array::ensure(given);
-  if (!array) throw py::error_already_set();
+  const py::array array = numbers(given, name);
   const bool empty = array.size() == 0;
   const bool fits = width == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
   if (!fits && !empty)
@@ -64,7 +73,7 @@ inline py::array checked(const py::object& given, const char* name, py::ssize_t 
 inline std::vector<double> doubles(const py::object& given, const char* name, py::ssize_t width) {
   const auto array =
       py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(checked(given, name, width));
-  if (!array) throw py::error_already_set();
+  if (!array) throw py::type_error(std::string(name) + ": an array of numbers is wanted");
   return {array.data(), array.data() + array.size()};
 }
 
@@ -75,7 +84,7 @@ std::vector<T> integers(const py::object& given, const char* name, py::ssize_t w
   if (const char kind = array.dtype().kind(); array.size() > 0 && kind != 'i' && kind != 'u' && kind != 'b')
     throw py::type_error(std::string(name) + ": integers are wanted, not " + std::string(py::str(array.dtype())));
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
-  if (!wide) throw py::error_already_set();
+  if (!wide) throw py::type_error(std::string(name) + ": an array of integers is wanted");
   std::vector<T> result(static_cast<std::size_t>(wide.size()));
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = static_cast<T>(wide.data()[i]);

@@ -73,14 +73,15 @@ class PyArrays {
   void fields(const py::dict& on_nodes, const py::dict& on_hexes) {
     for (const bool hexes : {false, true})
       for (const auto& [key, value] : hexes ? on_hexes : on_nodes) {
+        if (!py::isinstance<py::str>(key)) throw py::type_error("names of fields are texts");
         names_.push_back(py::cast<std::string>(key));
-        const py::array array = py::array::ensure(py::reinterpret_borrow<py::object>(value));
-        if (!array) throw py::error_already_set();
+        const py::array array = numbers(py::reinterpret_borrow<py::object>(value), names_.back().c_str());
         const std::int64_t n = hexes ? arrays.n_hexes : arrays.n_nodes;
         if (array.ndim() < 1 || array.ndim() > 2 || array.shape(0) != n)
           throw py::value_error("field '" + names_.back() + "': an array of shape (" + std::to_string(n) + ",) or (" +
                                 std::to_string(n) + ", components) is wanted");
         const py::ssize_t width = array.ndim() == 1 ? 0 : array.shape(1);
+        if (array.ndim() == 2 && width == 0) throw py::value_error("field '" + names_.back() + "' has no component");
         std::int64_t rows = 0;
         const double* values =
             keep(doubles_, doubles(array, names_.back().c_str(), width), std::max<py::ssize_t>(1, width), rows);
@@ -119,6 +120,17 @@ class PyArrays {
                             std::to_string(n));
     return values;
   }
+  static int id_of(const py::handle& key, const char* name) {
+    // As numpy's integers can be; numbers with a fraction cannot.
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(key.ptr()));
+    if (!index) PyErr_Clear();
+    const long long id = index ? PyLong_AsLongLong(index.ptr()) : -1;
+    if (PyErr_Occurred()) PyErr_Clear();
+    if (id < 1 || id > std::numeric_limits<int>::max())
+      throw py::value_error(std::string(name) + ": ids are integers from 1 to " +
+                            std::to_string(std::numeric_limits<int>::max()) + ", not " + std::string(py::repr(key)));
+    return static_cast<int>(id);
+  }
   /// {id: members}, {id: (name, members)} or {id: Group}.
   const hextwist_group* kept_groups(const py::dict& given, const char* name, py::ssize_t width, std::int64_t& n) {
     std::vector<hextwist_group>& groups = groups_.emplace_back();
@@ -134,7 +146,7 @@ class PyArrays {
         names_.back() = value[py::int_(0)].cast<std::string>();
         members = value[py::int_(1)];
       }
-      hextwist_group group{key.cast<int>(), names_.back().c_str(), 0, nullptr};
+      hextwist_group group{id_of(key, name), names_.back().c_str(), 0, nullptr};
       group.members =
           keep(integers_, integers<std::int32_t>(members, name, width), std::max<py::ssize_t>(1, width), group.n);
       groups.push_back(group);

@@ -75,7 +75,10 @@ py::tuple closest(const MeshView& mesh, const std::string& kind, int id, const p
   if (owner.dim == 3) throw py::value_error("closest points are those of vertices, curves and surfaces");
   const std::vector<double> flat = doubles(given, "points", 3);
   std::vector<Vec3> points(flat.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = Vec3(flat.data() + 3 * i);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = Vec3(flat.data() + 3 * i);
+    if (!points[i].allFinite()) throw py::value_error("points[" + std::to_string(i) + "]: a coordinate is not finite");
+  }
   std::vector<Projection> found(points.size());
   {
     const py::gil_scoped_release release;
@@ -93,8 +96,18 @@ py::tuple closest(const MeshView& mesh, const std::string& kind, int id, const p
   return py::make_tuple(at, parameters, distances);
 }
 
+/// Objects of the class come out of others only: without this, Class.__new__(Class) would be one of random memory.
+py::custom_type_setup without_new() {
+  return py::custom_type_setup([](PyHeapTypeObject* heap) {
+    heap->ht_type.tp_new = [](PyTypeObject* type, PyObject*, PyObject*) -> PyObject* {
+      PyErr_Format(PyExc_TypeError, "%s is made by others, not by itself", type->tp_name);
+      return nullptr;
+    };
+  });
+}
+
 void bind_mesh(py::module_& m) {
-  py::class_<PyGroup>(m, "Group", "A block, node set or side set.")
+  py::class_<PyGroup>(m, "Group", without_new(), "A block, node set or side set.")
       .def_readonly("id", &PyGroup::id)
       .def_readonly("name", &PyGroup::name)
       .def_readonly("members", &PyGroup::members,
@@ -105,7 +118,7 @@ void bind_mesh(py::module_& m) {
                " members>";
       });
 
-  py::class_<MeshView, View> mesh(m, "Mesh",
+  py::class_<MeshView, View> mesh(m, "Mesh", without_new(),
                                   "The mesh of a session at one moment, as read-only numpy arrays. It stays as it is "
                                   "whatever the session does; arrays keep it alive.");
   // Arrays as the mesh has them, by their names in arrays.h.
@@ -389,7 +402,7 @@ void bind_session(py::module_& m) {
 }
 
 void bind_gmsh(py::module_& m) {
-  py::class_<GmshLink>(m, "GmshLink", "What hextwist.gmsh has to know to bring a mesh back.")
+  py::class_<GmshLink>(m, "GmshLink", without_new(), "What hextwist.gmsh has to know to bring a mesh back.")
       .def_readonly("on_cad", &GmshLink::on_cad)
       .def_property_readonly("tags", [](const GmshLink& link) {
         py::dict result;

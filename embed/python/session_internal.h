@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <new>
 #include <optional>
 
 #include "hextwist/embed/python/convert_internal.h"
@@ -22,11 +24,21 @@ class PySession {
     });
   }
   PySession(const PySession&) = delete;
+  ~PySession() { made_ = 0; }
+
+  /// Session.__new__(Session) without __init__ leaves memory that nothing was made in: zeros, so that it can be told.
+  static void* operator new(std::size_t size) {
+    if (void* memory = std::calloc(1, size)) return memory;
+    throw std::bad_alloc();
+  }
+  static void* operator new(std::size_t, void* place) { return place; }
+  static void operator delete(void* memory) { std::free(memory); }
 
   /// Calls f(session) with nobody else in it. f must not touch Python: the lock of the interpreter is given up.
   /// An exception of a callback, or KeyboardInterrupt, takes the place of what it made the command throw.
   template <class F>
   auto run(F f) {
+    check_made();
     const Busy busy(busy_);
     raised_.reset();
     asked_ = std::chrono::steady_clock::now();
@@ -44,6 +56,7 @@ class PySession {
   /// The same for what is quick, with the lock.
   template <class F>
   auto look(F f) {
+    check_made();
     const Busy busy(busy_);
     return f(session_);
   }
@@ -60,6 +73,10 @@ class PySession {
     ~Busy() { flag = false; }
     Busy(const Busy&) = delete;
   };
+
+  void check_made() const {
+    if (made_ != has_been_made) throw Error("this session was not made: its __init__ has not run");
+  }
 
   void rethrow_raised() {
     if (!raised_) return;
@@ -100,6 +117,8 @@ class PySession {
   std::optional<py::error_already_set> raised_;  ///< by a callback of the command that runs
   std::chrono::steady_clock::time_point asked_;
   std::atomic<bool> busy_ = false;
+  static constexpr std::uint32_t has_been_made = 0x4e21;
+  std::uint32_t made_ = has_been_made;
 };
 
 }  // namespace hextwist::python

@@ -16,6 +16,7 @@
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
@@ -34,8 +35,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "hextwist/base/replacement.h"
 #include "hextwist/base/text.h"
 #include "hextwist/geom/occ/cad_text_internal.h"
+#include "hextwist/geom/occ/fenced_cad.h"
 #include "hextwist/geom/occ/heal_internal.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/occ/model_internal.h"
@@ -80,10 +83,11 @@ std::string contents(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, code)) throw Error(file.string() + ": not a regular file");
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(file.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw Error(file.string() + ": cannot be read");
-  std::string result = std::move(text).str();
+  // Not by a stream of text, which would take a lack of memory for the end of the file.
+  std::string result(std::filesystem::file_size(file, code), '\0');
+  in.read(result.data(), static_cast<std::streamsize>(result.size()));
+  if (code || in.bad()) throw Error(file.string() + ": cannot be read");
+  result.resize(static_cast<std::size_t>(in.gcount()));
   if (result.find_first_not_of(" \t\r\n") == std::string::npos) throw Error(file.string() + ": the file is empty");
   return result;
 }
@@ -184,14 +188,20 @@ Part read_iges(const std::filesystem::path& file) {
 
 Part read_brep(const std::filesystem::path& file, const std::string& text) {
   Part part;
-  std::istringstream in(text);
+  // OpenCASCADE reads on and on where a number is none.
+  std::istringstream in(text + "\n");
+  in.exceptions(std::ios::failbit | std::ios::badbit);
   BRep_Builder builder;
-  BRepTools::Read(part.shape, in, builder);
-  if (in.fail() || part.shape.IsNull()) throw Error(file.string() + ": not a valid BREP file");
+  try {
+    BRepTools::Read(part.shape, in, builder);
+  } catch (const std::ios::failure&) {
+    throw Error(file.string() + ": the BREP file is damaged: a number or a word is missing or wrong");
+  }
+  if (part.shape.IsNull()) throw Error(file.string() + ": not a valid BREP file");
   return part;
 }
 
-CadImport finish(Part part, const CadOptions& options, const std::string& what) {
+CadImport finish(Part part, const CadOptions& options, const std::string& what) try {
   if (part.shape.IsNull()) throw Error(what + ": no shape");
   if (occ::count_solids(part.shape) == 0) occ::make_solids(part);
   if (occ::count_solids(part.shape) == 0) {
@@ -208,6 +218,9 @@ CadImport finish(Part part, const CadOptions& options, const std::string& what) 
     }
   }
   return {std::make_shared<OccModel>(part.shape, std::move(names)), std::move(part.notices)};
+} catch (const Error& error) {
+  if (std::string_view(error.what()).starts_with(what + ":")) throw;
+  throw Error(what + ": " + error.what());
 }
 
 // OpenCASCADE's exceptions as ours.
@@ -215,6 +228,8 @@ template <class Function>
 auto guarded(const std::string& what, const Function& function) {
   try {
     return function();
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     const std::string message = failure.GetMessageString() ? failure.GetMessageString() : "";
     throw Error(what + ": OpenCASCADE failed" + (message.empty() ? "" : ": " + message));
@@ -224,6 +239,7 @@ auto guarded(const std::string& what, const Function& function) {
 }  // namespace
 
 CadImport read_cad(const std::filesystem::path& file, const CadOptions& options) {
+  if (options.fence.is_there()) return occ::read_cad_fenced(file, options);
   const std::string text = contents(file);
   CadFormat format = format_by_extension(file);
   const CadFormat content = format_by_content(text);
@@ -306,9 +322,8 @@ void write_cad(const std::filesystem::path& file, const Model& model) {
   if (!occ_model) throw Error(file.string() + ": this model has no CAD shape to write");
   const CadFormat format = format_by_extension(file);
   if (format == CadFormat::unknown) throw Error(file.string() + ": CAD is written as .step, .brep or .iges");
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  std::error_code code;
+  Replacement replacement(file, true);
+  const std::filesystem::path& temporary = replacement.temporary();
   const bool written = guarded(file.string(), [&] {
     const std::lock_guard lock(occ_files());
     const Silence silence;
@@ -319,11 +334,8 @@ void write_cad(const std::filesystem::path& file, const Model& model) {
     out.close();
     return !out.fail();
   });
-  if (written) std::filesystem::rename(temporary, file, code);
-  if (!written || code) {
-    std::filesystem::remove(temporary, code);
-    throw Error(file.string() + ": cannot be written");
-  }
+  if (!written) replacement.fail("cannot be written");
+  replacement.commit();
 }
 
 }  // namespace hextwist

@@ -54,6 +54,22 @@ std::vector<Boundary> boundaries(const TopoDS_Face& oriented, const TopTools_Ind
   return result;
 }
 
+/// Calls f; what OpenCASCADE throws becomes an Error about the entity.
+template <class F>
+auto translated(const char* what, Owner owner, F&& f) {
+  try {
+    return f();
+  } catch (const Standard_Failure& failure) {
+    const char* message = failure.GetMessageString();
+    throw Error(std::string(what) + " of " + to_string(owner) + " cannot be computed: the CAD is damaged there (" +
+                (message && *message ? message : failure.DynamicType()->Name()) + ")");
+  }
+}
+
+bool is_finite(const Box& box) {
+  return box.min.allFinite() && box.max.allFinite();
+}
+
 }  // namespace
 
 ShapeMaps entity_maps(const TopoDS_Shape& shape) {
@@ -62,13 +78,16 @@ ShapeMaps entity_maps(const TopoDS_Shape& shape) {
   return maps;
 }
 
-OccModel::OccModel(const TopoDS_Shape& shape, Names names) : shape_(shape), names_(std::move(names)) {
+OccModel::OccModel(const TopoDS_Shape& shape, Names names, Known* known) : shape_(shape), names_(std::move(names)) {
   maps_ = entity_maps(shape);
   for (int id = 1; id <= count(0); ++id) vertices_.push_back(from_occ(BRep_Tool::Pnt(TopoDS::Vertex(maps_[0](id)))));
-  for (int id = 1; id <= count(1); ++id) curves_.push_back(std::make_unique<Curve>(TopoDS::Edge(maps_[1](id))));
+  for (int id = 1; id <= count(1); ++id)
+    curves_.push_back(
+        translated("the shape", {1, id}, [&] { return std::make_unique<Curve>(TopoDS::Edge(maps_[1](id))); }));
   for (int id = 1; id <= count(2); ++id) {
     const TopoDS_Face face = TopoDS::Face(maps_[2](id));
-    surfaces_.push_back(std::make_unique<Surface>(face, boundaries(face, maps_[1]), curves_));
+    surfaces_.push_back(translated(
+        "the shape", {2, id}, [&] { return std::make_unique<Surface>(face, boundaries(face, maps_[1]), curves_); }));
   }
   for (int dim = 0; dim <= 3; ++dim) {
     measures_[slot(dim)] = std::vector<std::atomic<double>>(static_cast<std::size_t>(count(dim)));
@@ -76,6 +95,38 @@ OccModel::OccModel(const TopoDS_Shape& shape, Names names) : shape_(shape), name
   }
   classifiers_ = std::vector<Classifiers>(static_cast<std::size_t>(count(3)));
   build_adjacency();
+  check_finite();
+  if (!known) return;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i]->set_integrals(known->integrals.at(i));
+  for (std::size_t i = 0; i < curves_.size(); ++i) measures_[1][i] = known->lengths.at(i);
+  for (std::size_t dim = 0; dim <= 3; ++dim)
+    std::call_once(boxes_made_[dim], [&] { boxes_[dim] = std::move(known->boxes[dim]); });
+}
+
+Known OccModel::known() const {
+  Known known;
+  for (int id = 1; id <= count(1); ++id) known.lengths.push_back(measure({1, id}));
+  for (int id = 1; id <= count(2); ++id)
+    known.integrals.push_back(
+        translated("the area", {2, id}, [&]() -> const FaceIntegrals& { return surfaces_[index(id)]->integrals(); }));
+  for (int dim = 0; dim <= 3; ++dim) known.boxes[slot(dim)] = boxes(dim);
+  return known;
+}
+
+void OccModel::check_finite() const {
+  const auto check = [&](Owner owner, bool finite) {
+    if (!finite) throw Error("the CAD is damaged: " + to_string(owner) + " has no finite size or tolerance");
+  };
+  for (int id = 1; id <= count(0); ++id) check({0, id}, vertices_[index(id)].allFinite());
+  for (int id = 1; id <= count(1); ++id) {
+    const CurveRange range = curves_[index(id)]->range();
+    constexpr double endless = 1e100;  // OpenCASCADE's unbounded lines and planes go to 2e100
+    check({1, id}, std::abs(range.first) < endless && std::abs(range.last) < endless &&
+                       curves_[index(id)]->point(range.first).allFinite() &&
+                       curves_[index(id)]->point(range.last).allFinite());
+  }
+  for (int dim = 0; dim <= 2; ++dim)
+    for (int id = 1; id <= count(dim); ++id) check({dim, id}, std::isfinite(tolerance({dim, id})));
 }
 
 void OccModel::build_adjacency() {
@@ -140,12 +191,14 @@ const std::vector<Box>& OccModel::boxes(int dim) const {
       if (dim == 0) {
         box.add(vertices_[index(id)]);
       } else if (dim == 1) {
-        box = curves_[index(id)]->box();
+        box = translated("the box", {1, id}, [&] { return curves_[index(id)]->box(); });
       } else if (dim == 2) {
-        box = surfaces_[index(id)]->box();
+        box = translated("the box", {2, id}, [&] { return surfaces_[index(id)]->box(); });
       } else {
         for (const int surface : adjacent({3, id}, 2)) box.add(this->boxes(2)[index(surface)]);
       }
+      if (!box.empty() && !is_finite(box))
+        throw Error("the CAD is damaged: " + to_string(Owner{dim, id}) + " has no finite size");
     }
     boxes_[slot(dim)] = std::move(boxes);
   });
@@ -197,7 +250,7 @@ double OccModel::measure(Owner owner) const {
   entity(owner);
   std::atomic<double>& known = measures_[slot(owner.dim)][index(owner.id)];
   double value = known;
-  if (std::isnan(value)) known = value = compute_measure(owner);
+  if (std::isnan(value)) known = value = translated("the size", owner, [&] { return compute_measure(owner); });
   return value;
 }
 
@@ -237,9 +290,9 @@ Vec3 OccModel::point(Owner owner, Parameters at) const {
     case 0:
       return vertices_[index(owner.id)];
     case 1:
-      return curves_[index(owner.id)]->point(at.u);
+      return translated("a point", owner, [&] { return curves_[index(owner.id)]->point(at.u); });
     case 2:
-      return surfaces_[index(owner.id)]->point(at.u, at.v);
+      return translated("a point", owner, [&] { return surfaces_[index(owner.id)]->point(at.u, at.v); });
     default:
       throw Error("a " + std::string(dimension_name(owner.dim)) + " has no parameters");
   }
@@ -247,16 +300,18 @@ Vec3 OccModel::point(Owner owner, Parameters at) const {
 
 Vec3 OccModel::tangent(int curve, double t) const {
   entity({1, curve});
-  const Vec3 d = curves_[index(curve)]->derivative(t);
+  const Vec3 d = translated("the tangent", {1, curve}, [&] { return curves_[index(curve)]->derivative(t); });
   const double length = d.norm();
   return length > 0 ? Vec3(d / length) : Vec3::Zero();
 }
 
 double OccModel::curvature(Owner owner, Parameters at) const {
   entity(owner);
-  if (owner.dim == 1) return curves_[index(owner.id)]->curvature(at.u);
-  if (owner.dim == 2) return surfaces_[index(owner.id)]->curvature(at.u, at.v);
-  return 0;
+  return translated("the curvature", owner, [&]() -> double {
+    if (owner.dim == 1) return curves_[index(owner.id)]->curvature(at.u);
+    if (owner.dim == 2) return surfaces_[index(owner.id)]->curvature(at.u, at.v);
+    return 0;
+  });
 }
 
 // A face's orientation says on which side its material is, provided that the solid is not inside out.
@@ -266,7 +321,7 @@ const OccModel::Sides& OccModel::sides() const {
     for (int id = 1; id <= count(2); ++id) sides.flipped.push_back(maps_[2](id).Orientation() == TopAbs_REVERSED);
     sides.inside_out.resize(static_cast<std::size_t>(count(3)));
     for (int volume = count(3); volume >= 1; --volume) {  // the lowest id has the last word
-      const bool inside_out = signed_volume(volume) < 0;
+      const bool inside_out = translated("the volume", {3, volume}, [&] { return signed_volume(volume); }) < 0;
       sides.inside_out[index(volume)] = inside_out;
       for (TopExp_Explorer faces(maps_[3](volume), TopAbs_FACE); faces.More(); faces.Next()) {
         const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
@@ -291,7 +346,7 @@ Vec3 OccModel::normal(int surface, Parameters at) const {
 
 void OccModel::project_some(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
                             std::span<Projection> out) const {
-  try {
+  translated("a closest point", owner, [&] {
     switch (owner.dim) {
       case 0:
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -306,9 +361,7 @@ void OccModel::project_some(Owner owner, std::span<const Vec3> points, std::span
       default:
         throw Error("cannot project onto " + to_string(owner));
     }
-  } catch (const Standard_Failure& failure) {  // a surface that has no derivatives somewhere
-    throw Error("cannot project onto " + to_string(owner) + ": " + failure.GetMessageString());
-  }
+  });
 }
 
 void OccModel::project(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
@@ -334,7 +387,8 @@ bool OccModel::contains(int volume, const Vec3& p) const {
   const double slack = tolerance({3, volume});
   if (((p - box.min).array() < -slack).any() || ((box.max - p).array() < -slack).any()) return false;
   const Side side = side_of_nearest(volume, p, slack);
-  return side == Side::unknown ? classify(volume, p, slack) : side == Side::inside;
+  if (side != Side::unknown) return side == Side::inside;
+  return translated("the inside", {3, volume}, [&] { return classify(volume, p, slack); });
 }
 
 /// On which side of the nearest surface of the volume a point lies; unknown where the nearest point is on an edge.

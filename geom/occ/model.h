@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/base/fence.h"
 #include "hextwist/geom/model.h"
 
 class TopoDS_Shape;  // OpenCASCADE's; no header of its is reached from here
@@ -18,6 +19,9 @@ struct CadOptions {
   bool glue = false;
   /// Distance in model units within which faces count as touching; 0: the tolerance of the CAD itself.
   double glue_tolerance = 0;
+  /// Where files are read. Default: in this process, which OpenCASCADE can end (segmentation fault), stop (endless
+  /// loop) or fill with a damaged file; a Session and the program read in a process of its own.
+  Fence fence = {};
 };
 
 /// A model and notices about its making (units, merged faces, healed edges), one line each.
@@ -31,7 +35,8 @@ struct CadImport {
 /// Degenerate edges (sphere poles, cone tips) are curves too: of type "degenerate", length 0, range 0..1, one point.
 /// STEP and IGES lengths become millimetres, as OpenCASCADE and Gmsh have it; BREP has no unit. Names come from STEP.
 /// A file without solids whose faces close is sewed into solids, with a notice.
-/// Throws Error naming the file when it is missing, unreadable, truncated, damaged, empty or has no solid.
+/// Throws Error naming the file when it is missing, unreadable, truncated, damaged, empty or has no solid, and, behind
+/// a fence, when reading it crashes or exceeds the limits.
 CadImport read_cad(const std::filesystem::path& file, const CadOptions& options = {});
 
 /// The same for a shape in memory. The shape is shared, not copied, and must not be changed while the model lives.

@@ -24,9 +24,21 @@ using Names = std::array<std::vector<std::string>, 4>;
 using ShapeMaps = std::array<TopTools_IndexedMapOfShape, 4>;
 ShapeMaps entity_maps(const TopoDS_Shape& shape);
 
+/// What is computed when it is asked for, and can be handed over instead (fenced.cpp).
+struct Known {
+  std::vector<double> lengths;           ///< per curve
+  std::vector<FaceIntegrals> integrals;  ///< per surface
+  std::array<std::vector<Box>, 4> boxes;
+};
+
+/// Whatever OpenCASCADE throws in its members becomes an Error that names the entity.
 class OccModel final : public Model, public KnowsCurvature {
  public:
-  OccModel(const TopoDS_Shape& shape, Names names);
+  /// known: null, then all is computed when it is asked for. Throws Error for what has no finite size.
+  OccModel(const TopoDS_Shape& shape, Names names, Known* known = nullptr);
+
+  /// Computes all of it.
+  Known known() const;
 
   const TopoDS_Shape& shape() const { return shape_; }
   const Names& names() const { return names_; }
@@ -71,6 +83,7 @@ class OccModel final : public Model, public KnowsCurvature {
   void build_adjacency();
   void project_some(Owner owner, std::span<const Vec3> points, std::span<const Parameters> seeds,
                     std::span<Projection> out) const;
+  void check_finite() const;
   double compute_measure(Owner entity) const;
   double signed_volume(int volume) const;
   const std::vector<Box>& boxes(int dim) const;

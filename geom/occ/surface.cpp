@@ -79,6 +79,7 @@ Surface::Surface(const TopoDS_Face& face, std::vector<Boundary> boundaries,
                  const std::vector<std::unique_ptr<Curve>>& edges)
     : face_(TopoDS::Face(face.Oriented(TopAbs_FORWARD))), edges_(edges), tolerance_(BRep_Tool::Tolerance(face)) {
   const Handle(Geom_Surface) original = BRep_Tool::Surface(face_);
+  if (original.IsNull()) throw Error("a face of the CAD has no surface");
   surface_ = simplified(original);
   kind_ = GeomAdaptor_Surface(surface_).GetType();
   type_ = type_name(kind_);

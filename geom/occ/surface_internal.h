@@ -49,6 +49,10 @@ class Surface {
 
   Box box() const;
   const FaceIntegrals& integrals() const;
+  /// These are its integrals; before anybody has asked for them.
+  void set_integrals(const FaceIntegrals& known) const {
+    std::call_once(integrated_, [&] { integrals_ = known; });
+  }
 
   /// seeds as in Model::project.
   void project(std::span<const Vec3> points, std::span<const Parameters> seeds, std::span<Projection> out) const;

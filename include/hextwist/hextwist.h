@@ -2,6 +2,7 @@
 // refinement runs through it; session.h has it by commands.
 #pragma once
 
+#include "hextwist/base/fence.h"
 #include "hextwist/base/types.h"
 #include "hextwist/command/command_error.h"
 #include "hextwist/geom/model.h"

@@ -48,7 +48,8 @@ Shape shape_of(const std::string& type) {
 
 class Parser {
  public:
-  explicit Parser(AbaqusContents& contents) : out_(contents) {
+  Parser(AbaqusContents& contents, std::filesystem::path only_below)
+      : out_(contents), only_below_(std::move(only_below)) {
     out_.scopes.push_back(std::make_unique<AbaqusScope>());
     scope_ = out_.scopes[0].get();
   }
@@ -448,21 +449,35 @@ class Parser {
   void include(const Keyword& keyword, const Cursor& cursor) {
     const std::filesystem::path file(required(keyword, "INPUT"));
     const auto folder = std::filesystem::path(std::string(cursor.name)).parent_path();
-    read(std::make_unique<Bytes>(read_bytes(file.is_absolute() ? file : folder / file)));
+    const std::filesystem::path place = file.is_absolute() ? file : folder / file;
+    if (!only_below_.empty() && !is_below(only_below_, place))
+      out_.fail(keyword.at,
+                place.string() + " is not below " + only_below_.string() + ", and others are not read here");
+    read(std::make_unique<Bytes>(read_bytes(place)));
   }
 
   AbaqusContents& out_;
+  const std::filesystem::path only_below_;
   AbaqusScope* scope_;
   bool begun_ = false, ended_ = false;
 };
 
 }  // namespace
 
-MeshFile read_abaqus(const std::filesystem::path& file) {
+MeshFile read_abaqus(const std::filesystem::path& file, const Fence& fence) {
   AbaqusContents contents;
-  Parser parser(contents);
-  parser.read(std::make_unique<Bytes>(read_bytes(file)));
-  parser.finish();
+  Parser parser(contents, fence.folder);
+  const auto check = [&] {
+    for (const auto& bytes : contents.sources) check_unchanged(*bytes);
+  };
+  try {
+    parser.read(std::make_unique<Bytes>(read_bytes(file)));
+    parser.finish();
+    check();
+  } catch (const Error&) {
+    check();
+    throw;
+  }
   MeshFile out;
   out.notices = std::move(contents.notices);
   const AbaqusParts parts = place_abaqus(contents, out);

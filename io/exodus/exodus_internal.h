@@ -58,6 +58,11 @@ struct ExodusSource {
 std::shared_ptr<const FileResults> read_extras(const ExodusSource& source, const Mesh& mesh,
                                                std::vector<std::string>& notices);
 
+bool is_classic_netcdf(const Bytes& file);
+/// Throws Error unless all that the header announces lies within the file: then the library takes no more memory than a
+/// small multiple of its size.
+void check_classic_netcdf(const Bytes& file);
+
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";
 

@@ -4,11 +4,11 @@
 // it is that block (blocks that overlap are written so), any other one gets an id of its own if its id is taken.
 // Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes. Ids that no int holds are replaced,
 // with a note, and are there again when the mesh is written.
-#include <fstream>
 #include <limits>
 #include <map>
 #include <numeric>
 
+#include "hextwist/base/fenced.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/exodus/exodus_internal.h"
@@ -21,22 +21,24 @@ using Ints = std::vector<int>;
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
-    const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-    std::array<char, 3> magic{};
-    std::ifstream(file, std::ios::binary).read(magic.data(), magic.size());
-    const bool classic = std::string_view(magic.data(), magic.size()) == "CDF";
-    most_items_ = classic ? bytes / 4 : 300 * bytes;
+  /// path: where the bytes of the file are.
+  Reader(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
+    Bytes bytes = read_bytes(path);
+    bytes.name = name_;
+    const bool classic = is_classic_netcdf(bytes);
+    if (classic) check_classic_netcdf(bytes);
+    most_items_ = static_cast<std::int64_t>(classic ? bytes.size / 4 : 300 * bytes.size);
     ex_opts(0);  // no messages on the terminal
     int memory = 8, disk = 0;
     float version = 0;
-    file_.id = ex_open(name_.c_str(), EX_READ, &memory, &disk, &version);
+    file_.id = ex_open(path.c_str(), EX_READ, &memory, &disk, &version);
     if (file_.id < 0) fail("cannot be opened as Exodus II (damaged or another format)");
     // Positions fit an Index, whatever the file stores; the library refuses those that do not.
     ex_set_int64_status(file_.id, EX_IDS_INT64_API | EX_MAPS_INT64_API | EX_INQ_INT64_API);
     const auto length = ex_inquire_int(file_.id, EX_INQ_DB_MAX_USED_NAME_LENGTH);
     if (length > 0) ex_set_max_name_length(file_.id, static_cast<int>(std::min<std::int64_t>(length, NC_MAX_NAME)));
-    name_length_ = static_cast<std::size_t>(std::max<std::int64_t>(length, 256));
+    // A file can claim any length; the library hands over no more than was set.
+    name_length_ = static_cast<std::size_t>(std::clamp<std::int64_t>(length, 256, 4096));
     check(ex_get_init_ext(file_.id, &init_), "the sizes");
   }
 
@@ -404,9 +406,11 @@ class Reader {
 
 }  // namespace
 
-MeshFile read_exodus(const std::filesystem::path& file) {
-  check_readable(file);
-  return Reader(file).result();
+MeshFile read_exodus(const std::filesystem::path& file, const Fence& fence) {
+  if (!fence.is_there() || is_classic_netcdf(read_bytes(file))) return Reader(file, file.string()).result();
+  const Handover plain;
+  read_fenced(fence, fenced_hdf5, file, {}, plain);
+  return Reader(plain.path(), file.string()).result();
 }
 
 }  // namespace hextwist::io

@@ -18,6 +18,8 @@ struct Execution : Transaction {
       : Transaction(session, text_of(said.statement), &said.statement), command(said) {}
 
   const Command& command;
+  /// Not a command of a text but a call by who made the session, who may do anything.
+  bool by_caller = false;
 
   /// Positions chosen by the command's range. Throws when there are none.
   std::vector<Index> chosen(const Item& range) const;
@@ -52,6 +54,13 @@ void do_sizing(Execution& run);
 void do_smooth(Execution& run);
 void do_step(Execution& run);
 void do_undo(Execution& run);
+
+/// files.cpp: throws Error where the session is safe and the file lies outside of its folder, is no ordinary one, or
+/// has none of these endings (".a .b").
+void check_file(const Execution& run, const Item& file, std::string_view endings);
+std::string mesh_endings(bool writing);
+/// Throws Error where the session is safe. what: "this limit"
+void refuse_if_safe(const Execution& run, std::string_view what);
 
 /// Says that words were understood and change nothing here.
 void note_ignored(const Execution& run, std::initializer_list<const char*> words);

@@ -202,6 +202,7 @@ void do_draw(Execution& run) {
   if (!is_png && !same_word(extension, ".html") && !same_word(extension, ".htm"))
     throw error_at(command.statement, file.token,
                    "pictures end in .png or .html, not in '" + printable(extension) + "'");
+  check_file(run, file, ".png .html .htm");
   run.stage("draw");
   const Picture picture = Painter(run).paint();
   const Item* width = command.find("width");

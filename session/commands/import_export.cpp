@@ -69,7 +69,7 @@ std::string model_text(const Model& model) {
 
 void import_mesh(Execution& run, const std::filesystem::path& file, std::string_view word) {
   run.stage("read mesh");
-  MeshFile read = read_mesh(file, format_of(word));
+  MeshFile read = read_mesh(file, format_of(word), fence_of(run));
   for (const std::string& line : read.notices) run.note(line);
   if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
@@ -141,6 +141,7 @@ void do_import(Execution& run) {
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, false);
+  check_file(run, file, is_cad_word(word.name) ? ".step .stp .brep .brp .iges .igs" : mesh_endings(false));
   if (word.name == "levels") {
     run.stage("read levels");
     forget_members(run.state, !run.state.has_cad);
@@ -162,6 +163,7 @@ void do_export(Execution& run) {
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, true);
+  check_file(run, file, mesh_endings(true));
   const MeshedModel& meshed = *run.meshed;
   if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
   const WriteOptions options = write_options(run, lower_extension(file.text));

@@ -13,6 +13,7 @@ void do_playback(Execution& run) {
   constexpr int max_nesting = 16;
   if (run.core.nesting >= max_nesting)
     throw error_at(run.command.statement, file.token, "journals play each other back without end");
+  check_file(run, file, ".jou");
   std::ifstream stream(file.text, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file.text)) throw Error(file.text + ": this journal can't be read");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

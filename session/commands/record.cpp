@@ -12,6 +12,12 @@ void do_record(Execution& run) {
   std::unique_ptr<Recording>& recording = run.core.recording;
   if (run.command.has("stop")) {
     if (!recording) throw error_at(run.command.statement, run.command.items.at(1).token, "nothing is being recorded");
+    recording->stream.close();
+    if (!recording->stream) {
+      const std::string file = recording->file.string();
+      recording = nullptr;
+      throw Error(file + ": can't be written: " + std::strerror(errno ? errno : EIO));
+    }
     run.say(recording->file.string() + ": " + counted(recording->n_commands, "command") + " recorded");
     recording = nullptr;
     return;
@@ -19,6 +25,11 @@ void do_record(Execution& run) {
   const Item& file = *run.command.find("file");
   if (recording)
     throw Error("the session is being recorded in " + recording->file.string() + " already; 'record stop' ends that");
+  if (lower_extension(file.text) != ".jou")
+    throw error_at(
+        run.command.statement, file.token,
+        "journals end in .jou, not in '" + printable(std::filesystem::path(file.text).extension().string()) + "'");
+  check_file(run, file, ".jou");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(file.text, ignored);
   if (exists && !run.command.has("overwrite") && !run.command.has("append"))

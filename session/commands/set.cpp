@@ -1,5 +1,7 @@
 #include <tbb/global_control.h>
 
+#include <filesystem>
+
 #include "hextwist/base/memory.h"
 #include "hextwist/session/commands/commands.h"
 
@@ -21,6 +23,13 @@ void do_set(Execution& run) {
     else if (std::ranges::find(kept, field->text) == kept.end())
       kept.push_back(field->text);
   }
+  if (command.has("safe") && run.core.only_below.empty()) run.core.only_below = std::filesystem::current_path();
+  if (command.has("reading")) {
+    refuse_if_safe(run, "how files are read");
+    if (command.has("fenced")) run.state.fenced = command.has("on") ? Fenced::on : Fenced::off;
+    if (const Item* seconds = command.find("seconds")) run.state.reading_seconds = seconds->number;
+    if (const Item* megabytes = command.find("megabytes")) run.state.reading_megabytes = megabytes->number;
+  }
   if (command.has("duplicate")) run.note("blocks may always overlap: this setting changes nothing here");
   if (command.has("undo")) {
     History& history = run.core.history;
@@ -32,6 +41,7 @@ void do_set(Execution& run) {
     }
   }
   // Limits hold for the process, too.
+  if (command.find("most") || command.find("gigabytes")) refuse_if_safe(run, "a limit");
   if (const Item* most = command.find("most")) limit_hexes(most->number);
   if (const Item* memory = command.find("gigabytes")) limit_memory(static_cast<std::size_t>(memory->number * 1e9));
   if (const Item* count = command.find("count")) {

@@ -1,6 +1,7 @@
 // Sizing functions by name: `sizing function ...`, `sizing field ...`.
 #include "hextwist/io/io.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/load.h"
 #include "hextwist/sizing/fields/growing.h"
 
 namespace hextwist {
@@ -27,7 +28,8 @@ SizeFieldPtr from_field(const Execution& run) {
   const std::string& field = command.find("field")->text;
   try {
     if (const Item* file = command.find("file")) {
-      auto mesh = std::make_shared<Mesh>(read_mesh(file->text).mesh);
+      check_file(run, *file, mesh_endings(false));
+      auto mesh = std::make_shared<Mesh>(read_mesh(file->text, {}, fence_of(run)).mesh);
       return field_size(std::move(mesh), field);
     }
     if (run.meshed->mesh.hexes.empty()) throw Error("there is no mesh to take a field from");

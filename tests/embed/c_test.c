@@ -138,6 +138,15 @@ static void errors_say_what_is_wrong_and_where(void) {
   CHECK(hextwist_run(session, NULL) == HEXTWIST_FAILED);
   CHECK(hextwist_run(NULL, "undo") == HEXTWIST_FAILED && strstr(hextwist_error(), "null"));
   CHECK(hextwist_mesh_of(NULL) == NULL);
+  CHECK(hextwist_n_nodes(NULL) == 0 && hextwist_n_hexes(NULL) == 0 && hextwist_points(NULL) == NULL);
+  CHECK(hextwist_hexes(NULL) == NULL && hextwist_bit_hexes(NULL) == NULL && hextwist_node_ids(NULL) == NULL);
+  CHECK(hextwist_hex_ids(NULL) == NULL && hextwist_node_owners(NULL) == NULL && hextwist_hex_volumes(NULL) == NULL);
+  CHECK(hextwist_surface_quads(NULL) == NULL && hextwist_n_surface_quads(NULL) == 0);
+  CHECK(hextwist_n_entities(NULL, 2) == 0 && hextwist_entity_measure(NULL, 2, 1) == 0);
+  CHECK(hextwist_n_groups(NULL, HEXTWIST_BLOCK) == 0 && hextwist_group_at(NULL, HEXTWIST_BLOCK, 0).n == 0);
+  CHECK(hextwist_n_fields(NULL) == 0 && hextwist_field_at(NULL, 0).values == NULL);
+  double nothing = 0;
+  CHECK(hextwist_quality(NULL, "shape", &nothing) == HEXTWIST_FAILED && strstr(hextwist_error(), "null"));
   hextwist_mesh_free(mesh);
   mesh = hextwist_mesh_of(session);
   CHECK(hextwist_n_hexes(mesh) == n);

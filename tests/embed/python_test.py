@@ -163,6 +163,15 @@ class Arrays(unittest.TestCase):
             (hextwist.Error, r"node_ids\[1\]", dict(node_ids=[1, 1, 2, 3, 4, 5, 6, 7])),
             (ValueError, "go together", dict(curve_edges=[[0, 1]])),
             (ValueError, "field 'a'", dict(node_fields={"a": [1.0]})),
+            (ValueError, "field 'u' has no component", dict(node_fields={"u": np.zeros((8, 0))})),
+            (TypeError, "names of fields", dict(node_fields={1: np.zeros(8)})),
+            (TypeError, "points: an array of numbers", dict(points=[["a"] * 3] * 8)),
+            (TypeError, "points: an array of numbers is wanted, not of complex128", dict(points=points * 1j)),
+            (TypeError, "u: an array of numbers", dict(node_fields={"u": np.zeros(8, dtype=complex)})),
+            (ValueError, "blocks: ids are integers", dict(blocks={"x": [0]})),
+            (ValueError, "blocks: ids are integers", dict(blocks={1.5: [0]})),
+            (ValueError, "node_sets: ids are integers", dict(node_sets={2**40: [0]})),
+            (hextwist.Error, r"hex_volumes\[0\]: there is no volume -7", dict(hex_volumes=[-7])),
             (hextwist.Error, "no side", dict(side_sets={1: [[0, 1, 2, 7]]})),
             (hextwist.Error, "hex 1 is flat", dict(points=points * 0)),
         ):
@@ -171,6 +180,14 @@ class Arrays(unittest.TestCase):
         self.assertEqual(session.mesh.n_hexes, 0)
         session.take(points, hexes)
         self.assertEqual(session.mesh.n_hexes, 1)
+        with self.assertRaisesRegex(ValueError, r"points\[1\]: a coordinate is not finite"):
+            session.mesh.closest("surface", 1, [[0, 0, 0], [0, np.nan, 0]])
+
+    def test_objects_that_nobody_made_are_refused(self):
+        with self.assertRaisesRegex(hextwist.Error, "was not made"):
+            hextwist.Session.__new__(hextwist.Session).cmd("list")
+        with self.assertRaises(TypeError):
+            hextwist.Mesh.__new__(hextwist.Mesh)
 
 
 class Commands(unittest.TestCase):

@@ -251,7 +251,8 @@ TEST(occ_files, what_cannot_be_written_is_refused_and_leaves_nothing_behind) {
     return "written";
   };
   for (const char* name : {"a.step", "a.brep", "a.iges"}) {
-    EXPECT_EQ(refused(folder / "nowhere" / name, *model), ": cannot be written");
+    EXPECT_EQ(refused(folder / "nowhere" / name, *model),
+              ": cannot be written: there is no folder " + (folder / "nowhere").string());
   }
   EXPECT_EQ(refused(folder / "a.stl", *model), ": CAD is written as .step, .brep or .iges");
   EXPECT_EQ(refused(folder / "a.step", *analytic_sphere(1)), ": this model has no CAD shape to write");

@@ -1,3 +1,7 @@
+#include <fstream>
+#include <iterator>
+
+#include "hextwist/base/memory.h"
 #include "io/io_support.h"
 
 namespace hextwist {
@@ -64,6 +68,33 @@ TEST(exodus_files, a_real_mesh_has_the_known_counts) {
   const auto copy = test::output_folder() / "copy.g";
   write_mesh(copy, mesh, nullptr);
   EXPECT_TRUE(test::same_mesh(mesh, read_mesh(copy).mesh));
+}
+
+TEST(exodus_files, no_byte_of_the_header_makes_it_ask_for_much_memory) {
+  Mesh mesh = test::grid(2, 2, 2);
+  mesh.blocks.push_back({1, "a", {0, 1}});
+  mesh.fields.push_back({"u", Field::On::node, 1, std::vector<double>(mesh.points.size(), 1)});
+  const auto file = test::output_folder() / "mesh.e", changed = test::output_folder() / "changed.e";
+  write_mesh(file, mesh, nullptr);
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t before = peak_memory(), header = bytes.find("coordx");
+  ASSERT_NE(header, std::string::npos);
+  int n_damaged = 0;
+  for (std::size_t at = 3; at < header; ++at)
+    for (const char value : {'\xff', '\x7f', '\0'}) {
+      std::string other = bytes;
+      other[at] = value;
+      std::ofstream(changed, std::ios::binary) << other;
+      try {
+        read_mesh(changed);
+      } catch (const Error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with(changed.string() + ": ")) << error.what();
+        n_damaged += std::string(error.what()).find("damaged NetCDF header at byte ") != std::string::npos;
+      }
+    }
+  EXPECT_GT(n_damaged, 100);
+  EXPECT_LT(peak_memory() - before, std::size_t{100} << 20);
 }
 
 }  // namespace
