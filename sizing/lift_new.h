@@ -8,7 +8,7 @@
 namespace hextwist {
 
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
-/// nodes on curves and those of hexes with right angles everywhere stay. In the end, once: passes to come cut hexes as
+/// nodes on curves and those of cubes stay. In the end, once: passes to come cut hexes as
 /// the templates made them. Returns the nodes that moved, ascending.
 std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish);
 

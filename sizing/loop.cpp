@@ -166,10 +166,6 @@ void State::smooth_between_passes() {
 void State::close() {
   begin("improve");
   const Index first_new = n_kept(mesh());
-  // Layers are as thin as they were asked for.
-  if (!std::holds_alternative<Layers>(request.how)) {
-    result_.smoothed = union_of(result_.smoothed, lift_new_hexes(result_.refined, new_nodes(), request.finish));
-  }
   std::vector<Index> low;
   const auto look = [&] {
     low = hexes_below(mesh(), poor_quality, first_new);
@@ -184,6 +180,11 @@ void State::close() {
     smooth_around(report.flat_hexes, fix_boundary);
     look();
   }
+  // Layers are as thin as they were asked for.
+  if (!std::holds_alternative<Layers>(request.how)) {
+    result_.smoothed = union_of(result_.smoothed, lift_new_hexes(result_.refined, new_nodes(), request.finish));
+  }
+  look();
   report.poor = poor_hexes(input.mesh, report.scaled_jacobian_before, mesh(), low);
   report.off_nodes_allowed = request.finish.allow_off_cad;
   if (!report.off_nodes.empty()) report.off_nodes = still_off(result_.refined, report.off_nodes);

@@ -91,7 +91,7 @@ struct RefineResult {
   /// input that it is, -1.
   LevelOrigin came_from = {};
   std::vector<Index> old_node = {};
-  std::vector<Index> smoothed = {};  ///< nodes that smoothing moved in the end (Finish::smooth), ascending
+  std::vector<Index> smoothed = {};  ///< nodes that smoothing or lifting moved in the end, ascending
 };
 
 }  // namespace hextwist
