@@ -25,7 +25,6 @@ struct LevelOrigin {
   std::span<const Index> before(Index hex) const {
     return kind[hex] == HexOrigin::coarser ? several[at[hex]] : std::span(&at[hex], 1);
   }
-  bool operator==(const LevelOrigin&) const = default;
 };
 
 /// Hexes before per hex now: rows of their own for all.
