@@ -7,10 +7,10 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <iostream>
 
 #include "exit_status.h"
+#include "hextwist/base/text.h"
 
 namespace hextwist::app {
 namespace {
@@ -112,7 +112,7 @@ std::string Console::problem() {
   if (write_error_ == 0 && std::fflush(stdout) != 0) write_error_ = errno;
   if (write_error_ == 0 && (std::ferror(stdout) || !std::cout)) write_error_ = EIO;
   if (write_error_ == 0) return problem_;
-  const std::string text = std::string("standard output can't be written: ") + std::strerror(write_error_);
+  const std::string text = "standard output can't be written: " + error_text(write_error_);
   // Who has closed it knows.
   if (write_error_ != EPIPE) error(text);
   return problem_.empty() ? text : problem_;

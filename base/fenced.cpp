@@ -37,14 +37,10 @@ constexpr const char* protocol = "hextwist 1";
 
 enum Status { done = 0, refused = 1, out_of_memory = 2, not_ours = 3 };
 
-std::string reason(int error) {
-  return std::generic_category().message(error);
-}
-
 struct Pipe {
   std::array<int, 2> end{-1, -1};
   Pipe() {
-    if (::pipe2(end.data(), O_CLOEXEC) != 0) throw Error("no pipe can be made: " + reason(errno));
+    if (::pipe2(end.data(), O_CLOEXEC) != 0) throw Error("no pipe can be made: " + error_text(errno));
   }
   ~Pipe() {
     for (const int e : end)
@@ -105,7 +101,7 @@ struct SpawnActions {
 /// Above what the child's own descriptors are, so that none covers another.
 int out_of_the_way(int descriptor) {
   const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
-  if (copy < 0) throw Error("no descriptor is free: " + reason(errno));
+  if (copy < 0) throw Error("no descriptor is free: " + error_text(errno));
   return copy;
 }
 
@@ -123,19 +119,6 @@ std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-constexpr bool sanitized =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    true;  // their shadow of the memory is larger than any limit
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-    true;
-#else
-    false;
-#endif
-#else
-    false;
-#endif
 
 }  // namespace
 
@@ -167,7 +150,7 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 }
 
 Handover::Handover() : descriptor_(::memfd_create("hextwist", MFD_CLOEXEC)) {
-  if (descriptor_ < 0) throw Error("no memory to hand a file over: " + reason(errno));
+  if (descriptor_ < 0) throw Error("no memory to hand a file over: " + error_text(errno));
 }
 Handover::~Handover() {
   ::close(descriptor_);
@@ -207,7 +190,7 @@ void read_fenced(const Fence& fence, const std::string& kind, const std::filesys
     ::close(held);
     if (failed) {
       child.id = -1;
-      throw Error(name + ": the program that reads it, " + reader + ", cannot be started: " + reason(failed));
+      throw Error(name + ": the program that reads it, " + reader + ", cannot be started: " + error_text(failed));
     }
   }
   alive.close(1);
@@ -245,7 +228,7 @@ int serve_fenced(int argc, char** argv, const std::function<void(const FencedJob
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds, 2);
   limit(RLIMIT_FSIZE, megabytes * 1e6);
-  if (!sanitized) limit(RLIMIT_AS, megabytes * 1e6);
+  if (!is_sanitized) limit(RLIMIT_AS, megabytes * 1e6);
   const FencedJob job{argv[2], "/proc/self/fd/" + std::to_string(result_at), {argv + 5, argv + argc}};
   const auto say = [&](const std::string& text) {
     std::ofstream(job.to, std::ios::binary | std::ios::trunc) << text;

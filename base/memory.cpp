@@ -55,13 +55,6 @@ double bytes_of(double n_hexes, double n_nodes) {
   return n_hexes * per_hex + n_nodes * per_node;
 }
 
-/// Sanitizers have memory of their own, far more than there is.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
-
 std::atomic<std::size_t> memory_limit = 0;
 std::atomic<double> hex_limit = 0;
 

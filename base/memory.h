@@ -5,6 +5,20 @@
 
 namespace hextwist {
 
+/// Built with a sanitizer: these have memory of their own, more than any limit, and keep what was freed.
+inline constexpr bool is_sanitized =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+    true;
+#else
+    false;
+#endif
+#else
+    false;
+#endif
+
 /// Bytes still available: free memory, caches and swap, within the limit of the control group and that of
 /// limit_memory(). The largest number when that is unknown.
 std::size_t available_memory();

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "hextwist/base/text.h"
+
 namespace hextwist {
 namespace {
 
@@ -50,7 +52,7 @@ Replacement::Replacement(const std::filesystem::path& file, bool overwrite)
     temporary_ = folder / (beginning + std::to_string(++counter) + ".part");
     made = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (made < 0 && errno == EEXIST);
-  if (made < 0) fail("cannot be written: " + std::generic_category().message(errno));
+  if (made < 0) fail("cannot be written: " + error_text(errno));
   ::close(made);
 }
 

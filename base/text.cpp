@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <system_error>
 
 namespace hextwist {
 
@@ -25,6 +26,10 @@ std::string short_number(double value, int digits) {
   std::array<char, 48> text;
   std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
+}
+
+std::string error_text(int number) {
+  return std::generic_category().message(number);
 }
 
 std::string point_text(const Vec3& p, int digits) {

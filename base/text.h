@@ -28,6 +28,9 @@ std::string point_text(const Vec3& point, int digits = 4);
 /// "1 node", "3 hexes". many: empty for the regular plural of `one`.
 std::string counted(std::int64_t n, std::string_view one, std::string_view many = {});
 
+/// What the system says of an error number (errno).
+std::string error_text(int number);
+
 /// Items with something between them; each a number or a text.
 template <class Items>
 std::string joined(const Items& items, std::string_view between = " ") {

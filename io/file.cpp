@@ -10,17 +10,10 @@
 #include <limits>
 #include <system_error>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/mapped.h"
 
 namespace hextwist::io {
-namespace {
-
-std::string reason(int error) {
-  return std::generic_category().message(error);
-}
-
-}  // namespace
-
 namespace {
 
 /// An ordinary file, open for reading. A pipe that nobody writes to must not be waited for.
@@ -31,7 +24,7 @@ struct Input {
   explicit Input(const std::filesystem::path& file)
       : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     const std::string name = file.string();
-    if (descriptor < 0) throw Error(name + ": cannot be opened: " + reason(errno));
+    if (descriptor < 0) throw Error(name + ": cannot be opened: " + error_text(errno));
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) status.st_mode = 0;
     const char* wrong = S_ISDIR(status.st_mode) ? "is a folder" : "is not an ordinary file";
@@ -68,7 +61,7 @@ Bytes read_bytes(const std::filesystem::path& file) {
   while (bytes.size < input.size) {
     const auto n = ::read(input.descriptor, memory.get() + bytes.size, input.size - bytes.size);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(bytes.name + ": cannot be read: " + reason(errno));
+    if (n < 0) throw Error(bytes.name + ": cannot be read: " + error_text(errno));
     if (n == 0) break;
     bytes.size += static_cast<std::size_t>(n);
   }
@@ -84,7 +77,7 @@ void check_unchanged(const Bytes& bytes) {
 Output::Output(const std::filesystem::path& file, bool overwrite)
     : file_(file, overwrite), buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {
   descriptor_ = ::open(file_.temporary().c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor_ < 0) file_.fail("cannot be written: " + reason(errno));
+  if (descriptor_ < 0) file_.fail("cannot be written: " + error_text(errno));
 }
 
 Output::~Output() {
@@ -136,7 +129,7 @@ void Output::write_out(const char* bytes, std::size_t n) {
   while (n > 0) {
     const auto written = ::write(descriptor_, bytes, n);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) file_.fail("cannot be written: " + reason(errno));
+    if (written < 0) file_.fail("cannot be written: " + error_text(errno));
     bytes += written;
     n -= static_cast<std::size_t>(written);
   }
@@ -152,7 +145,7 @@ void Output::commit() {
   flush();
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  if (closed != 0) file_.fail("cannot be written: " + reason(errno));
+  if (closed != 0) file_.fail("cannot be written: " + error_text(errno));
   file_.commit();
 }
 

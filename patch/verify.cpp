@@ -312,6 +312,26 @@ Measured measured_without_cad(const Mesh& mesh) {
   return result;
 }
 
+/// Nothing was cut and nothing moved.
+bool is_unchanged(const MeshedModel& input, const MeshedModel& refined) {
+  return same_bits(input.mesh.points, refined.mesh.points) && input.mesh.hexes == refined.mesh.hexes &&
+         same_bits(input.association.node_parameters, refined.association.node_parameters);
+}
+
+void set_before(const Measured& of, Report& report) {
+  report.shape_before = of.shape;
+  report.scaled_jacobian_before = of.scaled_jacobian;
+  report.volume_before = of.volume;
+}
+/// As measured_after() reads it.
+void set_after(const Measured& of, Report& report) {
+  report.shape_after = of.shape;
+  report.scaled_jacobian_after = of.scaled_jacobian;
+  report.volume_after = of.volume;
+  report.off_cad = of.off_cad;
+  report.extremes = of.extremes;
+}
+
 }  // namespace
 
 Measured measured(const MeshedModel& meshed) {
@@ -349,9 +369,7 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
     return false;
   if (!is_sound(change)) return false;
 
-  report.shape_before = known.shape;
-  report.scaled_jacobian_before = known.scaled_jacobian;
-  report.volume_before = known.volume;
+  set_before(known, report);
   auto lists = std::make_shared<Extremes>(known.extremes ? *known.extremes : Extremes());
   report.shape_after = updated(known.shape, Metric::shape, difference, lists->shape);
   report.scaled_jacobian_after =
@@ -365,37 +383,19 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
 }
 
 void verify_all(const MeshedModel& refined, const Measured& before, Report& report) {
-  report.shape_before = before.shape;
-  report.scaled_jacobian_before = before.scaled_jacobian;
-  report.volume_before = before.volume;
-  const Measured after = measured(refined);
-  report.shape_after = after.shape;
-  report.scaled_jacobian_after = after.scaled_jacobian;
-  report.volume_after = after.volume;
-  report.off_cad = after.off_cad;
-  report.extremes = after.extremes;
+  set_before(before, report);
+  set_after(measured(refined), report);
   add_broken(refined.mesh, report);
   if (has_only_warnings(refined.mesh)) return;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));
 }
 
-namespace {
-/// Nothing was cut and nothing moved.
-bool is_unchanged(const MeshedModel& input, const MeshedModel& refined) {
-  return same_bits(input.mesh.points, refined.mesh.points) && input.mesh.hexes == refined.mesh.hexes &&
-         same_bits(input.association.node_parameters, refined.association.node_parameters);
-}
-}  // namespace
-
 void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, bool is_renumbered,
             Report& report) {
   if (known && is_unchanged(input, refined)) {
-    report.shape_before = report.shape_after = known->shape;
-    report.scaled_jacobian_before = report.scaled_jacobian_after = known->scaled_jacobian;
-    report.volume_before = report.volume_after = known->volume;
-    report.off_cad = known->off_cad;
-    report.extremes = known->extremes;
+    set_before(*known, report);
+    set_after(*known, report);
     return;
   }
   if (known && !is_renumbered && verify_change(find_change(input, refined), *known, report)) return;

@@ -182,9 +182,10 @@ void State::close() {
   }
   // Layers are as thin as they were asked for.
   if (!std::holds_alternative<Layers>(request.how)) {
-    result_.smoothed = union_of(result_.smoothed, lift_new_hexes(result_.refined, new_nodes(), request.finish));
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, new_nodes(), request.finish);
+    result_.smoothed = union_of(result_.smoothed, moved);
+    if (!moved.empty()) look();
   }
-  look();
   report.poor = poor_hexes(input.mesh, report.scaled_jacobian_before, mesh(), low);
   report.off_nodes_allowed = request.finish.allow_off_cad;
   if (!report.off_nodes.empty()) report.off_nodes = still_off(result_.refined, report.off_nodes);

@@ -8,13 +8,9 @@
 
 namespace hextwist {
 
-double actual_size(const Mesh& mesh, Index hex) {
-  return std::cbrt(std::abs(volume(mesh, hex)));
-}
-
 std::vector<double> actual_sizes(const Mesh& mesh, std::span<const Index> hexes) {
   std::vector<double> sizes(hexes.size());
-  parallel_each(hexes.size(), [&](std::size_t i) { sizes[i] = actual_size(mesh, hexes[i]); });
+  parallel_each(hexes.size(), [&](std::size_t i) { sizes[i] = std::cbrt(std::abs(volume(mesh, hexes[i]))); });
   return sizes;
 }
 

@@ -9,8 +9,7 @@
 
 namespace hextwist {
 
-/// Size of a hex: the cube root of its volume.
-double actual_size(const Mesh& mesh, Index hex);
+/// Size of each hex of a selection: the cube root of its volume.
 std::vector<double> actual_sizes(const Mesh& mesh, std::span<const Index> hexes);
 
 /// What is wished of hexes: the field at their centroids.

@@ -15,11 +15,7 @@ const double smooth_cosine = std::cos(15 * 3.14159265358979323846 / 180);
 
 Box box_of(const Model& model, const std::vector<int>& curves) {
   Box result;
-  for (const int curve : curves) {
-    const Box box = model.box({1, curve});
-    result.add(box.min);
-    result.add(box.max);
-  }
+  for (const int curve : curves) result.add(model.box({1, curve}));
   return result;
 }
 

@@ -277,12 +277,10 @@ SmoothReport smooth(Mesh& mesh, Association& association, const Model* model, co
   if (problem.n_nodes() > 0) {
     const std::vector<Vec3> points = mesh.points;
     const std::vector<Parameters> parameters = association.node_parameters;
-    const Bounds before = bounds_of(mesh, problem.hexes, as_good_as_square);
     Smoother(state, options, progress, report).run();
     report.shape_after = shape_summary(mesh, problem.hexes);
     // Sweeps keep clear of the limit by more than rounding; should that ever not be enough, the guarantee still holds.
-    if (report.shape_after.min < least_shape(report) ||
-        bounds_of(mesh, problem.hexes).scaled_jacobian < before.scaled_jacobian) {
+    if (report.shape_after.min < least_shape(report)) {
       mesh.points = points;
       association.node_parameters = parameters;
       report.shape_after = report.shape_before;

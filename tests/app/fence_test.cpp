@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "hextwist/base/interrupt.h"
+#include "hextwist/base/memory.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/mesh.h"
@@ -143,9 +144,7 @@ TEST(fence, its_ends_are_told_apart) {
 }
 
 TEST(fence, memory_has_a_limit) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need more than any limit";
-#endif
+  if (is_sanitized) GTEST_SKIP() << "sanitizers need more than any limit";
   const std::string said = refused(models / "bracket.step", {.readers = readers, .megabytes = 1});
   EXPECT_EQ(said,
             ": reading it takes more than 1 MB of memory: the file is damaged, or 'set reading memory' allows more");
