@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -80,6 +81,41 @@ inline Index before_gaps(std::span<const Index> gone, Index after) {
   }
   return after + static_cast<Index>(low);
 }
+
+/// How the items of an array are called after some have gone and others have come; those that stay keep their order.
+struct Reindexing {
+  std::vector<Index> gone;  ///< by the places that they had, ascending
+  std::vector<Index> come;  ///< by the places that they have afterwards, ascending
+
+  bool is_gone(Index before) const { return std::ranges::binary_search(gone, before); }
+  /// Of an item that stays.
+  Index after(Index before) const { return before_gaps(come, after_gaps(gone, before)); }
+  Index before(Index after) const { return before_gaps(gone, after_gaps(come, after)); }
+  Index n_after(Index n_before) const {
+    return n_before - static_cast<Index>(gone.size()) + static_cast<Index>(come.size());
+  }
+  /// Per item afterwards: where it was, -1 for those that have come.
+  std::vector<Index> old_places(Index n_before) const {
+    std::vector<Index> old(static_cast<std::size_t>(n_after(n_before)));
+    Index from = 0;
+    std::size_t i_gone = 0, i_come = 0;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      if (i_come < come.size() && static_cast<std::size_t>(come[i_come]) == i) {
+        ++i_come;
+        old[i] = -1;
+        continue;
+      }
+      for (; i_gone < gone.size() && gone[i_gone] == from; ++i_gone) ++from;
+      old[i] = from++;
+    }
+    return old;
+  }
+  /// The first item before from which on those that stay may be called otherwise.
+  Index first_renamed() const {
+    constexpr Index none = std::numeric_limits<Index>::max();
+    return std::min(gone.empty() ? none : gone.front(), come.empty() ? none : come.front());
+  }
+};
 
 /// Some items of an array with `width` values for each.
 template <class T>

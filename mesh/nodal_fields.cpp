@@ -189,4 +189,13 @@ void evaluate_where_moved(const Mesh& before, Mesh& after) {
   evaluate_nodal_fields(before, after, moved, {}, after.fields);
 }
 
+void copy_nodal_values(const Mesh& from, Index node, Mesh& to, Index at) {
+  for (std::size_t f = 0; f < from.fields.size(); ++f) {
+    if (from.fields[f].on != Field::On::node) continue;
+    const auto width = static_cast<std::size_t>(from.fields[f].components);
+    std::copy_n(from.fields[f].values.data() + static_cast<std::size_t>(node) * width, width,
+                to.fields[f].values.data() + static_cast<std::size_t>(at) * width);
+  }
+}
+
 }  // namespace hextwist

@@ -35,4 +35,7 @@ void evaluate_nodal_fields(const Mesh& before, const Mesh& after, std::span<cons
 /// The same for a mesh whose nodes have moved, between the same hexes.
 void evaluate_where_moved(const Mesh& before, Mesh& after);
 
+/// Gives a node the values that a node of another mesh has. The fields of `from` are the first of `to`.
+void copy_nodal_values(const Mesh& from, Index node, Mesh& to, Index at);
+
 }  // namespace hextwist

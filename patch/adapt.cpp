@@ -24,24 +24,25 @@ Request request_of(const Mesh& mesh, std::size_t n, const char* what, const Adap
                      .allow_off_cad = options.allow_off_cad}};
 }
 
-/// Of a result that is not by levels, or the first one of a base.
-LevelOrigin origin_of(const MeshedModel& input, const RefineResult& result) {
-  const Mesh& mesh = result.refined.mesh;
-  const std::int64_t last = hex_id(input.mesh, input.mesh.n_hexes() - 1);
-  LevelOrigin origin{{}, result.origin, {{0}, {}}};
-  for (Index h = 0; h < mesh.n_hexes(); ++h)
-    origin.kind.push_back(hex_id(mesh, h) <= last ? HexOrigin::same : HexOrigin::finer);
-  return origin;
-}
-
 AdaptResult run(const MeshedModel& input, const Request& request, const Progress& progress) {
   RefineResult result = refine(input, request, progress);
-  LevelOrigin came_from = result.came_from.kind.empty() ? origin_of(input, result) : std::move(result.came_from);
-  return {std::move(result.refined),  std::move(result.origin), std::move(came_from),
+  LevelOrigin from = came_from(input.mesh, result);
+  return {std::move(result.refined),  std::move(result.origin), std::move(from),
           std::move(result.old_node), std::move(result.report), std::move(result.levelling)};
 }
 
 }  // namespace
+
+LevelOrigin came_from(const Mesh& input, const RefineResult& result) {
+  if (!result.came_from.kind.empty()) return result.came_from;
+  // Not by levels, or the first step on a base.
+  const std::int64_t last = hex_id(input, input.n_hexes() - 1);
+  LevelOrigin origin{{}, result.origin, {{0}, {}}};
+  const Mesh& mesh = result.refined.mesh;
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    origin.kind.push_back(hex_id(mesh, h) <= last ? HexOrigin::same : HexOrigin::finer);
+  return origin;
+}
 
 LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base) {
   Levelling bare;

@@ -58,6 +58,9 @@ Request adapt_request(const Mesh& mesh, std::span<const std::int8_t> changes, co
 /// sizes: one per hex, infinity where there is no wish. Throws Error when there is not one size per hex.
 Request adapt_request(const Mesh& mesh, std::span<const double> sizes, const AdaptOptions& options = {});
 
+/// Where the hexes of a result come from in full.
+LevelOrigin came_from(const Mesh& input, const RefineResult& result);
+
 /// Cuts the flagged hexes into 27 each. No flag at all: the mesh as it was. Throws as adapt_request(); Cancelled.
 AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags, const AdaptOptions& options = {},
                   const Progress& progress = {});

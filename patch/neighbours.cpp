@@ -25,12 +25,13 @@ void Neighbours::hexes_at(std::span<const Index> nodes, std::vector<Index>& hexe
 }
 
 bool Neighbours::apply(const Splice& splice, bool forward) {
+  if (!splice.only_appends()) return false;
   const auto n_nodes = static_cast<std::size_t>(splice.n_nodes(forward));
   const auto n_new = static_cast<Index>(splice.new_hexes().size());
   std::vector<Index> fresh(static_cast<std::size_t>(n_new));
   if (forward) {
     std::vector<Index> gone;
-    for (const Index h : splice.gone()) gone.push_back(before_gaps(gone_, h));
+    for (const Index h : splice.hexes().gone) gone.push_back(before_gaps(gone_, h));
     std::iota(fresh.begin(), fresh.end(), n_serials_);
     of_node_.resize(n_nodes);
     exchange(splice.gone_hexes(), gone, splice.new_hexes(), fresh);

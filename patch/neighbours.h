@@ -18,8 +18,9 @@ class Neighbours {
   /// Appends the hexes at these nodes, by index.
   void hexes_at(std::span<const Index> nodes, std::vector<Index>& hexes) const;
 
-  /// Follows the mesh through a splice, forward or back. False: it can't (going back beyond the first mesh), or has
-  /// grown so much that a new one is smaller; then it is of no use any more. So it is when this throws.
+  /// Follows the mesh through a splice, forward or back. False: it can't (going back beyond the first mesh; nodes
+  /// that are gone), or has grown so much that a new one is smaller; then it is of no use any more. So it is when this
+  /// throws.
   bool apply(const Splice& splice, bool forward);
 
  private:

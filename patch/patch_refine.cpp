@@ -14,11 +14,6 @@
 namespace hextwist {
 namespace {
 
-/// Rings that the patch must have beyond every hex that is cut. The farthest that anything reaches is the repair of
-/// inverted children (refine/repair.cpp): the nodes of three rings around them may move, and the hexes at these nodes
-/// are looked at. Smoothing and filling reach less far; how far filling grows shows in the hexes that are cut.
-constexpr int enough_rings = 4;
-
 /// The target in the whole mesh: what the patch grows around.
 struct Around {
   std::vector<Index> nodes;  ///< ascending
@@ -70,15 +65,13 @@ Request request_in(const Patch& patch, const Request& request, const Around& aro
 
 bool verify_patch(const MeshedModel& input, const Measured& known, const PatchResult& made, const PatchNumbers& numbers,
                   Report& report) {
-  const Mesh &before = made.patch.meshed.mesh, &after = made.result.refined.mesh;
+  const Mesh& after = made.result.refined.mesh;
   ChangedPart change{input, made.patch.meshed, made.result.refined};
   change.nodes = made.patch.nodes;
   change.hexes = made.patch.hexes;
-  change.n_kept = numbers.n_kept;
+  change.n_kept = after.n_hexes() - static_cast<Index>(numbers.come.size());
   change.gone = numbers.local_gone;
-  for (Index n = 0; n < before.n_nodes(); ++n)
-    if (before.points[n] != after.points[n]) change.moved.push_back(n);
-  change.touched = touched_hexes(after, change.n_kept, change.moved);
+  find_moved(change);
   return verify_change(change, known, report);
 }
 
@@ -98,7 +91,9 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
                                         const Progress& progress, const RingsOf& rings_of) {
   const Mesh& mesh = input.mesh;
   const Plan plan = hextwist::plan(input, request);
-  if (mesh.n_hexes() < patch_rule.least_mesh || !plan.reach || !is_complete(input, request)) return std::nullopt;
+  if (mesh.n_hexes() < patch_rule.least_mesh || !is_complete(input, request)) return std::nullopt;
+  if (is_by_levels(request, plan)) return refine_levels_patch(input, known, request, progress, rings_of);
+  if (!plan.reach) return std::nullopt;
   const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
   Request asked = request;
   Report before;
@@ -132,12 +127,13 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
                                return rings->ring[h] + enough_rings <= n_rings;
                              });
       if (!is_enough) continue;
-      for (OffOwner& row : report.off_nodes) row.node = numbers.node(row.node);
-      for (Index& node : made.result.smoothed) node = numbers.node(node);
+      for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
+      for (Index& node : made.result.smoothed) node = numbers.node[node];
       for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
-        for (Index& h : *list) h = numbers.refined_hex(h);
+        for (Index& h : *list) h = numbers.hex[h];
       if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
       made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
+      made.come = numbers.come;
     }
     report.hexes_before = mesh.n_hexes();
     report.nodes_before = mesh.n_nodes();
@@ -151,20 +147,27 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
 }
 
 std::vector<Index> whole_origin(const PatchResult& result, const MeshedModel& input) {
-  const Splice& splice = *result.splice;
-  std::vector<Index> origin(static_cast<std::size_t>(splice.n_hexes(true)));
-  Index old = 0, next = 0;
-  const auto keep_until = [&](Index end) {
-    for (; old < end; ++old) origin[next++] = old;
-  };
-  for (const Index gone : splice.gone()) {
-    keep_until(gone);
-    ++old;
+  const Reindexing& hexes = result.splice->hexes();
+  std::vector<Index> origin = hexes.old_places(input.mesh.n_hexes());
+  for (std::size_t i = 0; i < hexes.come.size(); ++i)
+    origin[hexes.come[i]] = result.patch.hexes[result.result.origin[result.come[i]]];
+  return origin;
+}
+
+LevelOrigin whole_came_from(const PatchResult& result, const MeshedModel& input) {
+  const Reindexing& hexes = result.splice->hexes();
+  const LevelOrigin& local = result.result.came_from;
+  LevelOrigin origin;
+  origin.at = hexes.old_places(input.mesh.n_hexes());
+  origin.kind.assign(origin.at.size(), HexOrigin::same);
+  origin.several = local.kind.empty() ? CompressedRows{{0}, {}} : local.several;
+  for (Index& h : origin.several.items) h = result.patch.hexes[h];
+  for (std::size_t i = 0; i < hexes.come.size(); ++i) {
+    const Index h = result.come[i];
+    HexOrigin& kind = origin.kind[hexes.come[i]];
+    kind = local.kind.empty() ? HexOrigin::finer : local.kind[h];
+    origin.at[hexes.come[i]] = kind == HexOrigin::coarser ? local.at[h] : result.patch.hexes[result.result.origin[h]];
   }
-  keep_until(input.mesh.n_hexes());
-  const std::vector<Index>& local = result.result.origin;
-  for (std::size_t h = local.size() - (origin.size() - next); h < local.size(); ++h)
-    origin[next++] = result.patch.hexes[local[h]];
   return origin;
 }
 
@@ -176,9 +179,17 @@ RefineResult whole_result(PatchResult made, const MeshedModel& input, const Meas
     Stages stages(report, none);
     stages.begin("splice", 0.9);
     result.refined = spliced(input, *made.splice);
-    result.smoothed = std::move(made.result.smoothed);
-    result.levelling = levelling_after(request, result, result.refined);
     result.origin = whole_origin(made, input);
+    if (made.result.levelling) {
+      result.levelling = made.result.levelling;
+      result.came_from = whole_came_from(made, input);
+      result.old_node = made.splice->nodes().old_places(input.mesh.n_nodes());
+    } else {
+      result.smoothed = std::move(made.result.smoothed);
+      result.levelling = planted(made, request, input);
+      if (!result.smoothed.empty())
+        result.levelling = levelling_after_move(result.levelling, result.smoothed, result.refined);
+    }
     stages.begin("verify", 0.9);
     if (!made.is_verified) verify_all(result.refined, known, report);
   }

@@ -18,7 +18,18 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   {
     State state(input, request, report, progress);
     result = run_passes(state, approach);
-    if (!request.finish.dry_run) verify(input, known, result.refined, state.is_renumbered, report);
+    if (!request.finish.dry_run) {
+      std::vector<Index> old_hex;
+      OldPlaces old{result.old_node, {}};
+      if (state.is_renumbered && !result.old_node.empty()) {
+        const LevelOrigin& from = result.came_from;
+        old_hex.resize(from.kind.size(), -1);
+        for (std::size_t h = 0; h < old_hex.size(); ++h)
+          if (from.kind[h] == HexOrigin::same) old_hex[h] = from.at[h];
+        old.hex = old_hex;
+      }
+      verify(input, known, result.refined, state.is_renumbered ? &old : nullptr, report);
+    }
   }
   report.hexes_before = input.mesh.n_hexes();
   report.nodes_before = input.mesh.n_nodes();

@@ -47,7 +47,8 @@ void take_out(std::vector<T>& array, std::span<const Index> places, std::size_t 
 
 /// Puts items in, so that they are at these places (ascending) afterwards. The array has room.
 template <class T>
-void put_in(std::vector<T>& array, std::span<const Index> places, const std::vector<T>& items, std::size_t width = 1) {
+void put_in(std::vector<T>& array, std::span<const Index> places, std::span<const T> items, std::size_t width = 1) {
+  if (places.empty()) return;
   std::size_t from = array.size();
   array.resize(from + items.size());
   T* const data = array.data();
@@ -63,21 +64,38 @@ void put_in(std::vector<T>& array, std::span<const Index> places, const std::vec
 
 /// Renames the hexes of an ascending list none of which are gone.
 template <class Item>
-void rename_hexes(std::vector<Item>& list, std::span<const Index> gone, bool forward) {
-  auto end = list.end();
-  for (std::size_t i = gone.size(); i-- > 0;) {
-    const Index boundary = forward ? gone[i] : gone[i] - static_cast<Index>(i);
-    const auto begin =
-        std::partition_point(list.begin(), end, [&](const Item& item) { return first_named(item) < boundary; });
-    const Index shift = static_cast<Index>(i) + 1;
-    for (auto at = begin; at != end; ++at) first_named(*at) += forward ? -shift : shift;
-    end = begin;
-  }
+void rename_hexes(std::vector<Item>& list, std::span<const Index> gone, std::span<const Index> come) {
+  // Item i of `places` pushes all from `boundary(i)` on by one; the last ones first, so that each is moved once.
+  const auto push = [&](std::span<const Index> places, const auto& boundary, Index by) {
+    if (list.empty()) return;
+    const Index last = first_named(list.back());
+    std::size_t n = 0;  // of places that are not behind all items
+    for (std::size_t end = places.size(); n < end;) {
+      const std::size_t middle = (n + end) / 2;
+      if (boundary(middle) <= last)
+        n = middle + 1;
+      else
+        end = middle;
+    }
+    auto end = list.end();
+    for (std::size_t i = n; i-- > 0;) {
+      const Index from = boundary(i), shift = by * (static_cast<Index>(i) + 1);
+      const auto begin =
+          std::partition_point(list.begin(), end, [&](const Item& item) { return first_named(item) < from; });
+      for (auto at = begin; at != end; ++at) first_named(*at) += shift;
+      end = begin;
+    }
+  };
+  push(
+      gone, [&](std::size_t i) { return gone[i]; }, -1);
+  push(
+      come, [&](std::size_t i) { return come[i] - static_cast<Index>(i); }, 1);
 }
 
-/// Takes items out of a list and puts others in. gone: of the hexes that it names. The list has room.
-template <IsList List, IsList Edit>
-void apply_edit(const List& of, const Edit& out, const Edit& in, std::span<const Index> gone, bool forward) {
+/// Takes items out of a list and puts others in. rename_rest: gives those in between the names that they have
+/// afterwards. The list has room.
+template <IsList List, IsList Edit, class RenameRest>
+void apply_edit(const List& of, const Edit& out, const Edit& in, const RenameRest& rename_rest) {
   auto& list = of.items;
   auto* const values = of.values;
   // Out, from the back: each run behind an item that goes moves down when all before it are known.
@@ -99,7 +117,7 @@ void apply_edit(const List& of, const Edit& out, const Edit& in, std::span<const
   }
   move_until(list.end());
   list.resize(static_cast<std::size_t>(to - list.begin()));
-  rename_hexes(list, gone, forward);
+  rename_rest(list);
   // In, from the back.
   std::size_t i = list.size(), end = list.size() + in.items.size();
   list.resize(end);

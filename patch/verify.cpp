@@ -41,20 +41,6 @@ std::vector<Index> find_gone(const Mesh& input, const Mesh& refined, Index n_kep
   return gone;
 }
 
-std::vector<Index> moved_nodes(const Mesh& input, const Mesh& refined) {
-  constexpr Index size = 4096;
-  std::vector<std::vector<Index>> of_chunk(n_chunks(input.n_nodes(), size));
-  parallel_chunks(input.n_nodes(), size, [&](Index chunk, Index begin, Index end) {
-    const Vec3 *before = input.points.data(), *after = refined.points.data();
-    if (std::memcmp(before + begin, after + begin, static_cast<std::size_t>(end - begin) * sizeof(Vec3)) == 0) return;
-    for (Index n = begin; n < end; ++n)
-      if (before[n] != after[n]) of_chunk[chunk].push_back(n);
-  });
-  std::vector<Index> moved;
-  for (const auto& list : of_chunk) moved.insert(moved.end(), list.begin(), list.end());
-  return moved;
-}
-
 /// The whole mesh as the part that changed.
 ChangedPart find_change(const MeshedModel& input, const MeshedModel& refined) {
   ChangedPart change{input, input, refined};
@@ -63,9 +49,22 @@ ChangedPart find_change(const MeshedModel& input, const MeshedModel& refined) {
   change.n_kept = static_cast<Index>(
       std::ranges::partition_point(all, [&](Index h) { return hex_id(refined.mesh, h) <= last_old; }) - all.begin());
   change.gone = find_gone(input.mesh, refined.mesh, change.n_kept);
-  change.moved = moved_nodes(input.mesh, refined.mesh);
-  change.touched = touched_hexes(refined.mesh, change.n_kept, change.moved);
+  find_moved(change);
   return change;
+}
+
+std::vector<Index> moved_nodes(const Mesh& before, const Mesh& after) {
+  constexpr Index size = 4096;
+  std::vector<std::vector<Index>> of_chunk(n_chunks(before.n_nodes(), size));
+  parallel_chunks(before.n_nodes(), size, [&](Index chunk, Index begin, Index end) {
+    const Vec3 *was = before.points.data(), *is = after.points.data();
+    if (std::memcmp(was + begin, is + begin, static_cast<std::size_t>(end - begin) * sizeof(Vec3)) == 0) return;
+    for (Index n = begin; n < end; ++n)
+      if (was[n] != is[n]) of_chunk[chunk].push_back(n);
+  });
+  std::vector<Index> moved;
+  for (const auto& list : of_chunk) moved.insert(moved.end(), list.begin(), list.end());
+  return moved;
 }
 
 /// What the whole had and has, where it changed, for summaries.
@@ -84,14 +83,20 @@ struct Difference {
     for (const Index h : part.gone) whole_gone.push_back(part.whole_hex(h));
     n_whole = part.input.mesh.n_hexes() + part.after.mesh.n_hexes() - part.before.mesh.n_hexes();
   }
+  /// Of a hex of the whole that stays.
+  Index after(Index whole) const {
+    return change.renamed_hexes ? change.renamed_hexes->after(whole) : after_gaps(whole_gone, whole);
+  }
   /// Of a hex of the changed part.
   Index whole_after(Index hex) const {
-    if (hex < change.n_kept) return after_gaps(whole_gone, change.whole_hex(before_gaps(change.gone, hex)));
+    if (hex < change.n_kept) return after(change.whole_hex(before_gaps(change.gone, hex)));
+    if (change.renamed_hexes) return change.renamed_hexes->come[hex - change.n_kept];
     return hex - change.n_kept + change.input.mesh.n_hexes() - static_cast<Index>(change.gone.size());
   }
   std::int64_t id_after(Index hex) const {
     const Mesh &input = change.input.mesh, &before = change.before.mesh;
     if (hex < change.n_kept) return hex_id(input, change.whole_hex(before_gaps(change.gone, hex)));
+    if (!change.come_ids.empty()) return change.come_ids[hex - change.n_kept];
     // New ids follow the highest one.
     return hex_id(change.after.mesh, hex) - hex_id(before, before.n_hexes() - 1) + hex_id(input, input.n_hexes() - 1);
   }
@@ -137,7 +142,7 @@ Summary updated(const Summary& before, Metric metric, const Difference& differen
     if (kept.empty() && is_gone) list = kept = extremes(input, quality(metric, input), largest, difference.whole_taken);
     if (is_gone && !kept.empty())
       extreme = {largest ? -kept.front().first : kept.front().first, find_hex(input, kept.front().second)};
-    extreme.hex = is_gone && kept.empty() ? -1 : after_gaps(difference.whole_gone, extreme.hex);
+    extreme.hex = is_gone && kept.empty() ? -1 : difference.after(extreme.hex);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (extreme.hex < 0 || values[i] == extreme.value || (values[i] > extreme.value) == largest)
         extreme.offer(values[i], difference.whole_after(difference.added[i]), largest);
@@ -269,8 +274,12 @@ OffModel off_after(const OffModel& before, const ChangedPart& change) {
   std::vector<Index> nodes = change.moved;
   for (Index n = change.before.mesh.n_nodes(); n < change.after.mesh.n_nodes(); ++n) nodes.push_back(n);
   OffModel fresh = detail::off_model(change.after.mesh, change.after.association, *change.after.model, nodes);
-  if (fresh.node < 0 || (before.node >= 0 && !(fresh.max > before.max))) return before;
-  fresh.node = change.whole_node(fresh.node);
+  if (fresh.node < 0 || (before.node >= 0 && !(fresh.max > before.max))) {
+    fresh = before;
+    if (change.renamed_nodes && fresh.node >= 0) fresh.node = change.renamed_nodes->after(fresh.node);
+  } else {
+    fresh.node = change.whole_node_after(fresh.node);
+  }
   return fresh;
 }
 
@@ -345,17 +354,58 @@ Measured measured_after(const Report& report) {
   return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad, report.extremes};
 }
 
-Index ChangedPart::whole_node(Index node) const {
-  if (nodes.empty()) return node;
-  const auto n_part = static_cast<Index>(nodes.size());
-  return node < n_part ? nodes[node] : node - n_part + input.mesh.n_nodes();
+Index ChangedPart::whole_node_after(Index node) const {
+  const Index n_part = before.mesh.n_nodes();
+  if (!renamed_nodes) return node < n_part ? whole_node(node) : node - n_part + input.mesh.n_nodes();
+  return node < n_part ? renamed_nodes->after(whole_node(node)) : renamed_nodes->come[node - n_part];
 }
 
-std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<const Index> moved) {
-  if (moved.empty()) return {};
+void find_moved(ChangedPart& change) {
+  const Mesh& after = change.after.mesh;
+  change.moved = moved_nodes(change.before.mesh, after);
+  if (change.moved.empty()) return;
   std::vector<std::uint8_t> has_moved(after.points.size(), 0);
-  for (const Index n : moved) has_moved[n] = 1;
-  return touching_hexes(std::span(after.hexes).first(n_kept), has_moved);
+  for (const Index n : change.moved) has_moved[n] = 1;
+  change.touched = touching_hexes(std::span(after.hexes).first(change.n_kept), has_moved);
+}
+
+MeshedModel in_former_order(const MeshedModel& before, const MeshedModel& after, std::span<const Index> old_node,
+                            std::span<const Index> old_hex) {
+  MeshedModel result;
+  result.model = after.model;
+  const auto places = [](std::span<const Index> old, Index n_before) {
+    std::vector<Index> place(old.begin(), old.end());
+    for (Index& p : place)
+      if (p < 0) p = n_before++;
+    return place;
+  };
+  const std::vector<Index> node = places(old_node, before.mesh.n_nodes());
+  const auto put_nodes = [&](auto& to, const auto& was, const auto& from) {
+    to = was;
+    if (from.empty()) return;
+    to.resize(std::max(to.size(), static_cast<std::size_t>(before.mesh.n_nodes()) +
+                                      static_cast<std::size_t>(std::ranges::count(old_node, -1))));
+    parallel_each(node.size(), [&](std::size_t n) { to[node[n]] = from[n]; });
+  };
+  put_nodes(result.mesh.points, before.mesh.points, after.mesh.points);
+  put_nodes(result.association.node_owner, before.association.node_owner, after.association.node_owner);
+  put_nodes(result.association.node_parameters, before.association.node_parameters, after.association.node_parameters);
+  std::vector<Index> order = indices_where(after.mesh.n_hexes(), [&](Index h) { return old_hex[h] >= 0; });
+  for (Index h = 0; h < after.mesh.n_hexes(); ++h)
+    if (old_hex[h] < 0) order.push_back(h);
+  std::vector<Index> hex(order.size());
+  result.mesh.hexes.resize(order.size());
+  parallel_each(order.size(), [&](std::size_t i) {
+    hex[order[i]] = static_cast<Index>(i);
+    result.mesh.hexes[i] = after.mesh.hexes[order[i]];
+    for (Index& n : result.mesh.hexes[i]) n = node[n];
+  });
+  if (!after.association.hex_volume.empty())
+    result.association.hex_volume = items_at(after.association.hex_volume, order);
+  result.association.surface_faces = after.association.surface_faces;
+  for (Side& side : result.association.surface_faces) side.hex = hex[side.hex];
+  std::ranges::sort(result.association.surface_faces);
+  return result;
 }
 
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report) {
@@ -367,6 +417,7 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
   if ((n_new + std::ssize(change.gone) + std::ssize(change.touched)) > difference.n_whole / small_part) return false;
   if (std::ranges::any_of(change.moved, [&](Index n) { return change.whole_node(n) == known.off_cad.node; }))
     return false;
+  if (change.renamed_nodes && change.renamed_nodes->is_gone(known.off_cad.node)) return false;
   if (!is_sound(change)) return false;
 
   set_before(known, report);
@@ -382,6 +433,11 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
   return true;
 }
 
+void verify_unchanged(const Measured& known, Report& report) {
+  set_before(known, report);
+  set_after(known, report);
+}
+
 void verify_all(const MeshedModel& refined, const Measured& before, Report& report) {
   set_before(before, report);
   set_after(measured(refined), report);
@@ -391,14 +447,43 @@ void verify_all(const MeshedModel& refined, const Measured& before, Report& repo
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));
 }
 
-void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, bool is_renumbered,
+namespace {
+
+bool verify_renumbered(const MeshedModel& input, const Measured& known, const MeshedModel& refined,
+                       const OldPlaces& old, Report& report) {
+  if (!refined.model || refined.association.empty()) return false;
+  const auto changes = [](std::span<const Index> places, Index n_before) {
+    Reindexing all;
+    std::vector<std::uint8_t> stays(static_cast<std::size_t>(n_before), 0);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i] >= 0)
+        stays[places[i]] = 1;
+      else
+        all.come.push_back(static_cast<Index>(i));
+    all.gone = indices_where(n_before, [&](Index i) { return stays[i] == 0; });
+    return all;
+  };
+  const Reindexing nodes = changes(old.node, input.mesh.n_nodes()), hexes = changes(old.hex, input.mesh.n_hexes());
+  const MeshedModel after = in_former_order(input, refined, old.node, old.hex);
+  std::vector<std::int64_t> ids;
+  for (const Index h : hexes.come) ids.push_back(hex_id(refined.mesh, h));
+  ChangedPart change{input, input, after};
+  change.n_kept = after.mesh.n_hexes() - static_cast<Index>(hexes.come.size());
+  change.gone = hexes.gone;
+  find_moved(change);
+  change.renamed_nodes = &nodes;
+  change.renamed_hexes = &hexes;
+  change.come_ids = ids;
+  return verify_change(change, known, report);
+}
+
+}  // namespace
+
+void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, const OldPlaces* old,
             Report& report) {
-  if (known && is_unchanged(input, refined)) {
-    set_before(*known, report);
-    set_after(*known, report);
-    return;
-  }
-  if (known && !is_renumbered && verify_change(find_change(input, refined), *known, report)) return;
+  if (known && is_unchanged(input, refined)) return verify_unchanged(*known, report);
+  if (known && !old && verify_change(find_change(input, refined), *known, report)) return;
+  if (known && old && !old->node.empty() && verify_renumbered(input, *known, refined, *old, report)) return;
   verify_all(refined, known ? *known : measured_without_cad(input.mesh), report);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "hextwist/patch/extremes.h"
 #include "hextwist/sizing/report.h"
@@ -28,8 +29,11 @@ Measured measured_after(const Report& report);
 /// nodes, for these might lie in a face across a crack. Sides of new hexes with nothing behind must be on the CAD. If
 /// anything at all is found there, or the change is a large part of the mesh, everything is done from scratch.
 ///
-/// is_renumbered: nodes of the input may have other numbers, so that the change is not known.
-void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, bool is_renumbered,
+/// old: null where nodes of the input are the first and hexes have its ids; empty where the change is not known.
+struct OldPlaces {
+  std::span<const Index> node, hex;  ///< per node and hex of the refined mesh: the same one of the input, -1
+};
+void verify(const MeshedModel& input, const Measured* known, const MeshedModel& refined, const OldPlaces* old,
             Report& report);
 
 }  // namespace hextwist

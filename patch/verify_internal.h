@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/patch/verify.h"
 
 namespace hextwist {
@@ -13,23 +14,37 @@ namespace hextwist {
 struct ChangedPart {
   const MeshedModel& input;   ///< all of it, before
   const MeshedModel& before;  ///< the part
-  const MeshedModel& after;
+  const MeshedModel& after;   ///< nodes of `before` are the first; those that are gone are nodes of no hex
   std::span<const Index> nodes = {}, hexes = {};  ///< of `before` in `input`; empty: the part is the whole
   Index n_kept = 0;                               ///< hexes of `after` 0 .. n_kept - 1 are hexes of `before`
   std::vector<Index> gone = {};                   ///< hexes of `before` that were cut
   std::vector<Index> moved = {};                  ///< nodes of `before` that lie elsewhere now
   std::vector<Index> touched = {};                ///< kept hexes of `after` with such a node
+  /// How nodes and hexes of the whole are called afterwards, and which ids the hexes that come (in the order of
+  /// `after`) have there. Null: all that is new comes last, in that order, and so do the ids.
+  const Reindexing *renamed_nodes = nullptr, *renamed_hexes = nullptr;
+  std::span<const std::int64_t> come_ids = {};
 
-  /// Numbers of the whole: of nodes and hexes of `before`; of nodes of `after`.
-  Index whole_node(Index node) const;
+  /// Numbers in the whole: before, of nodes and hexes of `before`; after, of nodes of `after`.
   Index whole_hex(Index hex) const { return hexes.empty() ? hex : hexes[hex]; }
+  Index whole_node(Index node) const { return nodes.empty() ? node : nodes[node]; }
+  Index whole_node_after(Index node) const;
 };
 
-/// The kept hexes of `after` with a node that moved.
-std::vector<Index> touched_hexes(const Mesh& after, Index n_kept, std::span<const Index> moved);
+/// Fills in what moved and what that touches. Precondition: the rest is known.
+void find_moved(ChangedPart& change);
+
+/// A mesh with nodes and hexes in the order of the mesh before: those that stay first, then the new ones. Nodes that
+/// are gone stay too, without hexes. No more than verifying looks at. old_node, old_hex: per node and hex the same
+/// before, -1.
+MeshedModel in_former_order(const MeshedModel& before, const MeshedModel& after, std::span<const Index> old_node,
+                            std::span<const Index> old_hex);
 
 /// verify() by the change alone. False when only doing everything from scratch will do; the report is then as it was.
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report);
+
+/// What verify() says of a mesh that is the input.
+void verify_unchanged(const Measured& known, Report& report);
 
 /// verify() where that was so.
 void verify_all(const MeshedModel& refined, const Measured& known, Report& report);

@@ -27,10 +27,10 @@ void place(const Mesh& old_mesh, const Association& old_association, const Split
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end
 /// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
 /// (inverted_hexes() of validity.h). keep_jumps as in SmoothOptions. progress is called after each sweep; once it
-/// returns false, repair stops soon, and the caller should drop the mesh.
+/// returns false, repair stops soon, and the caller should drop the mesh. had_to: whether there were any.
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed = {},
-                                      const SmoothProgress& progress = {},
-                                      std::span<const std::string> keep_jumps = {});
+                                      const SmoothProgress& progress = {}, std::span<const std::string> keep_jumps = {},
+                                      bool* had_to = nullptr);
 
 }  // namespace hextwist

@@ -135,10 +135,12 @@ std::vector<Index> return_to_owners(const Model& model, Mesh& mesh, Association&
 
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
                                       Association& association, std::span<const Index> fixed,
-                                      const SmoothProgress& progress, std::span<const std::string> keep_jumps) {
+                                      const SmoothProgress& progress, std::span<const std::string> keep_jumps,
+                                      bool* had_to) {
   std::vector<OffOwner> rows;
   const Staying stays{fixed, keep_jumps};
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
+  if (had_to) *had_to = !bad.empty();
   const Index first_new = split.lineage.n_old_nodes;
   const auto owner = [&](Index node) { return association.empty() ? Owner{3, 1} : association.node_owner[node]; };
 

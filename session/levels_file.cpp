@@ -178,7 +178,7 @@ void check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
 void write_levels(const Transaction& run, const std::filesystem::path& file, bool overwrite) {
   if (!run.state.levelling) throw Error("there are no levels to export: this mesh is a base");
   Levelling levelling = *run.state.levelling;
-  levelling.forest = grown(std::move(levelling.forest));
+  levelling.forest = with_stack(grown(std::move(levelling.forest)), run.meshed->mesh);
   const MeshedModel& base = *levelling.forest.base;
   const GrownForest& forest = *levelling.forest.grown;
   Replacement replacement(file, overwrite);
@@ -234,6 +234,7 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
       next[0] <= mesh.mesh.node_ids.back() || next[1] <= mesh.mesh.hex_ids.back())
     in.fail("has ids that do not fit its cells");
   if (mesh.mesh.node_ids.back() == n_nodes && forest.base->mesh.node_ids.empty()) mesh.mesh.node_ids = {};
+  made->hexes = handed_hexes(made->pieces, made->hex_order, forest.base->mesh.n_hexes());
   made->next_node_id = next[0];
   made->next_hex_id = next[1];
   forest.grown = made;

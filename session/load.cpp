@@ -293,9 +293,14 @@ void accept_refined(Transaction& run, RefineResult result) {
   std::vector<Index> still;
   for (Index n = 0; n < run.meshed->mesh.n_nodes(); ++n)
     if (result.old_node[n] >= 0 && std::ranges::binary_search(*fixed, result.old_node[n])) still.push_back(n);
-  if (still.size() < fixed->size())
-    run.note(counted(static_cast<std::int64_t>(fixed->size() - still.size()), "fixed node") + " of before " +
-             (fixed->size() - still.size() == 1 ? "is" : "are") + " no more");
+  take_fixed(run, std::move(still));
+}
+
+void take_fixed(Transaction& run, std::vector<Index> still) {
+  const std::size_t n_gone = run.state.fixed_nodes->size() - still.size();
+  if (n_gone > 0)
+    run.note(counted(static_cast<std::int64_t>(n_gone), "fixed node") + " of before " + (n_gone == 1 ? "is" : "are") +
+             " no more");
   run.state.fixed_nodes = still.empty() ? nullptr : std::make_shared<const std::vector<Index>>(std::move(still));
 }
 

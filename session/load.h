@@ -33,6 +33,9 @@ void take_measured(Transaction& run, const Report& report);
 /// The levelling of the mesh that the command has made. Null: says so where there was one.
 void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling);
 
+/// The fixed nodes that are left of those that there were, by their new numbers.
+void take_fixed(Transaction& run, std::vector<Index> still);
+
 /// Takes members out of all groups that mean nothing for a new mesh, or drops the groups where the CAD is new too.
 void forget_members(ModelState& state, bool also_cad);
 

@@ -5,6 +5,7 @@
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/syntax.h"
 #include "hextwist/session/load.h"
+#include "hextwist/session/refining.h"
 #include "hextwist/session/run.h"
 #include "hextwist/sizing/levelling.h"
 
@@ -101,20 +102,21 @@ AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& valu
     if (const auto& fixed = run.state.fixed_nodes)
       options.fixed.insert(options.fixed.end(), fixed->begin(), fixed->end());
     options.keep_jumps.insert(options.keep_jumps.end(), run.state.keep_jumps.begin(), run.state.keep_jumps.end());
-    options.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
-    AdaptResult result = adapt(*run.meshed, values, options, core.callbacks.progress);
-    for (const std::string& line : result.report.notices) run.note(line);
-    run.record().seconds = result.report.seconds;
-    run.record().filled_hexes = result.report.filled_hexes;
-    outcome = {std::move(result.origin), std::move(result.report), std::move(result.came_from)};
+    Request request = adapt_request(run.meshed->mesh, values, options);
+    if (request.target.ids.empty() && std::holds_alternative<Cuts>(request.how)) {  // no flag at all
+      AdaptResult same = hextwist::adapt(*run.meshed, values, options);
+      outcome = {std::move(same.origin), std::move(same.report), std::move(same.came_from)};
+      return;
+    }
+    Refining refining = prepare_refining(run, std::move(request));
+    const Report& report = refining.report();
+    for (const std::string& line : report.notices) run.note(line);
+    run.record().seconds = report.seconds;
+    run.record().filled_hexes = report.filled_hexes;
+    outcome = {origin_of(refining, *run.meshed), report, came_from(refining, *run.meshed)};
     // Nothing was cut, and then nothing was measured: the mesh stays, without a field of zeros.
     if (std::ranges::all_of(outcome.came_from.kind, [](HexOrigin kind) { return kind == HexOrigin::same; })) return;
-    RefineResult refined;
-    refined.refined = std::move(result.refined);
-    refined.report = outcome.report;
-    refined.levelling = std::move(result.levelling);
-    refined.old_node = std::move(result.old_node);
-    accept_refined(run, std::move(refined));
+    accept_refining(run, std::move(refining));
   });
   return outcome;
 }

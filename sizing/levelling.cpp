@@ -18,32 +18,19 @@
 namespace hextwist {
 namespace {
 
-constexpr const char* level_field = "level";
+constexpr const char* level_name = "level";
 
 /// make: else null where there is none.
 Field* level_field_of(Mesh& mesh, bool make) {
-  const auto found = std::ranges::find_if(mesh.fields, [](const Field& field) {
-    return field.name == level_field && field.on == Field::On::hex && field.components == 1;
-  });
-  if (found != mesh.fields.end()) return &*found;
+  if (const Field* found = level_field(mesh)) return &mesh.fields[static_cast<std::size_t>(found - mesh.fields.data())];
   if (!make) return nullptr;
-  return &mesh.fields.emplace_back(Field{level_field, Field::On::hex, 1, std::vector<double>(mesh.hexes.size())});
+  return &mesh.fields.emplace_back(Field{level_name, Field::On::hex, 1, std::vector<double>(mesh.hexes.size())});
 }
 
 /// Throws Error when what is asked for cannot fit into memory.
 void check_fits(const Mesh& mesh, std::size_t n_cut, int numsplit) {
   const double n = mesh.n_hexes() + static_cast<double>(n_cut) * (std::pow(n_cell_children, numsplit) - 1);
   check_memory(n, n, "at least ");
-}
-
-/// Levels by which the hexes of the request become finer or coarser.
-LevelMarks wishes_of(const Forest& forest, State& state) {
-  const Mesh& mesh = state.input.mesh;
-  if (const auto* changes = std::get_if<LevelChanges>(&state.request.how)) return wishes(forest, changes->by);
-  const int numsplit = std::get<Cuts>(state.request.how).numsplit;
-  const std::vector<Index> cut = region_target(state.input, state.request.target, state.report.notices);
-  check_fits(mesh, cut.size(), numsplit);
-  return wishes(forest, cut, numsplit);
 }
 
 /// The request's levelling, grown.
@@ -55,7 +42,7 @@ Levelling start_of(const State& state) {
   } else {  // for as long as the request runs
     start.forest = plant(std::shared_ptr<const MeshedModel>(std::shared_ptr<void>(), &input));
   }
-  start.forest = grown(std::move(start.forest));
+  start.forest = with_stack(grown(std::move(start.forest)), input.mesh);
   return start;
 }
 
@@ -86,25 +73,27 @@ struct LevelRun {
     if (stopped) throw Cancelled();
     return step;
   }
-  void adopt(LevelStep step);
+  /// is_bare: the forest has no wishes any more.
+  void adopt(LevelStep step, bool is_bare);
+  void adopt(LevelStep step) {
+    const bool is_bare = step.forest.is_bare();
+    adopt(std::move(step), is_bare);
+  }
 };
 
-void LevelRun::adopt(LevelStep step) {
+void LevelRun::adopt(LevelStep step, bool is_bare) {
   const Request& request = state.request;
   std::vector<Index> pinned = request.finish.fixed;
   std::ranges::sort(pinned);
   Index n_dropped = 0;
   std::vector<Vec3> straight;  // where fields have been evaluated
   if (has_nodal_fields(state.input.mesh)) straight = step.mesh.mesh.points;
-  if (step.forest.is_bare()) from.overlay = {};  // as if nothing had ever been done
+  if (is_bare) from.overlay = {};  // as if nothing had ever been done
   Overlay overlay = put_on(from.overlay, state.input.mesh, state.input.association, pinned, step, n_dropped);
   if (n_dropped > 0)
     state.note(counted(n_dropped, "node") +
                " that had been moved for better shapes went back, as hexes around changed");
-  state.report.graded_cells += step.n_forced;
-  if (step.n_forced > 0)
-    state.note("cut " + counted(step.n_forced, "cell") +
-               " more than asked for, so that no piece of a transition is cut");
+  tell_forced(step.n_forced, state.report);
   std::ranges::move(step.off_nodes, std::back_inserter(state.report.off_nodes));
   RefineResult result;
   result.refined = std::move(step.mesh);
@@ -122,12 +111,46 @@ void LevelRun::adopt(LevelStep step) {
 
 }  // namespace
 
+const Field* level_field(const Mesh& mesh) {
+  const auto found = std::ranges::find_if(mesh.fields, [](const Field& field) {
+    return field.name == level_name && field.on == Field::On::hex && field.components == 1;
+  });
+  return found == mesh.fields.end() ? nullptr : &*found;
+}
+
+void tell_forced(Index n_forced, Report& report) {
+  report.graded_cells += n_forced;
+  if (n_forced > 0)
+    report.notices.push_back("cut " + counted(n_forced, "cell") +
+                             " more than asked for, so that no piece of a transition is cut");
+}
+
+LevelMarks wishes_of(const Forest& forest, const MeshedModel& input, const Request& request,
+                     std::vector<std::string>& notices) {
+  if (const auto* changes = std::get_if<LevelChanges>(&request.how)) return wishes(forest, changes->by);
+  const int numsplit = std::get<Cuts>(request.how).numsplit;
+  const std::vector<Index> cut = region_target(input, request.target, notices);
+  check_fits(input.mesh, cut.size(), numsplit);
+  return wishes(forest, cut, numsplit);
+}
+
+void run_levels(State& state, KnownLevels& known) {
+  state.begin("levels");
+  LevelRun run(state);
+  run.options.graded = &known.graded;
+  LevelStep step = run.change(known.wished);
+  known.is_repaired = step.is_repaired;
+  step.n_forced = known.n_forced;
+  run.adopt(std::move(step), known.is_bare);
+}
+
 void run_levels(State& state) {
   state.begin("levels");
   LevelRun run(state);
   std::optional<LevelSizes> sizes;
   if (std::holds_alternative<Sizes>(state.request.how)) sizes.emplace(run.from.forest, state);
-  LevelStep step = run.change(sizes ? sizes->wishes(run.options) : wishes_of(run.from.forest, state));
+  LevelStep step = run.change(sizes ? sizes->wishes(run.options)
+                                    : wishes_of(run.from.forest, state.input, state.request, state.report.notices));
   if (sizes) state.report.sizes = sizes->report(step);
   run.adopt(std::move(step));
 }

@@ -29,10 +29,29 @@ LevellingPtr levelling_after_move(const LevellingPtr& before, std::span<const In
 /// smoothing.
 void run_levels(State& state);
 
+/// The levels that a request asks for, of what its levelling has: no sizes. What is said about it goes to `notices`.
+LevelMarks wishes_of(const Forest& forest, const MeshedModel& input, const Request& request,
+                     std::vector<std::string>& notices);
+
+/// Says how many cells are cut for the sake of gradation.
+void tell_forced(Index n_forced, Report& report);
+
+/// run_levels() in a part of a mesh, where the cells are known: the part does not show all that gradation needs.
+struct KnownLevels {
+  LevelMarks wished, graded;
+  Index n_forced = 0;        ///< in the whole
+  bool is_bare = false;      ///< nothing is wished for in the whole
+  bool is_repaired = false;  ///< set: inverted children were repaired
+};
+void run_levels(State& state, KnownLevels& known);
+
 /// Approach::combination with numsplit n above 1: the hexes that touch the target are cut by n - 1 levels, those that
 /// touch it then by the combination, so that no piece of a transition is cut either. Returns false where that can't be
 /// had: of nodes, edges and faces of a mesh that was cut by levels already.
 bool run_combination_by_levels(State& state);
+
+/// The hex field of levels; null: there is none.
+const Field* level_field(const Mesh& mesh);
 
 /// After a pass that knows nothing of levels: adds one in the hex field of levels (Finish::level_field) to the children
 /// of hexes all of whose edges were cut. make: the field where there is none.

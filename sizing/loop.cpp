@@ -148,8 +148,17 @@ void State::evaluate_fields() {
   if (straight_.empty()) return;
   begin("carry");
   Mesh& mesh = result_.refined.mesh;
-  const auto is_elsewhere = [&](Index n) { return mesh.points[n] != straight_[n]; };
-  evaluate_nodal_fields(input.mesh, mesh, indices_where(mesh.n_nodes(), is_elsewhere), result_.origin, mesh.fields);
+  const std::vector<Index>& old_node = result_.old_node;
+  const auto old = [&](Index n) { return !old_node.empty() ? old_node[n] : n < input.mesh.n_nodes() ? n : -1; };
+  std::vector<Index> elsewhere;
+  for (Index n = 0; n < mesh.n_nodes(); ++n) {
+    if (mesh.points[n] == straight_[n]) continue;
+    if (old(n) < 0 || mesh.points[n] != input.mesh.points[old(n)])
+      elsewhere.push_back(n);
+    else  // where it was in the input
+      copy_nodal_values(input.mesh, old(n), mesh, n);
+  }
+  evaluate_nodal_fields(input.mesh, mesh, elsewhere, result_.origin, mesh.fields);
 }
 
 void State::smooth_between_passes() {
@@ -202,6 +211,10 @@ RefineResult run_passes(State& state, Approach approach) {
     ;
   else
     state.run(*make_technique(approach, state));
+  return finish_passes(state);
+}
+
+RefineResult finish_passes(State& state) {
   if (!state.request.finish.dry_run) {
     if (state.request.finish.smooth) state.smooth_band();
     state.close();

@@ -81,5 +81,7 @@ class State {
 
 /// All passes of a request, and smoothing: everything but the last check.
 RefineResult run_passes(State& state, Approach approach);
+/// What comes after the passes.
+RefineResult finish_passes(State& state);
 
 }  // namespace hextwist

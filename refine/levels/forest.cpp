@@ -1,9 +1,11 @@
 #include "hextwist/refine/levels/forest.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/refine/levels/gradation.h"
 #include "hextwist/refine/levels/reorder.h"
@@ -18,7 +20,9 @@ std::int64_t next_id(const Mesh& mesh, std::int64_t (*id)(const Mesh&, Index), I
 
 std::shared_ptr<GrownForest> bare(const Mesh& base) {
   auto grown = std::make_shared<GrownForest>();
+  grown->has_stack = true;
   grown->pieces = level_pieces({}, base.n_hexes());
+  grown->hexes.n_base = base.n_hexes();
   grown->next_node_id = next_id(base, node_id, base.n_nodes());
   grown->next_hex_id = next_id(base, hex_id, base.n_hexes());
   return grown;
@@ -120,6 +124,7 @@ MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Ind
   grown.pieces = level_pieces(grown.stack, base.n_hexes());
   grown.next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
   grown.next_hex_id += built.mesh.mesh.n_hexes() - grown.pieces.first[1];  // as change() gives them
+  grown.hexes = handed_hexes(grown.pieces, {}, base.n_hexes());
   return std::move(built.mesh);
 }
 
@@ -135,46 +140,59 @@ Forest grown(Forest forest, const std::vector<Index>& fixed) {
   return forest;
 }
 
-std::vector<std::uint8_t> levels_of(const Forest& forest) {
-  const LevelPieces& pieces = forest.grown->pieces;
-  std::vector<std::uint8_t> level(pieces.cell.size());
-  for (int block = 0; block < pieces.n_levels(); ++block)
-    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h)
-      level[h] = static_cast<std::uint8_t>(pieces.leaf(block, h).level);
-  const std::vector<Index>& order = forest.grown->hex_order;
-  if (order.empty()) return level;
-  std::vector<std::uint8_t> handed(level.size());
-  for (std::size_t i = 0; i < order.size(); ++i) handed[i] = level[order[i]];
-  return handed;
+Forest with_stack(Forest forest, const Mesh& mesh) {
+  if (forest.grown->has_stack) return forest;
+  auto grown = std::make_shared<GrownForest>(*forest.grown);
+  LevelledMesh built = build_levels(*forest.base, grown->marks, {}, {.topology_only = true});
+  grown->stack = std::move(built.stack);
+  grown->pieces = level_pieces(grown->stack, forest.base->mesh.n_hexes());
+  grown->hex_order = hex_order(grown->hexes);
+  const std::vector<Hex>& by_level = built.mesh.mesh.hexes;
+  assert(by_level.size() == mesh.hexes.size() && built.mesh.mesh.points.size() == mesh.points.size());
+  grown->node_order.resize(mesh.points.size());
+  std::iota(grown->node_order.begin(), grown->node_order.end(), 0);  // nodes of the base that no hex has
+  for (std::size_t h = 0; h < by_level.size(); ++h) {
+    const Hex& hex = by_level[grown->hex_order.empty() ? h : static_cast<std::size_t>(grown->hex_order[h])];
+    for (std::size_t c = 0; c < hex.size(); ++c) grown->node_order[mesh.hexes[h][c]] = hex[c];
+  }
+  if (std::ranges::is_sorted(grown->node_order)) grown->node_order.clear();
+  grown->has_stack = true;
+  forest.grown = std::move(grown);
+  return forest;
 }
 
-std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> hexes) {
-  const LevelPieces& pieces = forest.grown->pieces;
-  const std::vector<Index> places = handed_out(forest.grown->hex_order);
-  const auto place = [&](Index h) { return places.empty() ? h : places[h]; };
-  // Per hex: level and number of the cell that its own was cut out of; of a hex of the base, that one.
-  const auto for_each = [&](const auto& f) {
-    for (int block = 0; block < pieces.n_levels(); ++block)
-      for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
-        const LevelPieces::Leaf leaf = pieces.leaf(block, h);
-        f(place(h), leaf.level == 0 ? LevelPieces::Leaf{-1, leaf.cell}
-                                    : LevelPieces::Leaf{leaf.level - 1, cell_parent(leaf.cell)});
-      }
+std::vector<std::uint8_t> levels_of(const Forest& forest) {
+  const HandedHexes& hexes = forest.grown->hexes;
+  std::vector<std::uint8_t> level(static_cast<std::size_t>(hexes.n_hexes()), 0);
+  parallel_each(hexes.cell.size(), [&](std::size_t i) {
+    level[hexes.n_whole() + i] = static_cast<std::uint8_t>(hexes.leaf_of_piece(i).level);
+  });
+  return level;
+}
+
+std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> asked) {
+  const HandedHexes& hexes = forest.grown->hexes;
+  // The cell that the piece's own was cut out of.
+  const auto parent = [&](std::size_t piece) {
+    const LevelPieces::Leaf leaf = hexes.leaf_of_piece(piece);
+    return leaf.level == 0 ? LevelPieces::Leaf{-1, leaf.cell}
+                           : LevelPieces::Leaf{leaf.level - 1, cell_parent(leaf.cell)};
   };
-  std::vector<LevelPieces::Leaf> cells;
-  for_each([&](Index h, const LevelPieces::Leaf& cell) {
-    if (std::ranges::binary_search(hexes, h)) cells.push_back(cell);
-  });
-  std::ranges::sort(cells);
   std::vector<Index> result;
-  for_each([&](Index h, const LevelPieces::Leaf& cell) {
-    if (std::ranges::binary_search(cells, cell)) result.push_back(h);
-  });
-  std::ranges::sort(result);
+  std::vector<LevelPieces::Leaf> cells;
+  for (const Index h : asked)
+    if (h < hexes.n_whole())
+      result.push_back(h);
+    else
+      cells.push_back(parent(static_cast<std::size_t>(h - hexes.n_whole())));
+  sort_unique(cells);
+  for (std::size_t i = 0; i < hexes.cell.size(); ++i)
+    if (std::ranges::binary_search(cells, parent(i))) result.push_back(hexes.n_whole() + static_cast<Index>(i));
   return result;
 }
 
-LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, const LevelOptions& options) {
+LevelStep change(const Forest& from, const Mesh& current, LevelMarks wished, const LevelOptions& options) {
+  const Forest forest = with_stack(from, current);
   const GrownForest& before = *forest.grown;
   const MeshedModel& base = *forest.base;
   LevelStep step;
@@ -182,7 +200,8 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   step.forest.wished = std::move(wished);
   const LevelMarks& wishes = step.forest.wished;
   const auto grown = std::make_shared<GrownForest>();
-  grown->marks = with_gradation(step.forest);
+  grown->marks = options.graded ? *options.graded : with_gradation(step.forest);
+  grown->has_stack = true;
   for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
   LevelledMesh built = build_levels(base, grown->marks, options.reuse.empty() ? before.stack : options.reuse,
                                     {options.keep_meshes, options.fixed, options.progress, options.keep_jumps});
@@ -204,8 +223,10 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   built.mesh.mesh.fields =
       transferred_fields({current, built.mesh.mesh, grown->stack, step.old_node, step.origin}, options.extensive);
   built.mesh.mesh.results = current.results;  // which know the time that the fields are of
-  for (const auto& pass : grown->stack)
+  for (const auto& pass : grown->stack) {
     step.off_nodes.insert(step.off_nodes.end(), pass->off_nodes.begin(), pass->off_nodes.end());
+    step.is_repaired |= pass->is_repaired;
+  }
 
   if (wishes.empty()) {  // as if nothing had ever been cut
     step.forest.grown = bare(base.mesh);
@@ -240,6 +261,7 @@ LevelStep change(const Forest& forest, const Mesh& current, LevelMarks wished, c
   }
   grown->node_order = std::move(nodes.order);
   grown->hex_order = std::move(hexes.order);
+  grown->hexes = handed_hexes(grown->pieces, grown->hex_order, base.mesh.n_hexes());
   step.forest.grown = grown;
   return step;
 }

@@ -9,6 +9,7 @@
 
 #include <string>
 
+#include "hextwist/refine/levels/handed.h"
 #include "hextwist/refine/levels/match.h"
 
 namespace hextwist {
@@ -16,12 +17,16 @@ namespace hextwist {
 /// What was made of a forest's marks, and the order in which its mesh is handed out: ascending ids, while levelled
 /// meshes stand level by level.
 struct GrownForest {
-  LevelMarks marks;  ///< wished and forced
+  LevelMarks marks;                                ///< wished and forced
+  HandedHexes hexes;                               ///< of the mesh that is handed out
+  std::int64_t next_node_id = 0, next_hex_id = 0;  ///< ids that were never given
+
+  /// Level by level; left out where the mesh came about in a patch (with_stack() makes it).
+  bool has_stack = false;
   LevelStack stack;
   LevelPieces pieces;
   /// Per place of the mesh that is handed out: the place level by level. Empty: the same.
   std::vector<Index> node_order, hex_order;
-  std::int64_t next_node_id = 0, next_hex_id = 0;  ///< ids that were never given
 };
 
 /// The mesh of a forest is determined by base and wished marks but for ids and order, in which what was there before
@@ -38,8 +43,10 @@ Forest plant(std::shared_ptr<const MeshedModel> base);
 /// The forest in which these hexes of the base (ascending) and all that they become are cut `numsplit` times, for who
 /// makes its mesh by a pass.
 Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hexes, int numsplit);
-/// With all that was left out. Precondition: no more than one step leads to its mesh from the base.
+/// With what it grew to. Precondition where that was left out: no more than one step leads to its mesh from the base.
 Forest grown(Forest forest, const std::vector<Index>& fixed = {});
+/// With the stack too. Precondition: it is grown; mesh: what it handed out last.
+Forest with_stack(Forest forest, const Mesh& mesh);
 /// The same into `grown`; returns the mesh, level by level (ids and fields are to be set).
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed = {});
 /// The forest's wishes and what gradation needs besides; keeps base_corners.
@@ -65,8 +72,8 @@ std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> he
 /// With all cells in which these lie.
 LevelMarks closed(LevelMarks marks);
 /// Values per hex of the mesh handed out, in the order level by level. Throws Error when there is not one per hex.
-template <class T>
-std::vector<T> by_level(const Forest& forest, std::span<const T> values);
+/// Precondition: it has its stack.
+std::vector<std::uint8_t> by_level(const Forest& forest, std::span<const std::uint8_t> values);
 
 struct LevelOptions {
   std::vector<std::string> extensive;  ///< hex fields that are shared out and summed up instead of copied and averaged
@@ -75,6 +82,7 @@ struct LevelOptions {
   LevelStack reuse = {};               ///< a stack on the same base to begin from, instead of that of before
   SmoothProgress progress;
   std::vector<std::string> keep_jumps = {};  ///< hex fields whose jumps repairing leaves in place
+  const LevelMarks* graded = nullptr;        ///< the wished marks with what gradation needs, where that is known
 };
 
 struct LevelStep {
@@ -83,6 +91,7 @@ struct LevelStep {
   LevelOrigin origin;               ///< per hex of mesh: hexes of the mesh before
   std::vector<Index> old_node;      ///< per node of mesh: the same node before, -1
   Index n_forced = 0;               ///< cells that are cut for the sake of gradation alone
+  bool is_repaired = false;         ///< inverted children were repaired
   std::vector<OffOwner> off_nodes;  ///< of mesh
 };
 

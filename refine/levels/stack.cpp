@@ -74,11 +74,12 @@ Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& 
   Carried carried = carry(from.mesh, from.association, parts);
   made.mesh = {std::move(carried.mesh), from.model, std::move(carried.association)};
   check_interrupt();
-  if (made.mesh.model && !made.mesh.association.empty())
+  if (made.mesh.model && !made.mesh.association.empty() && !options.topology_only)
     place(from.mesh, from.association, parts, *made.mesh.model, made.mesh.mesh, made.mesh.association);
   check_interrupt();
-  pass.off_nodes = repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
-                                   options.fixed, options.progress, options.keep_jumps);
+  if (!options.topology_only)
+    pass.off_nodes = repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
+                                     options.fixed, options.progress, options.keep_jumps, &pass.is_repaired);
   pass.marks = marks;
   pass.n_kept = parts.n_kept();
   pass.n_hexes = made.mesh.mesh.n_hexes();

@@ -25,6 +25,7 @@ struct LevelPass {
   Index n_hexes = 0;                        ///< of the mesh after it
   Index n_nodes = 0;                        ///< likewise
   std::vector<OffOwner> off_nodes;          ///< what repair_children() had to leave off its curve or surface
+  bool is_repaired = false;                 ///< it had something to do
   std::shared_ptr<const MeshedModel> mesh;  ///< after it, without fields; null where nobody asked to keep it
 };
 /// Shared by all states that have the same marks up to there.
@@ -38,6 +39,7 @@ struct StackOptions {
   std::span<const Index> fixed = {};
   SmoothProgress progress = {};  ///< as in repair_children()
   std::span<const std::string> keep_jumps = {};
+  bool topology_only = false;  ///< nothing is placed or repaired
 };
 
 struct LevelledMesh {

@@ -1,5 +1,7 @@
 // From what hexes are asked to become to wished cells.
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -43,31 +45,47 @@ Asked merged(const Asked& a, const Asked& b) {
   return both;
 }
 
-/// Leaves of each level with the finest level that any of their hexes asks for. asked(hex, level of its leaf): the
-/// level, or -1 to leave the hex out.
-template <class AskedLevel>
-std::vector<Asked> asked_of_leaves(const LevelPieces& pieces, const AskedLevel& asked) {
-  std::vector<Asked> whole(static_cast<std::size_t>(pieces.n_levels())), cut(whole.size());
-  for (int block = 0; block < pieces.n_levels(); ++block)
-    for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
-      const LevelPieces::Leaf leaf = pieces.leaf(block, h);
-      const int level = asked(h, leaf.level);
-      if (level >= 0) (leaf.level == block ? whole : cut)[leaf.level].add(leaf.cell, level);
-    }
-  for (std::size_t level = 0; level < whole.size(); ++level) whole[level] = merged(whole[level], cut[level]);
-  return whole;
+/// Cells with levels asked for in them, in any order.
+using AskedCells = std::vector<std::pair<CellNumber, int>>;
+Asked in_order(AskedCells cells) {
+  if (!std::ranges::is_sorted(cells)) std::ranges::sort(cells);
+  Asked result;
+  for (const auto& [cell, level] : cells) result.add(cell, level);
+  return result;
 }
 
-/// Gives up cells in which nobody asks to be finer than they are.
-LevelMarks without_given_up(const LevelMarks& wished, const std::vector<Asked>& leaves) {
+/// Leaves of each level with the finest level that any of their hexes asks for. asked(hex, level of its leaf): the
+/// level, or -1 to leave the hex out. Of hexes of the base, those in `whole` (ascending) are asked.
+template <class AskedLevel>
+std::vector<Asked> asked_of_leaves(const HandedHexes& hexes, std::span<const Index> whole, const AskedLevel& asked) {
+  std::vector<std::array<AskedCells, 2>> cells(1);  // per level: whole ones, and those of which there are pieces
+  for (const Index h : whole)
+    if (const int level = asked(h, 0); level >= 0) cells[0][0].emplace_back(hexes.leaf(h).cell, level);
+  for (std::size_t i = 0; i < hexes.cell.size(); ++i) {
+    const LevelPieces::Leaf leaf = hexes.leaf_of_piece(i);
+    const int level = asked(hexes.n_whole() + static_cast<Index>(i), leaf.level);
+    if (level < 0) continue;
+    if (cells.size() <= static_cast<std::size_t>(leaf.level)) cells.resize(leaf.level + std::size_t{1});
+    cells[leaf.level][leaf.level != hexes.block(i)].emplace_back(leaf.cell, level);
+  }
+  std::vector<Asked> result;
+  for (auto& [of_whole, of_pieces] : cells)
+    result.push_back(merged(in_order(std::move(of_whole)), in_order(std::move(of_pieces))));
+  return result;
+}
+
+/// Gives up cells of these roots (ascending) in which nobody asks to be finer than they are.
+LevelMarks without_given_up(const LevelMarks& wished, std::vector<Asked> leaves, std::span<const Index> roots) {
   LevelMarks rest(wished.size());
+  leaves.resize(std::max(leaves.size(), wished.size()));
   Asked inside;  // cut cells of the level, with the finest level asked for inside
   for (std::size_t k = leaves.size(); k-- > 0;) {
     const auto level = static_cast<int>(k);
     for (std::size_t i = 0; k < wished.size() && i < wished[k].size(); ++i) {
       const CellNumber cell = wished[k].cell[i];
       const int of_leaf = leaves[k].find(cell), of_inside = inside.find(cell);
-      if (of_leaf >= level || of_inside > level) rest[k].add(cell, wished[k].corners[i]);
+      if (!std::ranges::binary_search(roots, root_of({level, cell})) || of_leaf >= level || of_inside > level)
+        rest[k].add(cell, wished[k].corners[i]);
     }
     Asked above;
     const Asked all = merged(leaves[k], inside);
@@ -119,39 +137,53 @@ LevelMarks needed(const std::vector<Asked>& leaves, Index n_base_hexes, bool all
 
 }  // namespace
 
-template <class T>
-std::vector<T> by_level(const Forest& forest, std::span<const T> values) {
+namespace {
+
+/// Throws Error when there is not one value per hex.
+void check_values(const HandedHexes& hexes, std::size_t n) {
+  if (n != static_cast<std::size_t>(hexes.n_hexes()))
+    throw Error("there are " + std::to_string(n) + " levels for " + std::to_string(hexes.n_hexes()) + " hexes");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> by_level(const Forest& forest, std::span<const std::uint8_t> values) {
+  check_values(forest.grown->hexes, values.size());
   const std::vector<Index>& order = forest.grown->hex_order;
-  if (values.size() != forest.grown->pieces.cell.size())
-    throw Error("there are " + std::to_string(values.size()) + " levels for " +
-                std::to_string(forest.grown->pieces.cell.size()) + " hexes");
-  std::vector<T> result(values.begin(), values.end());
+  std::vector<std::uint8_t> result(values.begin(), values.end());
   if (!order.empty()) parallel_each(order.size(), [&](std::size_t i) { result[order[i]] = values[i]; });
   return result;
 }
-template std::vector<std::int8_t> by_level(const Forest&, std::span<const std::int8_t>);
-template std::vector<std::uint8_t> by_level(const Forest&, std::span<const std::uint8_t>);
 
 LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change) {
-  const std::vector<std::int8_t> changes = by_level(forest, change);
-  const bool coarser = std::ranges::any_of(change, [](std::int8_t by) { return by < 0; });
-  const std::vector<Asked> leaves = asked_of_leaves(forest.grown->pieces, [&](Index h, int level) {
-    return coarser || changes[h] != 0 ? std::max(0, level + changes[h]) : -1;
+  const HandedHexes& hexes = forest.grown->hexes;
+  check_values(hexes, change.size());
+  std::vector<Index> coarser;  // roots
+  for (std::size_t i = 0; i < hexes.cell.size(); ++i)
+    if (change[hexes.n_whole() + i] < 0)
+      if (const Index root = hexes.root_of_piece(i); coarser.empty() || coarser.back() != root) coarser.push_back(root);
+  sort_unique(coarser);
+  const std::vector<Index> whole = indices_where(hexes.n_whole(), [&](Index h) { return change[h] > 0; });
+  const std::vector<Asked> leaves = asked_of_leaves(hexes, whole, [&](Index h, int level) {
+    const bool counts = change[h] != 0 || (!coarser.empty() && std::ranges::binary_search(coarser, hexes.root(h)));
+    return counts ? std::max(0, level + change[h]) : -1;
   });
-  return united(coarser ? without_given_up(forest.wished, leaves) : forest.wished,
+  return united(coarser.empty() ? forest.wished : without_given_up(forest.wished, leaves, coarser),
                 needed(leaves, forest.base->mesh.n_hexes(), false));
 }
 
 LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change) {
-  std::vector<std::int8_t> changes(forest.grown->pieces.cell.size(), 0);
+  std::vector<std::int8_t> changes(static_cast<std::size_t>(forest.grown->hexes.n_hexes()), 0);
   for (const Index h : hexes) changes[h] = static_cast<std::int8_t>(change);
   return wishes(forest, changes);
 }
 
 LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels) {
-  const std::vector<std::uint8_t> wanted = by_level(forest, levels);
-  const auto asked = [&](Index h, int) { return wanted[h] > 0 ? wanted[h] : -1; };
-  return needed(asked_of_leaves(forest.grown->pieces, asked), forest.base->mesh.n_hexes(), true);
+  const HandedHexes& hexes = forest.grown->hexes;
+  check_values(hexes, levels.size());
+  const std::vector<Index> whole = indices_where(hexes.n_whole(), [&](Index h) { return levels[h] > 0; });
+  const auto asked = [&](Index h, int) { return levels[h] > 0 ? levels[h] : -1; };
+  return needed(asked_of_leaves(hexes, whole, asked), forest.base->mesh.n_hexes(), true);
 }
 
 }  // namespace hextwist

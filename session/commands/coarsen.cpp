@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "hextwist/patch/refine.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
+#include "hextwist/session/refining.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/targets.h"
 
@@ -40,19 +40,19 @@ void do_coarsen(Execution& run) {
       throw Error("there is no field '" + printable(name) + "' of hexes");
   run.close_stage();
 
-  RefineResult result = refine(*run.meshed, request, run.core.callbacks.progress);
-  for (const std::string& line : result.report.notices) run.note(line);
-  run.record().seconds.insert(run.record().seconds.end(), result.report.seconds.begin(), result.report.seconds.end());
-  const Index before = mesh.n_hexes(), after = result.refined.mesh.n_hexes();
+  Refining refining = prepare_refining(run, std::move(request));
+  const Report report = refining.report();
+  for (const std::string& line : report.notices) run.note(line);
+  run.record().seconds.insert(run.record().seconds.end(), report.seconds.begin(), report.seconds.end());
   const double shape_before = run.state.measured.shape.min;
-  if (before == after && std::ranges::all_of(result.came_from.kind, [](HexOrigin k) { return k == HexOrigin::same; }))
+  if (refining.changes_nothing())
     run.note(
         "nothing became coarser: 27 hexes become one where all of them are named, and where no finer ones around need "
         "them");
-  accept_refined(run, std::move(result));
-  run.say(text_of(command.statement) + ": " + std::to_string(before) + " -> " + counted(after, EntityKind::hex) +
-          ", smallest shape " + short_number(shape_before) + " -> " + short_number(run.state.measured.shape.min) +
-          off_text(", ", run.state.measured.off_cad, run.state.has_cad));
+  accept_refining(run, std::move(refining));
+  run.say(text_of(command.statement) + ": " + std::to_string(report.hexes_before) + " -> " +
+          counted(report.hexes_after, EntityKind::hex) + ", smallest shape " + short_number(shape_before) + " -> " +
+          short_number(run.state.measured.shape.min) + off_text(", ", run.state.measured.off_cad, run.state.has_cad));
 }
 
 }  // namespace hextwist

@@ -3,12 +3,9 @@
 #include <utility>
 
 #include "hextwist/mesh/quality/histogram.h"
-#include "hextwist/patch/adapt.h"
-#include "hextwist/patch/patch_refine.h"
-#include "hextwist/patch/refine_known.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
-#include "hextwist/sizing/levelling.h"
+#include "hextwist/session/refining.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -150,20 +147,6 @@ Request request_of(const Execution& run) {
   return request;
 }
 
-/// What the refinement would do to the mesh in a patch, where it is small; the session knows who is whose neighbour.
-std::optional<PatchResult> refine_in_patch(const Execution& run, const Request& request) {
-  return refine_patch(
-      *run.meshed, run.state.measured, request, run.core.callbacks.progress,
-      [&](const Mesh& mesh, std::span<const Index> nodes, std::span<const Index>, int n_rings, std::size_t limit) {
-        std::unique_ptr<Neighbours>& neighbours = run.core.neighbours;
-        if (!neighbours) neighbours = std::make_unique<Neighbours>(mesh);
-        return rings_around(mesh, nodes, n_rings, limit, [&](std::span<const Index> at, std::vector<Index>& hexes) {
-          neighbours->hexes_at(at, hexes);
-          return true;
-        });
-      });
-}
-
 std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
   std::string line = std::to_string(report.hexes_before) + " -> " + counted(report.hexes_after, EntityKind::hex);
   if (report.filled_hexes > 0)
@@ -179,21 +162,6 @@ std::string tell(Execution& run, const Report& report, bool dry_run) {
   run.record().seconds.insert(run.record().seconds.end(), report.seconds.begin(), report.seconds.end());
   for (const std::string& line : report.notices) run.note(line);
   return text_of(run.command.statement) + ": " + summary_of(report, run.state.has_cad, dry_run);
-}
-
-/// Puts a refined patch into the mesh.
-void splice_in(Execution& run, PatchResult patch, Request request) {
-  const Report& report = patch.result.report;
-  const std::string line = tell(run, report, false);
-  run.stage("splice");
-  const std::vector<Index> smoothed = std::exchange(patch.result.smoothed, {});
-  const std::shared_ptr<const Levelling> levelling = levelling_after(request, patch.result, *run.meshed);
-  request.levelling = nullptr;  // a mesh that is the base of nothing is changed in place
-  run.splice({std::move(patch.splice)});
-  run.close_stage();
-  take_measured(run, report);
-  take_levelling(run, smoothed.empty() ? levelling : levelling_after_move(levelling, smoothed, *run.meshed));
-  run.say(line);
 }
 
 /// `refine location x y z radius r`: hexes whose middle is that near.
@@ -244,15 +212,12 @@ void do_refine(Execution& run) {
     throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh to refine");
   run.stage("select");
   Request request = request_of(run);
-  request.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
   run.close_stage();
-  std::optional<PatchResult> patch = refine_in_patch(run, request);
-  if (patch && patch->is_verified) return splice_in(run, std::move(*patch), std::move(request));
-  RefineResult result = patch ? whole_result(std::move(*patch), *run.meshed, run.state.measured, request)
-                              : refine_whole(*run.meshed, &run.state.measured, request, run.core.callbacks.progress);
-  const Report& report = result.report;
-  const std::string line = tell(run, report, request.finish.dry_run);
-  if (request.finish.dry_run) {
+  Refining refining = prepare_refining(run, std::move(request));
+  const Report& report = refining.report();
+  const bool dry_run = refining.request.finish.dry_run;
+  const std::string line = tell(run, report, dry_run);
+  if (dry_run) {
     run.record().dry_run = true;
     run.record().after.hexes = report.hexes_after;
     run.record().after.nodes = report.nodes_after;
@@ -260,7 +225,7 @@ void do_refine(Execution& run) {
   }
 
   const std::optional<SizeReport> sizes = report.sizes;
-  accept_refined(run, std::move(result));
+  accept_refining(run, std::move(refining));
   run.say(line);
   if (!sizes) return;
   run.record().sizes = sizes_row(run.meshed->mesh, *sizes);

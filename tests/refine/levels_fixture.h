@@ -31,12 +31,8 @@ struct Grown {
   }
   /// The leaf that each hex is or is a piece of; its level; the hex of the base that it lies in.
   std::vector<LevelPieces::Leaf> leaves() const {
-    const LevelPieces& pieces = forest.grown->pieces;
-    std::vector<LevelPieces::Leaf> by_level, result;
-    for (int block = 0; block < pieces.n_levels(); ++block)
-      for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) by_level.push_back(pieces.leaf(block, h));
-    if (forest.grown->hex_order.empty()) return by_level;
-    for (const Index h : forest.grown->hex_order) result.push_back(by_level[h]);
+    std::vector<LevelPieces::Leaf> result;
+    for (Index h = 0; h < mesh.mesh.n_hexes(); ++h) result.push_back(forest.grown->hexes.leaf(h));
     return result;
   }
   std::vector<int> levels() const {

@@ -141,6 +141,57 @@ TEST(PatchedSession, does_what_one_without_patches_does) {
   }
 }
 
+/// What levels are made for: finer and coarser at several places, again and again.
+std::string random_level_command(const Mesh& mesh, std::mt19937& random) {
+  if (mesh.n_hexes() == 0) return "redo";  // the taking of the mesh was undone
+  const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
+  const auto hex = [&](Index from) { return std::to_string(hex_id(mesh, from + below(mesh.n_hexes() - from))); };
+  const auto any = [&] { return hex(below(2) ? 0 : mesh.n_hexes() / 2); };  // rather the newer ones
+  switch (below(12)) {
+    case 0:
+      return "undo";
+    case 1:
+      return "redo";
+    case 2:
+      return "refine node " + std::to_string(node_id(mesh, below(mesh.n_nodes()))) + " depth 1";
+    case 3:
+      return "node fixed node " + std::to_string(node_id(mesh, below(mesh.n_nodes())));
+    case 4:
+      return "smooth hex " + any();
+    case 5:
+    case 6:
+      return "coarsen hex " + hex(mesh.n_hexes() / 2) + (below(2) ? "" : " levels 3");
+    case 7:
+      return "coarsen vertex " + std::to_string(1 + below(8));
+    case 8:
+      return below(4) ? "refine hex " + any() + " numsplit 2" : "coarsen hex all levels 9";
+    default:
+      return "refine hex " + any() + (below(3) ? "" : " " + any()) + (below(4) ? "" : " smooth") +
+             (below(9) ? "" : " dry_run");
+  }
+}
+
+TEST(PatchedSession, makes_levels_that_one_without_patches_makes) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  int n_in_place = 0;  // in small models much changes each time, and then all is verified
+  for (MeshedModel meshed : {brick(16, 15, 15), shipped("inclusion"), shipped("bracket")}) {
+    meshed.mesh.fields.push_back({"number", Field::On::hex, 1, std::vector<double>(meshed.mesh.hexes.size(), 3)});
+    std::vector<double> heat;
+    for (const Vec3& p : meshed.mesh.points) heat.push_back(p.x() + 2 * p.y());
+    meshed.mesh.fields.push_back({"heat", Field::On::node, 1, heat});
+    meshed.mesh.node_sets.push_back({7, "some", {0, 5, 9}});
+    Pair pair(meshed);
+    for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i)
+      pair.run(random_level_command(pair.plain.session.meshed().mesh, random));
+    n_in_place += pair.n_in_place;
+    pair.run("coarsen hex all levels 9");
+    pair.run("undo");
+  }
+  EXPECT_GT(n_in_place, 0);
+}
+
 TEST(PatchedSession, is_as_it_was_after_a_command_that_is_cancelled_or_fails) {
   Fixture f;
   const MeshedModel meshed = brick(14, 13, 12);
