@@ -2,6 +2,7 @@
 #include "hextwist/geom/occ/model.h"
 
 #include <BRepTools_WireExplorer.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -11,6 +12,7 @@
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/geom/occ/model_internal.h"
@@ -320,12 +322,16 @@ const OccModel::Sides& OccModel::sides() const {
     Sides sides;
     for (int id = 1; id <= count(2); ++id) sides.flipped.push_back(maps_[2](id).Orientation() == TopAbs_REVERSED);
     sides.inside_out.resize(static_cast<std::size_t>(count(3)));
+    sides.within.resize(static_cast<std::size_t>(count(2)), 0);
     for (int volume = count(3); volume >= 1; --volume) {  // the lowest id has the last word
       const bool inside_out = translated("the volume", {3, volume}, [&] { return signed_volume(volume); }) < 0;
       sides.inside_out[index(volume)] = inside_out;
+      std::set<int> seen;
       for (TopExp_Explorer faces(maps_[3](volume), TopAbs_FACE); faces.More(); faces.Next()) {
-        const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
-        sides.flipped[index(maps_[2].FindIndex(faces.Current()))] = reversed != inside_out;
+        const TopAbs_Orientation orientation = faces.Current().Orientation();
+        const int surface = maps_[2].FindIndex(faces.Current());
+        sides.flipped[index(surface)] = (orientation == TopAbs_REVERSED) != inside_out;
+        if (!seen.insert(surface).second || orientation == TopAbs_INTERNAL) sides.within[index(surface)] = 1;
       }
     }
     sides_ = std::move(sides);
@@ -401,6 +407,7 @@ OccModel::Side OccModel::side_of_nearest(int volume, const Vec3& p, double slack
   for (const int s : adjacent({3, volume}, 2)) {
     const Projection at = project({2, s}, p);
     if (at.distance <= slack) return Side::inside;
+    if (sides().within[index(s)]) continue;
     if (nearest == 0 || at.distance < foot.distance) {
       second = nearest == 0 ? second : foot.distance;
       nearest = s;
@@ -418,6 +425,24 @@ OccModel::Side OccModel::side_of_nearest(int volume, const Vec3& p, double slack
   return height < 0 ? Side::inside : Side::outside;
 }
 
+/// The volume as its boundary alone: the classifier takes a face inside it for an end of it.
+TopoDS_Shape OccModel::without_faces_inside(int volume) const {
+  const TopoDS_Shape& whole = maps_[3](volume);
+  bool any = false;
+  const BRep_Builder builder;
+  TopoDS_Solid solid;
+  TopoDS_Shell shell;
+  builder.MakeSolid(solid);
+  builder.MakeShell(shell);
+  for (TopExp_Explorer faces(whole, TopAbs_FACE); faces.More(); faces.Next()) {
+    const bool within = sides().within[index(maps_[2].FindIndex(faces.Current()))];
+    any = any || within;
+    if (!within) builder.Add(shell, faces.Current());
+  }
+  builder.Add(solid, shell);
+  return any ? TopoDS_Shape(solid) : whole;
+}
+
 bool OccModel::classify(int volume, const Vec3& p, double slack) const {
   Classifiers& pool = classifiers_[index(volume)];
   std::unique_ptr<BRepClass3d_SolidClassifier> classifier;
@@ -429,7 +454,7 @@ bool OccModel::classify(int volume, const Vec3& p, double slack) const {
     }
   }
   if (!classifier) {
-    const TopoDS_Shape& solid = maps_[3](volume);
+    const TopoDS_Shape solid = without_faces_inside(volume);
     const bool reverse = sides().inside_out[index(volume)];
     classifier = std::make_unique<BRepClass3d_SolidClassifier>(reverse ? solid.Reversed() : solid);
   }

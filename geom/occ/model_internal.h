@@ -73,6 +73,7 @@ class OccModel final : public Model, public KnowsCurvature {
   struct Sides {
     std::vector<char> inside_out;  // per volume: its faces' orientations say that it is everything but itself
     std::vector<char> flipped;     // per surface: the normal of its parameters points into its (first) volume
+    std::vector<char> within;      // per surface: its volume lies on both sides
   };
 
   enum class Side { inside, outside, unknown };
@@ -88,6 +89,7 @@ class OccModel final : public Model, public KnowsCurvature {
   double signed_volume(int volume) const;
   const std::vector<Box>& boxes(int dim) const;
   const Sides& sides() const;
+  TopoDS_Shape without_faces_inside(int volume) const;
 
   TopoDS_Shape shape_;
   Names names_;

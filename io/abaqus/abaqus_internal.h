@@ -87,6 +87,8 @@ struct AbaqusContents {
   [[noreturn]] void fail(const char* at, const std::string& what) const;
   /// "file:line"
   std::string where(const char* at) const;
+  /// The file that it points into.
+  const Bytes* source(const char* at) const;
 };
 
 /// A scope as it stands in the mesh; two for an instance, its part and what it has itself.

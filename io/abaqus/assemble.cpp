@@ -145,9 +145,7 @@ class Assembly {
     parts_.nodes = Ids(std::move(node_ids_), "node", [&](std::size_t i, const std::string& what) {
       const auto [part, k] = node_origin_[i];
       const auto run = std::ranges::upper_bound(part->node_runs, k, {}, &Run::first) - 1;
-      const char* at = run->at;
-      for (std::size_t line = run->first; line < k; ++line) at = std::strchr(at, '\n') + 1;
-      in_.fail(at, what);
+      fail_at_item(Cursor(*in_.source(run->at)), {&*run, 1}, k, what);
     });
     parts_.nodes.sort(out_.mesh.points);
     out_.mesh.node_ids = parts_.nodes.stored();

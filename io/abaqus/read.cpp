@@ -15,10 +15,15 @@ std::string upper_case(std::string_view text) {
   return result;
 }
 
-std::string AbaqusContents::where(const char* at) const {
+const Bytes* AbaqusContents::source(const char* at) const {
   for (const auto& source : sources)
-    if (at >= source->data.get() && at <= source->data.get() + source->size) return Cursor(*source).where(at);
-  return sources[0]->name;
+    if (at >= source->data.get() && at <= source->data.get() + source->size) return source.get();
+  return nullptr;
+}
+
+std::string AbaqusContents::where(const char* at) const {
+  const Bytes* in = source(at);
+  return in ? Cursor(*in).where(at) : sources[0]->name;
 }
 
 void AbaqusContents::fail(const char* at, const std::string& what) const {
@@ -144,8 +149,8 @@ class Parser {
     const auto first = number(words[1]);
     if (words[0] == "mesh") out_.announced = {first.value_or(0), number(words[2]).value_or(0)};
     if (words[0] != "block" && words[0] != "nodeset" && words[0] != "sideset") return;
-    if (!first || *first < 1 || *first > std::numeric_limits<int>::max())
-      out_.fail(at, std::string(words[0]) + " id " + shown(words[1]) + " is not between 1 and 2147483647");
+    if (!first || *first < 0 || *first > std::numeric_limits<int>::max())
+      out_.fail(at, std::string(words[0]) + " id " + shown(words[1]) + " is not between 0 and 2147483647");
     out_.real_names[{std::string(words[0]), upper_case(words[2])}] = {static_cast<int>(*first), std::string(line)};
   }
 
@@ -248,7 +253,7 @@ class Parser {
     return false;
   }
   static void skip_inline(Cursor& cursor) {
-    while (cursor.at < cursor.end && (*cursor.at == ' ' || *cursor.at == '\t' || *cursor.at == '\r')) ++cursor.at;
+    while (!line_ends(cursor) && Cursor::blank(*cursor.at)) ++cursor.at;
   }
   /// After a number: its comma, if there is one.
   static bool comma(Cursor& cursor) {

@@ -1,5 +1,6 @@
 // Which lines a Gmsh file has: the edges on curves, and those of groups of lines.
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "hextwist/io/gmsh/plan_internal.h"
@@ -85,7 +86,7 @@ PlannedLines plan_lines(const Mesh& mesh, const Association& association, const 
   std::optional<Edges> all;
   for (std::size_t s = 0; s < n; ++s) {
     const NodeSet& set = mesh.node_sets[s];
-    plan.tag.push_back(set.id);
+    plan.tag.push_back(group_tag(mesh.node_sets, set));
     const bool was_group = extras && extras->curve_groups.contains(set.id);
     if (set.nodes.empty()) {
       plan.is_group[s] = was_group;

@@ -104,7 +104,7 @@ class Planner {
   template <class Group, class Members>
   void add_group_names(int dim, const std::vector<Group>& groups, Members Group::*members) {
     for (const Group& group : groups)
-      plan_.groups.push_back({{dim, group.id}, group.name, (group.*members).empty(), {}});
+      plan_.groups.push_back({{dim, group_tag(groups, group)}, group.name, (group.*members).empty(), {}});
   }
 
   void hexes() {
@@ -114,7 +114,7 @@ class Planner {
     std::vector<std::span<const Index>> members;
     for (const Block& block : mesh_.blocks) {
       members.push_back(block.hexes);
-      group_ids_[3].push_back(block.id);
+      group_ids_[3].push_back(group_tag(mesh_.blocks, block));
     }
     add_group_names(3, mesh_.blocks, &Block::hexes);
     add_classes(3, classify(volume, members), group_ids_[3], [](Index, std::vector<Index>&) {});
@@ -122,7 +122,7 @@ class Planner {
 
   void sides() {
     sides_ = plan_sides(mesh_, tags_);
-    for (const SideSet& set : mesh_.side_sets) group_ids_[2].push_back(set.id);
+    for (const SideSet& set : mesh_.side_sets) group_ids_[2].push_back(group_tag(mesh_.side_sets, set));
     add_group_names(2, mesh_.side_sets, &SideSet::sides);
     const std::vector<std::span<const Index>> spans(sides_.members.begin(), sides_.members.end());
     add_classes(2, classify(sides_.surface, spans), group_ids_[2], [&](Index i, std::vector<Index>& nodes) {
@@ -167,7 +167,7 @@ class Planner {
       if (lines_.is_group[s]) continue;
       auto& to = members.emplace_back();
       for (const Index n : set.nodes) to.push_back(position_in(items, n));
-      group_ids_[0].push_back(set.id);
+      group_ids_[0].push_back(lines_.tag[s]);
     }
     const std::vector<std::span<const Index>> spans(members.begin(), members.end());
     add_classes(0, classify(vertex, spans), group_ids_[0],

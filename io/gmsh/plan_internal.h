@@ -106,6 +106,12 @@ std::vector<PlannedPeriodic> plan_periodic(const Mesh& mesh, const Association& 
 /// Takes elements out of the plan that are in no physical group. Returns, ascending, the nodes that are left.
 std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split);
 
+/// Of the physical group that a block or set becomes: its id, another one for 0, which is no group in these files.
+template <class Group>
+int group_tag(const std::vector<Group>& groups, const Group& group) {
+  return group.id > 0 ? group.id : free_id(groups);
+}
+
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
 GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
                    const FileExtras* extras);

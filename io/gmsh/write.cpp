@@ -395,6 +395,15 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
     out << '\n';
   }
   out << "$EndMeshFormat\n";
+  const auto say_zero = [&](const char* kind, const auto& groups) {
+    for (const auto& group : groups)
+      if (group.id == 0)
+        notices.push_back(std::string(kind) + " 0 is physical group " + std::to_string(group_tag(groups, group)) +
+                          " in the file: 0 is no group there");
+  };
+  say_zero("block", mesh.blocks);
+  say_zero("side set", mesh.side_sets);
+  say_zero("node set", mesh.node_sets);
   for (const PlannedGroup& group : plan.groups)
     say_renamed("physical group " + std::to_string(group.group.id), group.name, plain(group.name), notices);
   for (const Field& field : mesh.fields) say_renamed("field", field.name, plain(field.name), notices);

@@ -24,7 +24,8 @@ std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, cons
   for (std::size_t c = 0; c < reference.size(); ++c) {
     const auto& in = classes.groups[c];
     if (in.empty() && classes.key[c] <= 0) continue;
-    if (in.size() == 1 && n_classes[in[0]] == 1)
+    // 0 says that an element is in nothing.
+    if (in.size() == 1 && n_classes[in[0]] == 1 && groups[in[0]].id > 0)
       reference[c] = groups[in[0]].id;
     else if (in.empty() && groups.empty())
       reference[c] = classes.key[c];
@@ -69,7 +70,7 @@ void ReferenceComments::add(std::string_view comment, const Cursor& cursor) {
   const std::string kind(words.word());
   if (kind == "mesh") return;
   const int id = words.small("an id");
-  if (id < 1) cursor.fail(kind + " id " + std::to_string(id) + " is not positive");
+  if (id < 0) cursor.fail(kind + " id " + std::to_string(id) + " is negative");
   Entry& entry = entries[kind][id];
   entry.references.resize(words.check_count(words.integer("a number of references"), 2, "references"));
   for (int& reference : entry.references) reference = words.small("a reference");

@@ -265,7 +265,7 @@ class Assembly {
     int id = 0;
     const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), id);
     if (kind != "block" && kind != "nodeset" && kind != "sideset") return;
-    if (error != std::errc{} || id < 1) fail("'" + array.name + "' has no id between 1 and 2147483647");
+    if (error != std::errc{} || id < 0) fail("'" + array.name + "' has no id between 0 and 2147483647");
     rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
     const std::string name(rest.substr(std::min<std::size_t>(1, rest.size())));
     if (kind == "block" || kind == "nodeset") {

@@ -62,8 +62,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string story =
       "create brick x 1 interval " + std::to_string(1 + in.below(3)) + "; block 1 volume 1; sideset 2 surface 3";
   session.run("set threads 1; " + story);
-  constexpr std::int64_t most_hexes = 6000;
-  for (int n = 0; in.more() && n < 12; ++n) {
+  constexpr std::int64_t most_hexes = 500;
+  for (int n = 0; in.more() && n < 8; ++n) {
     const std::string command = next_command(in, session.meshed().mesh);
     const std::shared_ptr<const MeshedModel> before = session.share();
     try {

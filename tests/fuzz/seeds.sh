@@ -55,5 +55,13 @@ E, S1
 I.N, 1, 3
 INP
 cp "$source"/models/l_block.{brep,step} "$source"/models/cylinder.{brep,step} cad_text
-find "$source"/tests/journals -name '*.jou' -exec cp {} grammar \;
+for journal in "$source"/tests/journals/*/*.jou; do cp "$journal" "grammar/$(basename "$(dirname "$journal")")"; done
+
+# Words that mean something: the texts in the sources of each reader.
+words() { grep -ohE '"[^"\\]{2,24}"' "${@:2}" | LC_ALL=C grep -v '[^ -~]' | sort -u > "$1.words" || true; }
+for format in gmsh abaqus medit exodus; do words $format "$source/io/$format"/*.cpp; done
+words vtk "$source"/io/vtk/*.cpp && cp vtk.words vtu.words
+words cad_text "$source"/geom/occ/cad_text.cpp
+words grammar "$source"/command/*.cpp
+echo '"\x00"' > engine.words
 printf '\1\5\0\0\1\1\5\2\0\0\3\2\5\1\7\1\2\3\4\0\1\1\1\6\3' > engine/a

@@ -383,5 +383,17 @@ TEST(occ_model, contains_every_point_of_a_thin_shell_between_its_spline_faces) {
   }
 }
 
+TEST(occ_model, both_sides_of_a_face_inside_a_solid_are_inside) {
+  const auto model = test::OccShape::brick_with_face_inside(4, 4, 2, 2).import().model;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-0.25, 1.25);
+  for (int i = 0; i < 3000; ++i) {
+    Vec3 p(4 * at(random), 4 * at(random), 2 * at(random));
+    if (i % 3 == 0) p.x() = 2 + 0.1 * at(random);  // near it, and nearest to its rim
+    const bool inside = (p.array() >= 0).all() && (p.array() <= Vec3(4, 4, 2).array()).all();
+    EXPECT_EQ(model->contains(1, p), inside) << p.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace hextwist

@@ -170,6 +170,32 @@ TEST(mesh_files, a_mesh_of_many_pieces_comes_back_from_every_format) {
   }
 }
 
+TEST(mesh_files, groups_of_id_0_come_back_from_every_format) {
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.blocks = {{0, "left half", {0}}, {7, "", {1}}};
+  mesh.node_sets = {{0, "n", {0, 1}}};
+  mesh.side_sets = {{0, "x", {{0, 4}, {1, 2}}}};
+  for (const char* name : {"a.vtu", "a.e", "a.inp", "a.mesh", "a.msh"}) {
+    SCOPED_TRACE(name);
+    const auto file = test::output_folder() / name;
+    const auto notices = write_mesh(file, mesh, nullptr);
+    const Mesh back = read_mesh(file).mesh;
+    ASSERT_EQ(back.blocks.size(), 2u);
+    if (std::string(name) == "a.msh") {  // 0 means no group there
+      EXPECT_EQ(notices, (std::vector<std::string>{"block 0 is physical group 8 in the file: 0 is no group there",
+                                                   "side set 0 is physical group 1 in the file: 0 is no group there",
+                                                   "node set 0 is physical group 1 in the file: 0 is no group there"}));
+      EXPECT_EQ(back.blocks, (std::vector<Block>{{7, "", {1}}, {8, "left half", {0}}}));
+      EXPECT_EQ(back.node_sets, (std::vector<NodeSet>{{1, "n", {0, 1}}}));
+      EXPECT_EQ(back.side_sets, (std::vector<SideSet>{{1, "x", {{0, 4}, {1, 2}}}}));
+      continue;
+    }
+    EXPECT_EQ(back.blocks, mesh.blocks);
+    EXPECT_EQ(back.node_sets, mesh.node_sets);
+    EXPECT_EQ(back.side_sets, mesh.side_sets);
+  }
+}
+
 TEST(mesh_files, files_cut_anywhere_are_refused_or_read) {
   const auto folder = test::output_folder();
   std::mt19937 random(11);
