@@ -11,8 +11,8 @@
 #include <iostream>
 #include <memory>
 
+#include "hextwist/command/flow.h"
 #include "hextwist/command/syntax.h"
-#include "hextwist/command/token.h"
 
 namespace hextwist::app {
 namespace {

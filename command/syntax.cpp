@@ -168,11 +168,12 @@ class Matcher {
     while (true) {
       const auto choice = choose(node, said);
       if (!choice) break;
-      if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
+      const PatternNode& front = node.choices[*choice].front();
+      if (said[*choice] && !front.hidden) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
       const std::size_t begin = out_.items.size();
       sequence(node.choices[*choice]);
-      const PatternNode* first = &node.choices[*choice].front();
+      const PatternNode* first = &front;
       while (!first->choices.empty()) first = &first->choices.front().front();
       for (std::size_t i = begin; i < out_.items.size(); ++i) out_.items[i].option = first->name;
     }
@@ -218,9 +219,15 @@ class Matcher {
 
 const CommandSpec& command_named(Reader& reader) {
   std::vector<Keyword> names;
-  for (const CommandSpec& spec : language()) names.push_back({spec.name, !spec.syntax.empty(), true});
+  for (const CommandSpec& spec : language()) names.push_back({spec.name, !spec.syntax.empty(), spec.may_be_short});
   const auto found = reader.match(names);
-  if (!found) reader.fail();
+  if (!found) {
+    if (reader.peek().kind == Token::Kind::braces) reader.fail();
+    const std::vector<std::string> nearest = nearest_words(reader.peek().text, reader.expected(), 3);
+    reader.fail(reader.peek(), "there is no command '" + printable(reader.peek().text) + "'" +
+                                   (nearest.empty() ? "" : ": did you mean " + alternatives(nearest) + "?") +
+                                   (nearest.empty() ? "; 'help' lists them" : " 'help' lists all"));
+  }
   return language()[*found];
 }
 

@@ -34,11 +34,13 @@ void do_coarsen(Execution& run);
 void do_create(Execution& run);
 void do_delete(Execution& run);
 void do_draw(Execution& run);
+void do_entity(Execution& run);
 void do_export(Execution& run);
 void do_group(Execution& run);
 void do_help(Execution& run);
 void do_import(Execution& run);
 void do_list(Execution& run);
+void do_move(Execution& run);
 void do_node(Execution& run);
 void do_playback(Execution& run);
 void do_quality(Execution& run);
@@ -55,6 +57,10 @@ void do_smooth(Execution& run);
 void do_step(Execution& run);
 void do_undo(Execution& run);
 
+/// group.cpp: create group, create block.
+void do_create_empty(Execution& run);
+/// playback.cpp: runs the commands in a file, which has one of these endings where the session is safe.
+void play(Execution& run, const Item& file, std::string_view endings);
 /// files.cpp: throws Error where the session is safe and the file lies outside of its folder, is no ordinary one, or
 /// has none of these endings (".a .b").
 void check_file(const Execution& run, const Item& file, std::string_view endings);
@@ -71,6 +77,11 @@ std::string members_text(const Selector& selector, const Group& group);
 /// quality.cpp: the metrics that were said in the option which begins with that word (Item::option); shape where none
 /// was.
 std::vector<Metric> metrics_said(const Command& command, std::string_view option);
+/// quality.cpp: leaves of hexes and their values those that 'low', 'high', 'top' and 'bottom' ask for, in the order
+/// they had.
+void filter(const Command& command, std::vector<Index>& hexes, std::vector<double>& values);
+/// attributes.cpp: block ... attribute.
+void change_attributes(Execution& run);
 /// sizing.cpp: a sizing function typed as an expression, where the error points into it. One by name.
 SizeFieldPtr typed_size(const Command& command, const Item& expression);
 SizeFieldPtr named_size(const Execution& run, const Item& name);

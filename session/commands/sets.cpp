@@ -150,7 +150,11 @@ void do_sets(Execution& run) {
   if (mesh.n_hexes() == 0) throw error_at(command.statement, command.items.front().token, "there is no mesh");
   if (const Item* type = command.find("type")) {
     if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
-      throw error_at(command.statement, type->token, "elements are hexes with eight nodes (hex8) here");
+      throw error_at(
+          command.statement, type->token,
+          "'" + printable(type->text) +
+              "' elements are not written: files have hexes with eight nodes (hex8); leave this line out, or "
+              "raise the order afterwards");
     return run.note("every element is a hex8: nothing to change");
   }
   const Item* text = command.find("text");
@@ -158,6 +162,7 @@ void do_sets(Execution& run) {
   if (!command.find("id"))
     throw error_at(command.statement, command.items.at(1).token,
                    "one " + std::string(name(kind)) + " at a time; 'all' goes with 'element type' only");
+  if (command.has("attribute")) return change_attributes(run);
   const int id = static_cast<int>(command.find("id")->number);
   Mesh lists = lists_of(mesh);
   std::string line;

@@ -109,9 +109,12 @@ struct Wrong {
 
 TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
-           {"foo", 1, "expected block, check, create, curve, delete"},
+           {"foo", 1, "there is no command 'foo'; 'help' lists them"},
+           {"refne curve 3", 1, "there is no command 'refne': did you mean refine"},
+           {"qualty volume 1", 1, "did you mean quality? 'help' lists all"},
            {"refine crve 3", 8,
-            "expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you mean "
+            "expected node, edge, face, hex, vertex, curve, surface, volume, location or sheet, found 'crve' (did you "
+            "mean "
             "'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
            {"refine curve", 13,
@@ -186,12 +189,13 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
            {"smooth volume all iterations -1", 30, "iterations must be a whole number"},
            {"volume 1 smooth", 16, "expected scheme"},
-           {"volume 1 mesh", 10, "or smooth, found 'mesh'"},
+           {"volume 1 mesh", 10, "with, smooth, name, move, scale, rotate or reflect, found 'mesh'"},
            {"node 1 position", 16, "expected fixed or free"},
            {"undo 0", 6, "undo must be a whole number"},
            {"redo all", 6, "expected a whole number or the end of the command"},
            {"block volume 1", 7, "expected all or a whole number, found 'volume'"},
-           {"block 1 surface 2", 9, "expected hex, volume, group, add, remove, name or element, found 'surface'"},
+           {"block 1 surface 2", 9,
+            "expected hex, volume, group, add, remove, name, element or attribute, found 'surface'"},
            {"block 1 volume 2 hax 3", 18, "hex, volume, group, name or the end of the command, found 'hax'"},
            {"block 1 volume 2 v 3", 18, "hex, volume, group, name or the end of the command, found 'v'"},
            {"block 1 volume 2 hex", 21, "expected an id"},
@@ -215,7 +219,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"import step \"\"", 13, "this file name is empty"},
            {"import step \"foo", 13, "this quote is not closed"},
            {"import \"foo.step\"", 8, "expected mesh, exodus"},
-           {"import mesh \"a.msh\" \"b\"", 21, "expected snap, no_snap or the end of the command, found \"b\""},
+           {"import mesh \"a.msh\" \"b\"", 21, "expected snap, no_snap, scale or the end of the command, found \"b\""},
            {"reset all", 7, "expected block, nodeset, sideset or the end of the command, found 'all'"},
            {"create sphere radius 0", 22, "radius must be a number above 0"},
            {"create cylinder radius 1", 25, "expected height"},
@@ -231,10 +235,10 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
 }
 
 TEST(Grammar, the_caret_stands_under_the_word) {
-  EXPECT_STREQ(
-      error_of("reset\nrefine crve 3\n", "part.jou").what(),
-      "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
-      "mean 'curve'?)\n  refine crve 3\n         ^~~~");
+  EXPECT_STREQ(error_of("reset\nrefine crve 3\n", "part.jou").what(),
+               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume, location or sheet, found "
+               "'crve' (did you "
+               "mean 'curve'?)\n  refine crve 3\n         ^~~~");
   EXPECT_STREQ(error_of("import\tmésh 3").what(),
                "expected mesh, exodus, gmsh, abaqus, vtk, medit, levels, geometry, step, brep or iges, found 'mésh'"
                "\n  import mésh 3\n         ^~~~");
@@ -259,7 +263,7 @@ TEST(Grammar, ranges_cannot_be_nested_without_end) {
 
 TEST(Grammar, completion_offers_what_could_stand_there) {
   using List = std::vector<std::string>;
-  EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reset"}));
+  EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reflect", "reset"}));
   EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
   EXPECT_EQ(completions("refine cu"), (List{"curve"}));
   EXPECT_EQ(completions("refine curve 3 nu"), (List{"numsplit"}));
