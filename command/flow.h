@@ -15,8 +15,21 @@
 
 namespace hextwist {
 
-enum class Flow { none, loop, endloop, when, when_defined, when_undefined, otherwise_when, otherwise, endif, include,
-                  include_if_there, ignored, unknown };
+enum class Flow {
+  none,
+  loop,
+  endloop,
+  when,
+  when_defined,
+  when_undefined,
+  otherwise_when,
+  otherwise,
+  endif,
+  include,
+  include_if_there,
+  ignored,
+  unknown
+};
 
 struct FlowLine {
   Flow kind = Flow::none;

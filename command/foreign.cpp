@@ -23,8 +23,9 @@ constexpr std::string_view meshing =
     "this program refines a mesh that is there: read one ('import mesh \"part.e\"') or make a small one ('create brick "
     "x 10 interval 5'); 'refine ... size' cuts until elements have a size";
 constexpr std::string_view geometry =
-    "geometry is not edited here: read it as it shall be ('import step \"part.step\"'), then the mesh on it";
-constexpr std::string_view solids = "solids are made by 'create brick', 'create cylinder' and 'create sphere', others are read";
+    "geometry is not edited here: read it as it should be ('import step \"part.step\"'), then the mesh on it";
+constexpr std::string_view solids =
+    "solids are made by 'create brick', 'create cylinder' and 'create sphere', others are read";
 constexpr std::string_view hexes = "meshes are all-hexahedral here";
 constexpr std::string_view loads =
     "loads and materials are for the solver's own input; 'block', 'nodeset' and 'sideset' make what they refer to";
@@ -59,6 +60,8 @@ constexpr Row table[] = {
     {"volume|surface|curve|vertex|body|node|hex|group|block * visibility|color|label", skipped, shown},
     {"locate", skipped, measured},
     {"measure", skipped, measured},
+    {"cd", skipped, "the working folder stays where the program was started"},
+    {"pwd|ls|history", skipped, {}},
     {"pause", skipped, {}},
     {"sleep", skipped, {}},
     {"echo", skipped, {}},
@@ -74,16 +77,21 @@ constexpr Row table[] = {
     {"info|warning|error|debug|errors|warnings on|off", skipped, logged},
     {"set echo|info|information|warning|error|errors|debug|journal|logging|comment", skipped, logged},
     {"set large|exodus|netcdf4", skipped, "files are written in the format that suits their size"},
-    {"set default|node|developer|attribute|geometry|digits|proximity|paver|overlap|dev|multisweep|trimesher|merge|graphics|picking|maximum|minimum|parallel|hex|tetmesher|max|color|colour",
+    {"set "
+     "default|node|developer|attribute|geometry|digits|proximity|paver|overlap|dev|multisweep|trimesher|merge|graphics|"
+     "picking|maximum|minimum|parallel|hex|tetmesher|max|color|colour",
      skipped, "it sets up a mesher or its display"},
     {"save", skipped, cub},
     {"group cleanup", skipped, {}},
     {"topology check", skipped, "'check' verifies the mesh"},
 
     {"open", refused, cub},
-    {"import cubit", refused, ".cub files cannot be read: write the mesh there as Exodus (.e) and the geometry as STEP"},
-    {"import acis|sat|parasolid|catia|pro_e|solidworks|nx|inventor|granite|jt|facets|stl|avs|ideas|patran|nastran|fluent",
-     refused, "this format is not read here: CAD comes as .step, .brep or .iges, a mesh as .e, .msh, .inp, .vtk, .vtu or .mesh"},
+    {"import cubit", refused,
+     ".cub files cannot be read: write the mesh there as Exodus (.e) and the geometry as STEP"},
+    {"import "
+     "acis|sat|parasolid|catia|pro_e|solidworks|nx|inventor|granite|jt|facets|stl|avs|ideas|patran|nastran|fluent",
+     refused,
+     "this format is not read here: CAD comes as .step, .brep or .iges, a mesh as .e, .msh, .inp, .vtk, .vtu or .mesh"},
     {"import sizing", refused, "say 'sizing field \"name\" file \"solution.e\"', then 'refine ... sizing_function'"},
     {"export acis|step|iges|stl|parasolid|facets|ideas|patran|nastran|fluent|ansys|lsdyna|cubit|avs|sat", refused,
      "meshes are written as exodus, gmsh, vtk, abaqus or medit here"},
@@ -98,11 +106,13 @@ constexpr Row table[] = {
     {"volume|surface|curve|vertex|body * size|interval|scheme|sizing|meshable|tetmesh|redistribute", refused, meshing},
     {"delete mesh", refused, "'reset' drops mesh and CAD; hexes cannot be taken out of a mesh here"},
     {"delete volume|surface|body|curve|vertex|hex|node|edge|face|element", refused,
-     "a part of a mesh or model cannot be taken out here; 'export ... block 1 partial' writes a part, 'reset' drops all"},
+     "a part of a mesh or model cannot be taken out here; 'export ... block 1 partial' writes a part, 'reset' drops "
+     "all"},
     {"webcut", refused, geometry},
     {"chop", refused, geometry},
     {"section", refused, geometry},
-    {"imprint", refused, "touching solids are glued when CAD is read: 'set glue on' before 'import step \"part.step\"'"},
+    {"imprint", refused,
+     "touching solids are glued when CAD is read: 'set glue on' before 'import step \"part.step\"'"},
     {"merge", refused, "touching solids are glued when CAD is read: 'set glue on' before 'import step \"part.step\"'"},
     {"unmerge", refused, "'set glue off' before the CAD is read keeps its solids apart"},
     {"unite", refused, geometry},
@@ -125,7 +135,8 @@ constexpr Row table[] = {
     {"create torus|cone|frustum|pyramid|prism", refused, solids},
     {"create curve|surface|vertex|volume|body|sheet|spline|mesh|tet|tri|hex|node|edge|face|sideset|nodeset", refused,
      geometry},
-    {"create material|pressure|force|displacement|temperature|convection|heatflux|bcset|constraint|contact|acceleration",
+    {"create "
+     "material|pressure|force|displacement|temperature|convection|heatflux|bcset|constraint|contact|acceleration",
      refused, loads},
     {"material|pressure|force|displacement|temperature|bc|bcset|constraint|contact", refused, loads},
     {"modify", refused, loads},
@@ -133,9 +144,11 @@ constexpr Row table[] = {
     {"adapt", refused, "say 'refine hex in field \"error\" top 5 %' and 'coarsen hex in field \"error\" bottom 20 %'"},
     {"refine tri|tet|wedge|pyramid", refused, hexes},
     {"refine mesh", refused, "say 'refine surface ... direction layers', 'direction thickness' or 'refine sheet'"},
-    {"refine parallel|boundary", refused, "say 'refine surface ... direction layers', 'direction thickness' or 'refine sheet'"},
+    {"refine parallel|boundary", refused,
+     "say 'refine surface ... direction layers', 'direction thickness' or 'refine sheet'"},
     {"quality tri|tet|quad|wedge|pyramid", refused, hexes},
-    {"block * tri|tet|curve|surface|face|edge|node|vertex|joint", refused, "blocks hold hexes: 'block 1 hex in surface 3'"},
+    {"block * tri|tet|curve|surface|face|edge|node|vertex|joint", refused,
+     "blocks hold hexes: 'block 1 hex in surface 3'"},
     {"transform mesh", refused, "say 'scale 0.001', 'move x 1', 'rotate 90 about z' or 'reflect x', then export"},
     {"python", refused, "Python drives this program from outside: 'import hextwist', Session().cmd(\"...\")"},
 };

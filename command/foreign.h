@@ -1,7 +1,7 @@
 // Lines of journals for full meshers and their displays that are no commands here.
 //
-// What only shows, logs or sets up a display is skipped; what would have made geometry, a mesh or loads is refused, with
-// what to do instead. Commands of our own go first: a line is looked up here when it is none.
+// What only shows, logs or sets up a display is skipped; what would have made geometry, a mesh or loads is refused,
+// with what to do instead. Commands of our own go first: a line is looked up here when it is none.
 #pragma once
 
 #include <optional>

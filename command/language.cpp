@@ -147,8 +147,8 @@ const std::vector<CommandSpec> table = {
       {"id", Kind::integer, 1, max_group_id, false, "number of a group that is there"},
       {"range", Kind::range, 0, 0, false, range_help}, FILTER_ARGUMENTS},
      {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3", "group \"poor\" add quality volume all shape high 0.3"}},
-    {"help", "help [<command>]", "list the commands, or show one",
-     "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
+    {"help", "help [<command> [<option>]]", "list the commands, or show one, or one of its options",
+     "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}, {"option", Kind::word, 0, 0, false, "one of its options, or 'all' for everything about it"}}, {"help", "help refine", "help refine size", "help refine all"}},
     {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
      "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies] [scale <factor>] "
      "[=use] [=nodeset] [=no_nodeset] [=sideset] [=no_sideset] [=linear] [=gradient] [=quadratic] [=spline] [=merge] [=no_merge] "
@@ -193,6 +193,13 @@ const std::vector<CommandSpec> table = {
     {"playback", "playback <file>", "run the commands in a journal file",
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
+    {"project", "project {to|=onto} geometry [<file>] [within <distance>]", "put the mesh on its CAD, or on another",
+     "Boundary nodes go to their curves and surfaces; hexes that this would turn inside out are repaired by moving the nodes near them, or nothing "
+     "is done. With a file the CAD there takes the place of the one that was: a version that has changed a little, with the same curves and "
+     "surfaces. Prints per surface how many nodes moved, how far, and what became of the worst hex.",
+     {{"file", Kind::file, 0, 0, false, "CAD file, in quotes when it has blanks"},
+      {"distance", Kind::number, 0, 1e100, true, "how far a node may be from its place; default: a hundredth of the size of the CAD"}},
+     {"project to geometry", "project to geometry \"part2.step\" within 0.5"}},
     {"quality",
      "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
      "[{" METRICS "|all|=allmetrics|=allmetric}] [histogram] " FILTERS " [list] "

@@ -155,7 +155,19 @@ void Reader::fail() const {
 
 void Reader::fail(const Token& token) const {
   if (token.kind == Token::Kind::braces) fail(token, "expressions in braces need a session that knows their values");
-  std::string message = "expected " + alternatives(expected_) + ", found " + found(token);
+  constexpr std::size_t most_shown = 15;  // nobody reads more
+  if (expected_.size() > most_shown && token.kind == Token::Kind::word) {
+    const std::vector<std::string> near = nearest_words(token.text, expected_, 3);
+    const std::string command = statement_.tokens.front().text;
+    fail(token, "'" + printable(token.text) + "' cannot stand here" +
+                    (near.empty() ? "" : ": did you mean " + alternatives(near) + "?") +
+                    (near.empty() ? "; one of " + std::to_string(expected_.size()) + " words could, see 'help "
+                                  : " See 'help ") +
+                    printable(command) + "'");
+  }
+  std::vector<std::string> could = expected_;
+  std::ranges::replace(could, std::string("to"), std::string("'to'"));  // which reads as one more word of ours
+  std::string message = "expected " + alternatives(could) + ", found " + found(token);
   if (token.kind == Token::Kind::word)
     if (const std::string near = nearest_word(token.text, expected_); !near.empty())
       message += " (did you mean '" + near + "'?)";

@@ -323,11 +323,35 @@ Expected expected_at_end(std::string_view line) {
   return result;
 }
 
+namespace {
+
+/// Options that a command refuses together: with the first the second is not offered any more.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> exclusive = {{{"size", "numsplit"},
+                                                                                     {"sizing_function", "numsplit"},
+                                                                                     {"numsplit", "size"},
+                                                                                     {"numsplit", "bias"},
+                                                                                     {"numsplit", "sizing_function"},
+                                                                                     {"depth", "radius"},
+                                                                                     {"radius", "depth"},
+                                                                                     {"direction", "size"},
+                                                                                     {"direction", "method"}}};
+
+bool is_excluded(std::string_view word, const std::vector<Token>& before) {
+  return std::ranges::any_of(exclusive, [&](const auto& pair) {
+    return word == pair.second &&
+           std::ranges::any_of(before, [&](const Token& token) { return same_word(token.text, pair.first); });
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> completions(std::string_view line) {
   const Expected expected = expected_at_end(line);
   std::vector<std::string> result;
   for (const std::string& word : expected.what)
-    if (word.find(' ') == std::string::npos && begins_word(expected.beginning, word)) result.push_back(word);
+    if (!is_excluded(word, expected.before) && word.find(' ') == std::string::npos &&
+        begins_word(expected.beginning, word))
+      result.push_back(word);
   std::ranges::sort(result);
   return result;
 }

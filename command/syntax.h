@@ -95,8 +95,10 @@ std::vector<std::string> completions(std::string_view line);
 
 /// The syntax of a command without what is not supported yet.
 std::string shown_syntax(const CommandSpec& command);
-/// Help on everything, or on the command that `word` is (short for). Throws Error for an unknown one.
+/// Help on everything; on the command that `word` is (short for), short; on one of its options, or, for "all", with
+/// everything that is to be said. Throws Error for an unknown one.
 std::string help();
 std::string help(std::string_view word);
+std::string help(std::string_view word, std::string_view option);
 
 }  // namespace hextwist

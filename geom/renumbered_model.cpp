@@ -21,7 +21,7 @@ class RenumberedModel : public Model {
         good = id >= 1 && id <= static_cast<int>(n) && old_[dim][static_cast<std::size_t>(id - 1)] == 0;
         if (good) old_[dim][static_cast<std::size_t>(id - 1)] = static_cast<int>(i) + 1;
       }
-      if (!good) throw Error(std::string("the new ids of each ") + dimension_name(dim) + " are no permutation");
+      if (!good) throw Error(std::string("the new ids of each ") + dimension_name(dim) + " are not a permutation");
       new_.name[dim].resize(n);
     }
   }

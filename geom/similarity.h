@@ -10,7 +10,7 @@ namespace hextwist {
 
 /// p -> factor * turn * p + shift.
 struct Similarity {
-  double factor = 1;                                      ///< above 0
+  double factor = 1;                                   ///< above 0
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< orthogonal
   Vec3 shift = Vec3::Zero();
 

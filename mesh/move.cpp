@@ -95,7 +95,7 @@ MeshedModel part_of(const MeshedModel& meshed, std::span<const Index> hexes) {
   for (const Field& field : mesh.fields) {
     Field copy = field;
     copy.values = items_at(field.values, field.on == Field::On::node ? std::span<const Index>(nodes) : hexes,
-                       static_cast<std::size_t>(field.components));
+                           static_cast<std::size_t>(field.components));
     out.fields.push_back(std::move(copy));
   }
 

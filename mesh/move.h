@@ -21,8 +21,8 @@ void move(Mesh& mesh, const Similarity& similarity);
 /// The lists of an association of that mesh. Parameters of nodes are not known afterwards.
 void move(Association& association, const Similarity& similarity);
 
-/// These hexes (ascending) with their nodes, ids and owners, and of blocks, sets and fields what belongs to them; groups of
-/// which nothing is left are left out. `results` goes on with them.
+/// These hexes (ascending) with their nodes, ids and owners, and of blocks, sets and fields what belongs to them;
+/// groups of which nothing is left are left out. `results` goes on with them.
 MeshedModel part_of(const MeshedModel& meshed, std::span<const Index> hexes);
 
 }  // namespace hextwist

@@ -16,9 +16,12 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   RefineResult result;
   const Approach approach = plan(input, request).approach;
   {
-    State state(input, request, report, progress);
+    // Where sizes or distances are measured between passes, only the whole run tells what comes of it.
+    Request done = request;
+    done.finish.dry_run = request.finish.dry_run && !is_by_places(request);
+    State state(input, done, report, progress);
     result = run_passes(state, approach);
-    if (!request.finish.dry_run) verify(input, known, result.refined, state.is_renumbered, report);
+    if (!done.finish.dry_run) verify(input, known, result.refined, state.is_renumbered, report);
   }
   report.hexes_before = input.mesh.n_hexes();
   report.nodes_before = input.mesh.n_nodes();
@@ -26,7 +29,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   report.nodes_after = result.refined.mesh.n_nodes();
   report.peak_memory_bytes = peak_memory();
   if (request.finish.dry_run) {
-    result = {};
+    if (report.violations.empty()) result = {};
     report.sizes.reset();
   }
   result.levelling = levelling_after(request, result, result.refined);

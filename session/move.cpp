@@ -7,6 +7,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/geom/renumbered_model.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/move.h"
 #include "hextwist/session/load.h"
 
@@ -15,8 +16,9 @@ namespace {
 
 /// Where nodes are on their curves and surfaces now.
 void find_parameters(const Mesh& mesh, Association& association, const Model& model) {
-  std::vector<Index> order =
-      indices_where(mesh.n_nodes(), [&](Index n) { return association.node_owner[n].dim == 1 || association.node_owner[n].dim == 2; });
+  std::vector<Index> order = indices_where(mesh.n_nodes(), [&](Index n) {
+    return association.node_owner[n].dim == 1 || association.node_owner[n].dim == 2;
+  });
   std::ranges::stable_sort(order, {}, [&](Index n) { return association.node_owner[n]; });
   std::vector<std::span<const Index>> groups;
   for (std::size_t i = 0; i < order.size();) {
@@ -75,7 +77,8 @@ std::shared_ptr<const FileExtras> moved_extras(const std::shared_ptr<const FileE
   back.topRightCorner<3, 1>() = -(back.topLeftCorner<3, 3>() * similarity.shift);
   auto result = std::make_shared<FileExtras>(*extras);
   for (PeriodicPairs& pairs : result->periodic)
-    if (pairs.affine.size() == 16) Eigen::Map<Matrix>(pairs.affine.data()) = there * Eigen::Map<Matrix>(pairs.affine.data()) * back;
+    if (pairs.affine.size() == 16)
+      Eigen::Map<Matrix>(pairs.affine.data()) = there * Eigen::Map<Matrix>(pairs.affine.data()) * back;
   return result;
 }
 
@@ -91,7 +94,7 @@ void move(Transaction& run, const Similarity& similarity) {
   SessionState& state = run.state;
   MeshedModel meshed = *run.meshed;
   Mesh& mesh = meshed.mesh;
-  if (mesh.n_hexes() == 0 && !meshed.model) throw Error("there is no mesh and no CAD to move");
+  if (mesh.n_hexes() == 0 && !meshed.model) throw Error("there is neither mesh nor CAD to move");
   run.stage("move");
   if (state.has_cad) meshed.model = moved(*meshed.model, similarity);
   if (mesh.n_hexes() == 0) return replace_and_measure(run, std::move(meshed));
@@ -102,7 +105,9 @@ void move(Transaction& run, const Similarity& similarity) {
     find_parameters(mesh, meshed.association, *meshed.model);
   else
     put_on_own_skin(meshed);
-  if (const auto broken = check_association(mesh, meshed.association, *meshed.model); !broken.empty())
+  if (const auto broken = check_association(mesh, meshed.association, *meshed.model,
+                                            std::max(state.tolerance, AssociateOptions().relative_tolerance));
+      !broken.empty())
     throw Error("the mesh would leave its CAD: " + broken.front());
   if (state.levelling) run.note("levels end here: this mesh is the base of what is refined from now on");
   const bool turns = !similarity.turn.isIdentity(0);
@@ -112,8 +117,9 @@ void move(Transaction& run, const Similarity& similarity) {
   const Measured before = state.measured;
   replace_and_measure(run, std::move(meshed));
   if (before.off_cad.max_relative <= state.tolerance && !(state.measured.off_cad.max_relative <= state.tolerance))
-    throw Error("the mesh would leave its CAD: node " + std::to_string(node_id(run.meshed->mesh, state.measured.off_cad.node)) +
-                " by " + short_number(state.measured.off_cad.max));
+    throw Error("the mesh would leave its CAD: node " +
+                std::to_string(node_id(run.meshed->mesh, state.measured.off_cad.node)) + " by " +
+                short_number(state.measured.off_cad.max));
   state.tags = nullptr;
   state.extras = moved_extras(state.extras, similarity);
 }

@@ -9,8 +9,8 @@ namespace hextwist {
 /// What is read is scaled before anything looks at it: the mesh with what its file says beyond.
 void scale(Mesh& mesh, double factor);
 
-/// Moves the mesh and the model of the session. Entities, blocks and sets keep their ids, fields their values; the mesh is
-/// the base of what is refined later. Throws Error where there is neither.
+/// Moves the mesh and the model of the session. Entities, blocks and sets keep their ids, fields their values; the mesh
+/// is the base of what is refined later. Throws Error where there is neither.
 void move(Transaction& run, const Similarity& similarity);
 
 }  // namespace hextwist

@@ -21,8 +21,7 @@ gp_Trsf transformation(const Similarity& similarity) {
 }  // namespace
 
 std::shared_ptr<const Model> moved(const Model& model, const Similarity& similarity) {
-  if (const auto of = renumbering_of(model))
-    return renumbered(moved(*of->model, similarity), of->renumbering);
+  if (const auto of = renumbering_of(model)) return renumbered(moved(*of->model, similarity), of->renumbering);
   const auto* cad = dynamic_cast<const occ::OccModel*>(&model);
   if (!cad) throw Error("this model is no CAD of OpenCASCADE: it cannot be moved");
   try {

@@ -68,8 +68,8 @@ void change_attributes(Execution& run) {
     if (!index && names.empty()) names.push_back(new_name(0));
     if (at >= names.size())
       throw error_at(command.statement, index->token,
-                     "block " + std::to_string(id) + " has " + counted(std::ssize(names), "attribute") +
-                         "; 'block " + std::to_string(id) + " attribute count " + std::to_string(at + 1) + "' makes more");
+                     "block " + std::to_string(id) + " has " + counted(std::ssize(names), "attribute") + "; 'block " +
+                         std::to_string(id) + " attribute count " + std::to_string(at + 1) + "' makes more");
     const std::shared_ptr<Values> values = values_of(*results, names[at]);
     if (const Item* text = command.find("text")) {
       if (text->text.empty()) throw error_at(command.statement, text->token, "this name is empty");

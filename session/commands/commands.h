@@ -43,6 +43,7 @@ void do_list(Execution& run);
 void do_move(Execution& run);
 void do_node(Execution& run);
 void do_playback(Execution& run);
+void do_project(Execution& run);
 void do_quality(Execution& run);
 void do_quit(Execution& run);
 void do_record(Execution& run);
@@ -68,6 +69,8 @@ std::string mesh_endings(bool writing);
 /// Throws Error where the session is safe. what: "this limit"
 void refuse_if_safe(const Execution& run, std::string_view what);
 
+/// Throws Error where there is no mesh, saying where one comes from. purpose: "to refine"
+void need_mesh(const Execution& run, std::string_view purpose);
 /// Says that words were understood and change nothing here.
 void note_ignored(const Execution& run, std::initializer_list<const char*> words);
 /// step.cpp: "3 time steps (0 to 2; fields are those of step 3)"; empty where there is but one.

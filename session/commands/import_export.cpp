@@ -209,7 +209,7 @@ void do_export(Execution& run) {
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, true);
   check_file(run, file, mesh_endings(true));
-  if (run.meshed->mesh.n_hexes() == 0) throw Error("there is no mesh to export");
+  need_mesh(run, "to export");
   const bool is_part = run.command.find("blocks") && !says_all(*run.command.find("blocks"));
   if (is_part && word.name == "levels")
     throw error_at(run.command.statement, run.command.find("blocks")->range.token,

@@ -22,7 +22,7 @@ Vec3 vector(const Command& command, const char* x, const char* y, const char* z)
 Vec3 direction(const Command& command) {
   if (!command.find("ax")) return {command.has("x") ? 1.0 : 0, command.has("y") ? 1.0 : 0, command.has("z") ? 1.0 : 0};
   const Vec3 said = vector(command, "ax", "ay", "az");
-  if (!(said.stableNorm() > 0)) throw error_at(command.statement, command.find("ax")->token, "this is no direction");
+  if (!(said.stableNorm() > 0)) throw error_at(command.statement, command.find("ax")->token, "this is not a direction");
   return said.stableNormalized();
 }
 
@@ -83,8 +83,10 @@ void do_move(Execution& run) {
   move(run, similarity);
   const MeshedModel& now = *run.meshed;
   const Box box = now.mesh.n_hexes() > 0 ? hextwist::box(now.mesh) : now.model->box();
-  run.say(std::string(now.mesh.n_hexes() == 0 ? "CAD" : run.state.has_cad ? "mesh and CAD" : "mesh") + " " + done +
-          ": now from " + point_text(box.min) + " to " + point_text(box.max));
+  run.say(std::string(now.mesh.n_hexes() == 0 ? "CAD"
+                      : run.state.has_cad     ? "mesh and CAD"
+                                              : "mesh") +
+          " " + done + ": now from " + point_text(box.min) + " to " + point_text(box.max));
 }
 
 }  // namespace hextwist

@@ -37,7 +37,7 @@ void play(Execution& run, const Item& file, std::string_view endings) {
   std::ifstream stream(file.text, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file.text)) throw Error(file.text + ": this journal can't be read");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!is_journal(text)) throw Error(file.text + ": this is no journal: its lines are no commands");
+  if (!is_journal(text)) throw Error(file.text + ": this is not a journal: its lines are not commands");
   struct Nested {
     int& level;
     explicit Nested(int& nesting) : level(++nesting) {}

@@ -90,8 +90,7 @@ void filter(const Command& command, std::vector<Index>& hexes, std::vector<doubl
 
 void do_quality(Execution& run) {
   const Item& range = *run.command.find("range");
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh");
+  need_mesh(run, "to measure");
   const std::vector<Index> hexes = related(run.core.selector(), range.kind, run.chosen(range), EntityKind::hex);
   if (hexes.empty()) throw error_at(run.command.statement, range.range.token, "no hex lies there");
 

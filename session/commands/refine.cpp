@@ -269,8 +269,7 @@ Target target_of(const Execution& run) {
 }
 
 void do_refine(Execution& run) {
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh to refine");
+  need_mesh(run, "to refine");
   run.stage("select");
   Request request = request_of(run);
   request.levelling = run.state.levelling ? run.state.levelling : levelling_of(run.meshed.lend());
@@ -282,6 +281,9 @@ void do_refine(Execution& run) {
   const Report& report = result.report;
   const std::string line = tell(run, report, request.finish.dry_run);
   if (request.finish.dry_run) {
+    if (const std::string wrong = record_violations(run.record(), result.refined.mesh, report.violations);
+        !wrong.empty())
+      throw Error("the result would be refused: " + wrong);
     run.record().dry_run = true;
     run.record().after.hexes = report.hexes_after;
     run.record().after.nodes = report.nodes_after;

@@ -137,7 +137,7 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
         if constexpr (requires { group->hexes; }) note_overlaps(run, groups, items, *group);
     if (after > 0) return line;
     groups.erase(group);
-    return line + ", so that it is no more";
+    return line + "; it is empty now and was deleted";
   });
 }
 
@@ -147,7 +147,7 @@ void do_sets(Execution& run) {
   const Command& command = run.command;
   const EntityKind kind = kind_of(command);
   const Mesh& mesh = run.meshed->mesh;
-  if (mesh.n_hexes() == 0) throw error_at(command.statement, command.items.front().token, "there is no mesh");
+  need_mesh(run, "to make sets of");
   if (const Item* type = command.find("type")) {
     if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
       throw error_at(

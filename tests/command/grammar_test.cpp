@@ -151,7 +151,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine hex with (x_coord > 3", 29, "expected"},
            {"refine hex with x_coord = 3 tolerance x", 39, "expected a number"},
            {"refine hex with x_coord = 3 tolerance -1", 39, "a tolerance can't be negative"},
-           {"refine hex with quality shap2 > 3", 25, "expected shape, scaled_jacobian, mean_ratio"},
+           {"refine hex with quality shap2 > 3", 25, "did you mean shape? See 'help refine'"},
            {"refine hex with x", 17, "'x' may be x_coord, x_min or x_max"},
            {"refine hex with name 'a'", 17, "hexes have no name"},
            {"refine curve with name 3", 24, "expected a name in quotes"},
@@ -166,7 +166,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine hex all except surface 2", 23, "only hexes can be taken from a list of hexes"},
            {"refine hex {n}", 12, "expressions in braces need a session that knows their values"},
            {"{n = 3}", 1, "expressions in braces need a session that knows their values"},
-           {"refine curve 3 nunsplit 2", 16, "(did you mean 'numsplit'?)"},
+           {"refine curve 3 nunsplit 2", 16, "did you mean numsplit? See 'help refine'"},
            {"refine curve 3 numsplit", 24, "expected a whole number, found the end"},
            {"refine curve 3 numsplit x", 25, "expected a whole number, found 'x'"},
            {"refine curve 3 numsplit 0", 25, "numsplit must be a whole number from 1 to 29"},
@@ -203,7 +203,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"block 1 volume 2 name 'a' hex 3", 27, "expected the end of the command, found 'hex'"},
            {"nodeset 1 curve 1 nod 3", 19, "'nod' may be node or nodeset"},
            {"sideset 1 surface 2 curve 3", 21, "expected"},
-           {"group g add curve 1 crve 2", 21, "(did you mean 'curve'?)"},
+           {"group g add curve 1 crve 2", 21, "did you mean curve? See 'help group'"},
            {"block -1 hex 1", 7, "block must be a whole number"},
            {"nodeset 1 node", 15, "expected an id"},
            {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
@@ -212,7 +212,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"set undo maybe", 10, "expected on, off or limit"},
            {"q volume 1", 1, "'q' may be quality or quit"},
            {"quality volume 1 shap all", 23, "this option was given already"},
-           {"quality volume 1 surface", 18, "expected"},
+           {"quality volume 1 surface", 18, "cannot stand here"},
            {"quality volume 1 low", 21, "expected a number"},
            {"quality volume 1 di", 18, "'di' may be diagonal, distortion or dimension"},
            {"import step foo", 13, "expected a file name in quotes, found 'foo'"},
@@ -267,6 +267,11 @@ TEST(Grammar, completion_offers_what_could_stand_there) {
   EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
   EXPECT_EQ(completions("refine cu"), (List{"curve"}));
   EXPECT_EQ(completions("refine curve 3 nu"), (List{"numsplit"}));
+  EXPECT_EQ(completions("refine curve 3 size 0.5 nu"), List{});
+  EXPECT_EQ(completions("refine curve 3 size 0.5 b"), (List{"bias"}));
+  EXPECT_EQ(completions("refine curve 3 numsplit 2 siz"), List{});
+  EXPECT_EQ(completions("refine curve 3 depth 2 rad"), List{});
+  EXPECT_EQ(completions("refine lo"), (List{"location"}));
   EXPECT_EQ(completions("refine curve 3 concave "), (List{"fill", "template"}));
   EXPECT_EQ(completions("refine curve 3 numsplit "), List{});
   EXPECT_EQ(completions("refine bogus 3 "), List{});
@@ -291,6 +296,26 @@ TEST(Grammar, every_command_has_help_and_its_examples_parse) {
   EXPECT_NE(help("range").find("except"), std::string::npos);
   EXPECT_NE(help("expressions").find("atan2d"), std::string::npos);
   EXPECT_THROW(help("bogus"), Error);
+}
+
+TEST(Grammar, help_is_short_first_and_tells_of_one_option) {
+  EXPECT_EQ(help("refine").find("combination technique"), std::string::npos);
+  EXPECT_NE(help("refine").find("'help refine all' tells more"), std::string::npos);
+  EXPECT_LT(help("refine").size(), 2 * help("refine", "all").size() / 3);
+  EXPECT_NE(help("refine").find("location <x> <y> <z>"), std::string::npos);
+  const std::string size = help("ref", "size");
+  EXPECT_NE(size.find("  size <size>\n"), std::string::npos) << size;
+  EXPECT_NE(size.find("wished size of elements at the target"), std::string::npos) << size;
+  EXPECT_NE(size.find("'size' cuts until"), std::string::npos) << size;
+  EXPECT_NE(size.find("refine curve 3 size 0.5 bias 1.5"), std::string::npos) << size;
+  EXPECT_EQ(size.find("refine curve 7 smooth"), std::string::npos) << size;
+  EXPECT_NE(help("refine", "direction").find("thickness|layers <n>"), std::string::npos);
+  EXPECT_NE(help("refine", "no_smooth").find("no_smooth"), std::string::npos);
+  EXPECT_THROW(help("refine", "colour"), Error);
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    EXPECT_FALSE(help(spec.name, "all").empty()) << spec.name;
+  }
 }
 
 TEST(Grammar, the_manual_has_every_command_and_example) {

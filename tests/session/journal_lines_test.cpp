@@ -121,7 +121,8 @@ const std::vector<Line> lines = {
     {"export genesis 'part.g' dimension 3 block all overwrite", done, "64 hexes written"},
     {"export mesh \"some.e\" block 1 overwrite partial", done, "hexes written"},
     {"export abaqus \"part.inp\" everything overwrite", done, "64 hexes written"},
-    {"export genesis 'p.g'; reset; import mesh geometry \"p.g\" block all use nodeset sideset feature_angle 135.00 linear merge",
+    {"export genesis 'p.g'; reset; import mesh geometry \"p.g\" block all use nodeset sideset feature_angle 135.00 "
+     "linear merge",
      done, "64 hexes"},
     {"export genesis 'q.g'; import mesh 'q.g' no_geom", done, "64 hexes"},
     {"export step \"part.step\" overwrite", refused, "meshes are written as exodus"},
@@ -279,7 +280,7 @@ TEST_F(Lines, of_something_that_is_no_journal_are_one_error) {
   test::written("a.jou", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 3\n4 5 6\n7 8 9\n");
   EXPECT_EQ(f.session.run("playback 'a.jou'"), 1);
   EXPECT_EQ(f.errors.size(), 1u);
-  EXPECT_NE(f.errors[0].find("a.jou: this is no journal"), std::string::npos);
+  EXPECT_NE(f.errors[0].find("a.jou: this is not a journal"), std::string::npos);
   std::ofstream("b.jou", std::ios::binary) << std::string("refine\0curve", 12);
   EXPECT_EQ(f.session.run("playback 'b.jou'"), 1);
   test::written("c.jou", "refine curve 99\nlist curve 99\nlist hex 1\nlist node 1\nquit\n");

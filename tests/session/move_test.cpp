@@ -61,10 +61,10 @@ TEST(Moving, keeps_mesh_and_cad_together_ids_and_owners_with_every_kind_of_surfa
 
 TEST(Moving, is_told_what_it_cannot_do) {
   Fixture f;
-  EXPECT_EQ(f.error("move 1 0 0"), "there is no mesh and no CAD to move");
+  EXPECT_EQ(f.error("move 1 0 0"), "there is neither mesh nor CAD to move");
   import(f, "inclusion");
   EXPECT_EQ(f.error("volume 1 move x 1"), "all 2 volumes of the model move together: say 'volume all'");
-  EXPECT_EQ(f.error("rotate model 3 about 0 0 0"), "this is no direction");
+  EXPECT_EQ(f.error("rotate model 3 about 0 0 0"), "this is not a direction");
   EXPECT_EQ(f.error("scale 0"), "scale must be a number above 0");
   f.session.run("refine hex 1; move 1 0 0");
   EXPECT_EQ(f.notices.back(), "levels end here: this mesh is the base of what is refined from now on");
@@ -129,7 +129,8 @@ TEST(Naming, of_cad_entities_is_for_ranges_and_goes_with_undo_and_moves) {
 TEST(Parts, of_a_mesh_are_written_with_their_blocks_sets_and_fields) {
   Fixture f;
   import(f, "inclusion");
-  f.session.run("reset genesis; block 10 volume 1; block 20 volume 2; nodeset 1 surface 1; sideset 1 surface all in volume 2");
+  f.session.run(
+      "reset genesis; block 10 volume 1; block 20 volume 2; nodeset 1 surface 1; sideset 1 surface all in volume 2");
   f.session.run("nodeset 2 vertex in volume 2");
   const std::string file = (test::folder() / "ball.e").string();
   f.session.run("export exodus \"" + file + "\" block 10 partial");
@@ -153,8 +154,7 @@ TEST(Attributes, of_blocks_are_written_and_read_again_with_the_children_of_their
   f.session.run("create brick x 1 interval 2; reset block; block 1 hex 1 to 4; block 2 hex 5 to 8");
   f.session.run("block 1 attribute count 2; block 1 attribute index 2 0.5; block 1 attribute index 2 name 'thickness'");
   EXPECT_EQ(f.output.back(), "block 1: 2 attributes 'attribute_1' 'thickness'");
-  EXPECT_EQ(f.error("block 1 attribute index 3 1"),
-            "block 1 has 2 attributes; 'block 1 attribute count 3' makes more");
+  EXPECT_EQ(f.error("block 1 attribute index 3 1"), "block 1 has 2 attributes; 'block 1 attribute count 3' makes more");
   EXPECT_EQ(f.error("block 7 attribute count 3"), "there is no block 7");
   const std::string file = (test::folder() / "a.e").string();
   f.session.run("refine hex 1; export exodus \"" + file + "\"");

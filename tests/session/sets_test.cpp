@@ -131,7 +131,7 @@ TEST(Sets, several_kinds_are_undone_together_and_all_or_nothing) {
 
 TEST(Sets, mistakes_are_pointed_at) {
   Fixture f;
-  EXPECT_EQ(f.error("block 1 volume 1"), "there is no mesh");
+  EXPECT_TRUE(f.error("block 1 volume 1").starts_with("there is no mesh to make sets of"));
   f.session.run("create brick x 2 interval 2");
   EXPECT_EQ(f.error("block 5 name 'x'"), "there is no block 5");
   EXPECT_EQ(f.last().column, 7);
