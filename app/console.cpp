@@ -91,10 +91,10 @@ void Console::idle() {
 bool Console::progress(const char* stage, double fraction) {
   {
     const std::lock_guard lock(mutex_);
-    if (!running_) since_ = std::chrono::steady_clock::now();
+    const auto now = ProgressLine::Clock::now();
+    if (!running_) line_.begin(now);
     running_ = true;
-    stage_ = stage;
-    fraction_ = fraction;
+    line_.report(stage, fraction, now);
   }
   return !interrupted;
 }
@@ -127,13 +127,9 @@ void Console::paint(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     wake_.wait_for(lock, stop, 200ms, [] { return false; });
-    const auto elapsed = std::chrono::steady_clock::now() - since_;
-    if (!running_ || elapsed < 1s) continue;
-    const double seconds = std::chrono::duration<double>(elapsed).count();
-    if (fraction_ > 0)
-      std::fprintf(stderr, "\r\033[K  %s, %.0f%%, %.1f s", stage_.c_str(), 100 * fraction_, seconds);
-    else
-      std::fprintf(stderr, "\r\033[K  %s, %.1f s", stage_.c_str(), seconds);
+    const std::string text = running_ ? line_.text(ProgressLine::Clock::now()) : "";
+    if (text.empty()) continue;
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
     std::fflush(stderr);
     shown_ = true;
   }

@@ -1,18 +1,18 @@
 // The terminal: what commands print, a progress line for long ones, and Ctrl-C.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "hextwist/session/session.h"
+#include "progress.h"
 
 namespace hextwist::app {
 
 /// Output and notices go to standard output, errors to standard error. Where that is a terminal, a command that runs
-/// for more than a second shows its stage there.
+/// for more than a second shows its progress there.
 class Console {
  public:
   Console();
@@ -32,9 +32,7 @@ class Console {
   std::mutex mutex_;
   std::condition_variable_any wake_;
   bool running_ = false, shown_ = false;
-  std::chrono::steady_clock::time_point since_;
-  std::string stage_;
-  double fraction_ = 0;
+  ProgressLine line_;
   std::string problem_;
   int write_error_ = 0;  // of standard output; 0: none
   std::jthread painter_;

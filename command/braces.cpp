@@ -90,6 +90,10 @@ bool has_braces(const Statement& statement) {
   return std::ranges::any_of(statement.tokens, [&](const Token& token) { return is_replaced(statement, token); });
 }
 
+Value value_within(const Statement& statement, std::size_t offset, std::size_t length, Variables& variables) {
+  return Expansion(statement, variables).value(offset - 1, offset + length).value;
+}
+
 Expanded expand(const Statement& statement, Variables& variables) {
   Variables changed = variables;
   Expansion expansion(statement, changed);

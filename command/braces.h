@@ -21,6 +21,9 @@ struct Expanded {
 /// True if anything in the statement is to be replaced.
 bool has_braces(const Statement& statement);
 
+/// The value of so many bytes of its source. Throws CommandError pointing into them.
+Value value_within(const Statement& statement, std::size_t offset, std::size_t length, Variables& variables);
+
 /// Throws CommandError pointing into the braces; the variables are then as they were.
 Expanded expand(const Statement& statement, Variables& variables);
 

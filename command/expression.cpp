@@ -12,6 +12,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/command/error_at.h"
+#include "hextwist/command/flow.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/command/written.h"
 
@@ -91,11 +92,6 @@ constexpr std::array<Constant, 9> constants = {{{"PI", pi},
                                                 {"DEG", 180 / pi},
                                                 {"RAD", pi / 180}}};
 
-/// Words of APREPRO that change which lines are read.
-constexpr std::array<std::string_view, 16> flow = {"loop",    "endloop",  "if",     "ifdef", "ifndef",  "elseif",
-                                                   "else",    "endif",    "switch", "case",  "default", "endswitch",
-                                                   "include", "cinclude", "abort",  "exit"};
-
 class Parser {
  public:
   Parser(std::string_view text, const Variables& variables) : text_(text), variables_(variables) {}
@@ -163,10 +159,11 @@ class Parser {
     std::size_t behind = at_ + word.size();
     while (behind < text_.size() && text_[behind] == ' ') ++behind;
     const bool alone = behind == text_.size() || text_[behind] == '(';
-    for (const auto each : flow)
-      if (alone && same_word(word, each) && !variables_.contains(word))
-        fail("'{" + std::string(word) + "}': loops, conditions and inclusion in braces are not supported", at_,
-             word.size());
+    if (alone && is_flow_word(word) && !variables_.contains(word))
+      fail("'{" + std::string(word) +
+               "}' stands alone on its line, as in {loop(3)} ... {endloop}, {if(n > 2)} ... {endif} or "
+               "{include(\"a.jou\")}",
+           at_, word.size());
   }
 
   double number(const Value& value, std::size_t begin) const {

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 #include "hextwist/command/expression.h"
+#include "hextwist/command/pattern_internal.h"
 #include "hextwist/command/reader.h"
 #include "hextwist/command/syntax.h"
 
@@ -99,39 +101,126 @@ std::string help() {
   for (const CommandSpec& spec : language())
     if (!spec.syntax.empty()) result += "  " + padded(spec.name, 12) + std::string(spec.summary) + "\n";
   return result + "  " + padded("help range", 12) + "how to say which entities\n" + "  " + padded("help expr", 12) +
-         "{...}: variables and arithmetic\n" + "\n'help <command>' shows syntax, options and examples.\n";
+         "{...}: variables and arithmetic\n" +
+         "\n'help <command>' shows syntax and examples, 'help <command> <option>' one option, 'help <command> all' "
+         "everything.\n";
 }
+
+namespace {
+
+/// Longer ones come with `help ... all`.
+constexpr std::size_t short_details = 400;
+
+/// The command of that name, else those that begin with it.
+std::vector<const CommandSpec*> commands_named(std::string_view word) {
+  std::vector<const CommandSpec*> found;
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    if (same_word(spec.name, word)) return {&spec};
+    if (begins_word(word, spec.name)) found.push_back(&spec);
+  }
+  if (!found.empty()) return found;
+  std::vector<std::string> names;
+  for (const CommandSpec& spec : language()) names.emplace_back(spec.name);
+  const std::vector<std::string> near = nearest_words(word, names, 3);
+  throw Error("there is no command '" + printable(word) + "'" +
+              (near.empty() ? "" : ": did you mean " + alternatives(near) + "?") + (near.empty() ? ";" : "") +
+              " 'help' lists them");
+}
+
+std::string arguments_text(const CommandSpec& spec, std::string_view syntax) {
+  std::string result;
+  for (const ArgumentSpec& argument : spec.arguments) {
+    const std::string written = "<" + std::string(argument.name) + ">";
+    if (argument.help.empty() || syntax.find(written) == std::string_view::npos) continue;
+    result += (result.empty() ? "\n" : "") + wrapped(padded(written, 14) + std::string(argument.help), 2, 16);
+  }
+  return result;
+}
+
+std::string page(const CommandSpec& spec, bool whole) {
+  std::string result = std::string(spec.name) + ": " + std::string(spec.summary) + "\n\n";
+  const std::string syntax = shown_syntax(spec);
+  result += wrapped(syntax, 2, 6) + arguments_text(spec, syntax);
+  const bool details = whole || spec.details.size() <= short_details;
+  if (details && !spec.details.empty()) result += "\n" + wrapped(spec.details, 2, 2);
+  if (!spec.examples.empty()) result += "\n  examples\n";
+  for (const auto example : spec.examples) result += "    " + std::string(example) + "\n";
+  if (!details)
+    result += "\n  'help " + std::string(spec.name) + " all' tells more, 'help " + std::string(spec.name) +
+              " <option>' of one option.\n";
+  return result;
+}
+
+/// The options that begin with that word, and whatever they stand in.
+void collect_options(const Pattern& pattern, std::string_view word, std::vector<std::string>& found) {
+  for (const PatternNode& node : pattern)
+    for (const Pattern& choice : node.choices) {
+      const PatternNode* first = &choice.front();
+      bool begins = first->kind == PatternNode::Kind::word && !first->hidden && same_word(first->name, word);
+      if (first->kind == PatternNode::Kind::one_of)
+        begins = std::ranges::any_of(first->choices, [&](const Pattern& inner) {
+          return inner.front().kind == PatternNode::Kind::word && same_word(inner.front().name, word);
+        });
+      const std::string text = to_string(choice);
+      if (begins && !text.empty() && std::ranges::find(found, text) == found.end()) found.push_back(text);
+      if (!begins) collect_options(choice, word, found);
+    }
+}
+
+/// The sentences that say the word.
+std::string sentences_with(std::string_view text, std::string_view word) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t stop = std::min(text.find(". "), text.find(".\n"));
+    const std::size_t end = stop == std::string_view::npos ? text.size() : stop + 1;
+    const std::string_view sentence = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + 1));
+    bool says = false;
+    for (std::size_t at = sentence.find(word); at != std::string_view::npos && !says;
+         at = sentence.find(word, at + 1)) {
+      const auto ends = [&](std::size_t i) {
+        return i >= sentence.size() || !std::isalnum(static_cast<unsigned char>(sentence[i]));
+      };
+      says = (at == 0 || ends(at - 1)) && ends(at + word.size()) &&
+             (at + word.size() >= sentence.size() || sentence[at + word.size()] != '_');
+    }
+    if (says) result += (result.empty() ? "" : " ") + std::string(sentence);
+  }
+  return result;
+}
+
+}  // namespace
 
 std::string help(std::string_view word) {
   if (same_word(word, "range")) return std::string(range_text);
   if (word.size() >= 4 && begins_word(word, "expressions")) return std::string(expression_text) + functions_text();
-  std::vector<const CommandSpec*> found;
-  for (const CommandSpec& spec : language()) {
-    if (spec.syntax.empty()) continue;
-    if (same_word(spec.name, word)) {
-      found = {&spec};
-      break;
-    }
-    if (begins_word(word, spec.name)) found.push_back(&spec);
-  }
-  if (found.empty()) throw Error("there is no command '" + printable(word) + "'; 'help' lists them");
   std::string result;
-  for (const CommandSpec* spec : found) {
-    if (!result.empty()) result += "\n";
-    result += std::string(spec->name) + ": " + std::string(spec->summary) + "\n\n";
-    result += wrapped(shown_syntax(*spec), 2, 6);
-    bool any = false;
-    for (const ArgumentSpec& argument : spec->arguments) {
-      if (argument.help.empty()) continue;
-      result += (any ? "" : "\n") +
-                wrapped(padded("<" + std::string(argument.name) + ">", 14) + std::string(argument.help), 2, 16);
-      any = true;
-    }
-    if (!spec->details.empty()) result += "\n" + wrapped(spec->details, 2, 2);
-    if (!spec->examples.empty()) result += "\n  examples\n";
-    for (const auto example : spec->examples) result += "    " + std::string(example) + "\n";
-  }
+  for (const CommandSpec* spec : commands_named(word)) result += (result.empty() ? "" : "\n") + page(*spec, false);
   return result;
+}
+
+std::string help(std::string_view word, std::string_view option) {
+  const CommandSpec& spec = *commands_named(word).front();
+  if (same_word(option, "all")) return page(spec, true);
+  std::vector<std::string> found;
+  collect_options(compile_pattern(spec.syntax), option, found);
+  if (found.empty())
+    throw Error("'" + std::string(spec.name) + "' has no option '" + printable(option) + "'; 'help " +
+                std::string(spec.name) + "' shows them");
+  std::string result = std::string(spec.name) + " ... " + lower_case(option) + "\n\n", arguments;
+  for (const std::string& text : found) {
+    result += wrapped(text, 2, 6);
+    arguments += text;
+  }
+  result += arguments_text(spec, arguments);
+  if (const std::string said = sentences_with(spec.details, lower_case(option)); !said.empty())
+    result += "\n" + wrapped(said, 2, 2);
+  std::string examples;
+  for (const auto example : spec.examples)
+    if ((" " + std::string(example) + " ").find(" " + lower_case(option) + " ") != std::string::npos)
+      examples += "    " + std::string(example) + "\n";
+  return result + (examples.empty() ? "" : "\n  examples\n" + examples);
 }
 
 }  // namespace hextwist

@@ -17,43 +17,77 @@ constexpr std::string_view range_help = "ids: 1 3, 3 to 17 by 2, all, except ...
   "|stretch|taper|aspect [ratio]|=aspect_ratio|edge [ratio]|=edge_ratio|diagonal [=ratio]|relative [size]|=relative_size|shear" \
   "|oddy|distortion|volume|=element volume|jacobian|dimension"
 
+#define SCHEMES \
+  "scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential" \
+  "|=optimize [jacobian]|=winslow}"
+#define ALONG "x <dx> [y <dy>] [z <dz>]|y <dy> [x <dx>] [z <dz>]|z <dz> [x <dx>] [y <dy>]"
+#define WHERE_TO "{<dx> <dy> <dz>|" ALONG "}"
+#define MOVES \
+  "move " WHERE_TO "|scale {<factor>|x <fx> y <fy> z <fz>} [about <x> <y> <z>]" \
+  "|rotate [=angle] <degrees> about {x|y|z|<ax> <ay> <az>|origin <x> <y> <z> direction <ax> <ay> <az>} [=include_merged]" \
+  "|reflect {x|y|z|<ax> <ay> <az>} [=include_merged]"
+#define MOVE_ARGUMENTS \
+  {"dx", Kind::number, -1e100, 1e100, false, "how far along x, y and z"}, {"dy", Kind::number, -1e100, 1e100, false, ""}, \
+      {"dz", Kind::number, -1e100, 1e100, false, ""}, \
+      {"factor", Kind::number, 0, 1e100, true, "for all lengths"}, {"fx", Kind::number, 0, 1e100, true, "the same for x, y and z"}, \
+      {"fy", Kind::number, 0, 1e100, true, ""}, {"fz", Kind::number, 0, 1e100, true, ""}, \
+      {"degrees", Kind::number, -1e6, 1e6, false, "angle, counter-clockwise seen from where the axis points to"}, \
+      {"ax", Kind::number, -1e100, 1e100, false, "direction of the axis, or the normal of the mirror"}, \
+      {"ay", Kind::number, -1e100, 1e100, false, ""}, {"az", Kind::number, -1e100, 1e100, false, ""}, \
+      {"x", Kind::number, -1e100, 1e100, false, "a point that stays; default 0 0 0"}, \
+      {"y", Kind::number, -1e100, 1e100, false, ""}, {"z", Kind::number, -1e100, 1e100, false, ""}
+#define BRICK "brick {x|=width} <width> [{y|=depth} <depth>] [{z|=height} <height>] [interval <n> [<n_y> <n_z>]]"
+#define CYLINDER "cylinder {radius <radius> height <height>|height <height> radius <radius>} [interval <n>]"
+#define SPHERE "sphere radius <radius> [interval <n>]"
+#define SOLID_ARGUMENTS \
+  {"width", Kind::number, 0, 1e100, true, "length along x"}, {"depth", Kind::number, 0, 1e100, true, "length along y"}, \
+      {"height", Kind::number, 0, 1e100, true, "length along z"}, {"radius", Kind::number, 0, 1e100, true, "radius"}, \
+      {"n", Kind::integer, 1, 1000, false, "number of cells; default 4, for a sphere 2"}, \
+      {"n_y", Kind::integer, 1, 1000, false, ""}, {"n_z", Kind::integer, 1, 1000, false, ""}
+#define SOLIDS \
+  "All stand with their centre at the origin, a cylinder along z. A brick (y and z default to x) gets a mapped mesh " \
+  "with n cells along each edge, or n, n_y and n_z along x, y and z; a cylinder an O-grid with n cells along its height and " \
+  "each quarter circle; a sphere seven blocks with n cells along each eighth of a great circle. What was there before " \
+  "is replaced."
+#define FILTERS "[low <lowest>] [high <highest>] [top <n>] [bottom <n>]"
+#define FILTER_ARGUMENTS \
+  {"lowest", Kind::number, -1e300, 1e300, false, "only hexes with at least this value"}, \
+      {"highest", Kind::number, -1e300, 1e300, false, "only hexes with at most this value"}, \
+      {"n", Kind::integer, 1, 1e9, false, "how many hexes"}
+
 const std::vector<CommandSpec> table = {
     {"block",
      "block {<id>|all} {{hex|volume|group} <range> ... [name <text>]|add {hex|volume|group} <range> ... [name <text>]"
-     "|remove {hex|volume|group} <range> ...|name <text>|element type <type>}",
+     "|remove {hex|volume|group} <range> ...|name <text>|element type <type>"
+     "|attribute {count <n>|index <index> {<value>|name <text>}|<value>}}",
      "define a block of hexes",
      "Adds the hexes to the block, which comes into being when it is not there, or takes them out of it. A block without "
      "hexes is deleted. Blocks may overlap; formats that can't say so keep a hex in its first block. Children of "
-     "a hex belong to its blocks.",
+     "a hex belong to its blocks. 'attribute' is for Exodus files: so many values per hex of the block, each with a number "
+     "(from 1), a value and a name.",
      {{"id", Kind::integer, 0, max_group_id, false, "number of the block"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"},
-      {"type", Kind::word, 0, 0, false, "hex8, which every element is"}},
-     {"block 1 volume 2 name \"steel\"", "block 1 add hex 1 to 10", "block 1 add volume 1 hex 5 to 9", "block 1 remove hex 3", "block 1 name \"iron\""}},
+      {"type", Kind::word, 0, 0, false, "hex8, which every element is"},
+      {"n", Kind::integer, 0, 1000, false, "how many attributes the hexes of the block have"},
+      {"index", Kind::integer, 1, 1000, false, "which of them"},
+      {"value", Kind::number, -1e300, 1e300, false, "for all hexes of the block"}},
+     {"block 1 volume 2 name \"steel\"", "block 1 add hex 1 to 10", "block 1 add volume 1 hex 5 to 9", "block 1 remove hex 3", "block 1 name \"iron\"", "block 1 attribute count 2", "block 1 attribute index 2 0.5"}},
+    {"brick", BRICK, "'create brick'", SOLIDS, {SOLID_ARGUMENTS}, {"brick x 10 interval 5"}, "create"},
     {"check", "check", "verify the mesh: conformity, orientation, ownership, distance from the CAD, volume",
      "Prints what was checked and fails when the mesh breaks a promise, naming ids.", {},
      {"check"}},
     {"create",
-     "create {brick x <width> [y <depth>] [z <height>] [interval <n> [<n_y> <n_z>]]"
-     "|cylinder {radius <radius> height <height>|height <height> radius <radius>} [interval <n>]"
-     "|sphere radius <radius> [interval <n>]}",
+     "create {" BRICK "|" CYLINDER "|" SPHERE "|=group <name>|=block <id>}",
      "make a small CAD solid with a hex mesh on it",
-     "All stand with their centre at the origin, a cylinder along z. A brick (y and z default to x) gets a mapped mesh "
-     "with n cells along each edge, or n, n_y and n_z along x, y and z; a cylinder an O-grid with n cells along its height and "
-     "each quarter circle; a sphere seven blocks with n cells along each eighth of a great circle. What was there before "
-     "is replaced.",
-     {{"width", Kind::number, 0, 1e100, true, "length along x"},
-      {"depth", Kind::number, 0, 1e100, true, "length along y"},
-      {"height", Kind::number, 0, 1e100, true, "length along z"},
-      {"radius", Kind::number, 0, 1e100, true, "radius"},
-      {"n", Kind::integer, 1, 1000, false, "number of cells; default 4, for a sphere 2"},
-      {"n_y", Kind::integer, 1, 1000, false, ""},
-      {"n_z", Kind::integer, 1, 1000, false, ""}},
+     SOLIDS,
+     {SOLID_ARGUMENTS, {"name", Kind::string, 0, 0, false, ""}, {"id", Kind::integer, 0, max_group_id, false, ""}},
      {"create brick x 10 y 5 z 2 interval 10 5 2", "create cylinder radius 2 height 10", "create sphere radius 1 interval 3"}},
-    {"curve", "curve <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow} [=free|=fixed] [=beta <value>] [=cpu <value>]", "choose how 'smooth' treats curves",
+    {"curve", "curve <range> {smooth " SCHEMES " [=free|=fixed] [=beta <value>] [=cpu <value>]|{name|=rename} <text>}", "name curves; choose how 'smooth' treats curves",
      "Nothing moves before 'smooth curve' is said, whose own 'scheme' goes before this.",
-     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}},
-     {"curve all smooth scheme laplacian"}},
+     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}, {"text", Kind::string, 0, 0, false, "name, in quotes"}},
+     {"curve all smooth scheme laplacian", "curve 3 name \"rim\""}},
+    {"cylinder", CYLINDER, "'create cylinder'", SOLIDS, {SOLID_ARGUMENTS}, {"cylinder radius 2 height 10"}, "create"},
     {"delete", "delete {block|nodeset|sideset|group} <range>", "delete blocks, sets or groups", "Their members stay.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"delete block 2", "delete nodeset all"}},
@@ -89,7 +123,7 @@ const std::vector<CommandSpec> table = {
       {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [=block <blocks>] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
      "something fails, as it was. An existing file is kept unless 'overwrite' is said. 'text' or 'binary' where a format has "
      "both (.msh, .vtu); 'version' of .msh; 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
@@ -97,32 +131,38 @@ const std::vector<CommandSpec> table = {
      "can go on another day.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
       {"version", Kind::number, 2.2, 4.1, false, "of .msh: 2.2 or 4.1; default 4.1"},
-      {"blocks", Kind::range, 0, 0, false, ""},
+      {"blocks", Kind::range, 0, 0, false, "only these blocks, with what sets and fields have of them"},
       {"dimension", Kind::integer, 3, 3, false, ""}},
      {"export gmsh \"part.msh\" text version 2.2 groups only", "export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
     {"group",
-     "group {<name>|<word>|<id>} {add|equals|remove|xor} {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> ...",
+     "group {<name>|<word>|<id>} {add|equals|remove|xor} {{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> ..."
+     "|quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [{" METRICS "}] " FILTERS "}",
      "collect entities under a name",
      "For ranges: 'curve in group 1', 'refine curve in fillets'. 'add' makes the group if there is none of that name, 'equals' "
      "leaves nothing else in it, 'xor' adds those that are not in it and takes out the others. Members that a later command "
-     "does away with, such as hexes that are split, are members no longer; blocks keep their children.",
+     "does away with, such as hexes that are split, are members no longer; blocks keep their children. 'quality' collects hexes as the command "
+     "of that name prints them.",
      {{"name", Kind::string, 0, 0, false, "name of the group, in quotes"},
       {"word", Kind::word, 0, 0, false, "the same without quotes"},
       {"id", Kind::integer, 1, max_group_id, false, "number of a group that is there"},
-      {"range", Kind::range, 0, 0, false, range_help}},
-     {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3"}},
-    {"help", "help [<command>]", "list the commands, or show one",
-     "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}}, {"help", "help refine"}},
+      {"range", Kind::range, 0, 0, false, range_help}, FILTER_ARGUMENTS},
+     {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3", "group \"poor\" add quality volume all shape high 0.3"}},
+    {"help", "help [<command> [<option>]]", "list the commands, or show one, or one of its options",
+     "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}, {"option", Kind::word, 0, 0, false, "one of its options, or 'all' for everything about it"}}, {"help", "help refine", "help refine size", "help refine all"}},
     {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
-     "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies]", "read a mesh or CAD",
+     "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies] [scale <factor>] "
+     "[=use] [=nodeset] [=no_nodeset] [=sideset] [=no_sideset] [=linear] [=gradient] [=quadratic] [=spline] [=merge] [=no_merge] "
+     "[=merge_nodes] [=unique] [=genesis] [=start_id <start>] [=ids]", "read a mesh or CAD",
      "'mesh' and 'geometry' choose the format by the file's extension; the other words insist on one. CAD comes first, "
      "then the mesh that lies on it; a mesh without CAD gets a model of its own skin. A new mesh or CAD replaces the old one. "
      "Boundary nodes that lie off the CAD within the tolerance (files often keep six digits) are put on it, unless 'no_snap' is said. "
      "'levels' brings back what 'export levels' wrote, with the mesh; where that mesh is there already, with the results of a solver, its fields stay.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
+      {"factor", Kind::number, 0, 1e100, true, "for all lengths in the file: 0.001 makes metres of millimetres"},
       {"angle", Kind::number, 0, 180, false, ""},
+      {"start", Kind::integer, 0, 9e15, false, ""},
       {"blocks", Kind::range, 0, 0, false, ""}},
-     {"import step \"part.step\"", "import mesh \"part.msh\""}},
+     {"import step \"part.step\"", "import mesh \"part.msh\"", "import mesh \"part.e\" scale 1000"}},
     {"list",
      "list [{model|=totals|undo|field|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [=geometry|=mesh|=ids|=position]}]",
      "show entities and their properties",
@@ -131,6 +171,10 @@ const std::vector<CommandSpec> table = {
      "undone, and the memory that it takes.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"list", "list undo", "list field", "list curve all", "list curve loop of surface 3 (at 0 0 1)", "list hex in sheet 3", "list sheet in hex 17"}},
+    {"move", "move {volume <range> {" ALONG "}|=model " WHERE_TO "|<dx> <dy> <dz>|" ALONG "} [=include_merged]", "move mesh and CAD",
+     "Both together, with all volumes. Fields keep their values, and levels of refinement end: what is refined later cannot be "
+     "coarsened beyond the mesh as it is now. Also 'volume all move x 10'.",
+     {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"move x 10", "move 1 0 -2"}},
     {"node", "node <range> position {fixed|free}", "fix nodes where they are, or free them",
      "Smoothing leaves fixed nodes alone, that of 'refine ... smooth' too, and the repair of inverted children. "
      "'list node' says which are fixed.",
@@ -149,20 +193,24 @@ const std::vector<CommandSpec> table = {
     {"playback", "playback <file>", "run the commands in a journal file",
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
+    {"project", "project {to|=onto} geometry [<file>] [within <distance>]", "put the mesh on its CAD, or on another",
+     "Boundary nodes go to their curves and surfaces; hexes that this would turn inside out are repaired by moving the nodes near them, or nothing "
+     "is done. With a file the CAD there takes the place of the one that was: a version that has changed a little, with the same curves and "
+     "surfaces. Prints per surface how many nodes moved, how far, and what became of the worst hex.",
+     {{"file", Kind::file, 0, 0, false, "CAD file, in quotes when it has blanks"},
+      {"distance", Kind::number, 0, 1e100, true, "how far a node may be from its place; default: a hundredth of the size of the CAD"}},
+     {"project to geometry", "project to geometry \"part2.step\" within 0.5"}},
     {"quality",
      "quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
-     "[{" METRICS "|all|=allmetrics|=allmetric}] [histogram] [low <lowest>] [high <highest>] [top <n>] [bottom <n>] [list] "
-     "[=global|=individual] [=draw] [=mesh] [=monochrome] [=add] [=detail] [=id] [=summary]",
+     "[{" METRICS "|all|=allmetrics|=allmetric}] [histogram] " FILTERS " [list] "
+     "[=global] [=individual] [=draw] [=mesh] [=monochrome] [=add] [=detail] [=id] [=summary] [=geometry] [=verbose] [=errors] [=filter]",
      "print the quality of hexes",
      "Count, average, standard deviation, smallest and largest value with their hexes, over the hexes of (or touching) "
      "the entities. Without a metric: shape, 1 for a cube, 0 where flat; 'all': every one. The values are those of "
      "Verdict, so of VTK and ParaView. 'low' and 'high' leave out hexes with smaller or larger values; 'top' and 'bottom' "
      "keep the n largest or smallest values of those; 'list' prints the ids of the hexes that are left, 'histogram' shows "
      "how the values are spread. Where 'in' comes before it, write edge_ratio in one word, and volume after another option.",
-     {{"range", Kind::range, 0, 0, false, range_help},
-      {"lowest", Kind::number, -1e300, 1e300, false, "only hexes with at least this value"},
-      {"highest", Kind::number, -1e300, 1e300, false, "only hexes with at most this value"},
-      {"n", Kind::integer, 1, 1e9, false, "how many hexes"}},
+     {{"range", Kind::range, 0, 0, false, range_help}, FILTER_ARGUMENTS},
      {"quality volume all", "quality hex 1 to 200 scaled jacobian", "quality surface 3 all",
       "quality volume all condition number histogram", "quality volume 1 skew low 0.5", "quality volume all bottom 10 list"}},
     {"quit", "quit", "end the session", "", {}, {"quit"}},
@@ -175,10 +223,10 @@ const std::vector<CommandSpec> table = {
      {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
      {"redo", "redo 2"}},
     {"refine",
-     "refine {{{node|edge|face|hex|vertex|curve|surface|volume} <range>|=location <x> <y> <z>} "
+     "refine {{{node|edge|face|hex|vertex|curve|surface|volume} <range>|location <x> <y> <z>} "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
      "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] [allow off_cad] "
-     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded]"
+     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded] [using {curve|surface|volume|block|sideset|nodeset|group} <which>]"
      "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
      "[concave {template|fill}] [{smooth|no_smooth}] [dry_run] [allow off_cad]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
@@ -205,9 +253,10 @@ const std::vector<CommandSpec> table = {
      "until it is convex. New nodes lie on the CAD. A result that would be inverted, or "
      "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note.",
      {{"range", Kind::range, 0, 0, false, range_help},
-      {"x", Kind::number, -1e100, 1e100, false, ""},
+      {"x", Kind::number, -1e100, 1e100, false, "of a point: hexes whose middle is within the radius"},
       {"y", Kind::number, -1e100, 1e100, false, ""},
       {"z", Kind::number, -1e100, 1e100, false, ""},
+      {"which", Kind::range, 0, 0, false, "only what of the target lies in these, or touches them"},
       {"splits", Kind::integer, 1, max_uniform_pieces - 1, false, "how often each target edge is cut in three; default 1, at most 8 unless all volumes are refined"},
       {"layers", Kind::integer, 0, 1e6, false, "layers of hexes around the target that are refined fully too"},
       {"size", Kind::number, 0, 1e100, true, "wished size of elements at the target"},
@@ -224,9 +273,20 @@ const std::vector<CommandSpec> table = {
      {"refine curve 3", "refine curve 3 size 0.5 bias 1.5", "refine curve 3 size 0.5 depth 0", "refine vertex 2 radius 4 numsplit 2",
       "refine volume all sizing_function \"0.5 + 0.1*abs(x)\"", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
       "refine volume all numsplit 1", "refine sheet edge 12 greater_than 0.5", "refine sheet node 1 2",
-      "refine surface 3 direction layers 4 growth 1.3", "refine hex in field \"error\" top 5 % graded"}},
+      "refine surface 3 direction layers 4 growth 1.3", "refine hex in field \"error\" top 5 % graded",
+      "refine location 0 0 2.5 radius 2", "refine volume 1 using surface 7"}},
+    {"reflect", "reflect {volume <range> {x|y|z|about {x|y|z|<ax> <ay> <az>}}|model [=about] {x|y|z|<ax> <ay> <az>}} [=include_merged]", "mirror mesh and CAD",
+     "At a plane through the origin, given by its normal. What is kept: see 'help move'.",
+     {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"reflect model x"}, {}, false},
     {"reset", "reset [{block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
      {"reset", "reset nodeset"}},
+    {"rotate", "rotate {volume <range> angle <degrees>|model [=angle] <degrees>} about {x|y|z|<ax> <ay> <az>|origin <x> <y> <z> direction <ax> <ay> <az>} [=include_merged]",
+     "turn mesh and CAD", "About an axis through the origin, or through a point. What is kept: see 'help move'.",
+     {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"rotate model 90 about z"}},
+    {"scale", "scale {volume <range> factor <factor>|=model <factor>|<factor>} [about <x> <y> <z>]", "scale mesh and CAD",
+     "All lengths, from the origin or from a point. Only the mesh or only the CAD is scaled when it is read: 'import mesh \"part.e\" "
+     "scale 1000'. What is kept: see 'help move'.",
+     {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"scale 0.001"}},
     {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
      "|max_hexes <most>|max_memory <gigabytes>|reading {fenced {on|off}|time <seconds>|memory <megabytes>}|safe on|untangle {on|off}|snap {on|off}|keep_jumps {off|<field>}|=duplicate block elements {on|off}}",
      "change a setting",
@@ -292,7 +352,7 @@ const std::vector<CommandSpec> table = {
       "sizing field \"error size\" file \"solution.vtu\""}},
     {"smooth",
      "smooth {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> "
-     "[scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow}] [iterations <sweeps>] [boundary {slide|fixed}]",
+     "[" SCHEMES "] [iterations <sweeps>] [boundary {slide|fixed}]",
      "move nodes to better shapes of the hexes around them",
      "The nodes of the entities move, those on curves and surfaces along these, those on vertices and fixed ones (see "
      "'node') not at all. The smallest shape around them never falls. 'mean ratio', the default, is about shape: the "
@@ -301,25 +361,28 @@ const std::vector<CommandSpec> table = {
      {{"range", Kind::range, 0, 0, false, range_help},
       {"sweeps", Kind::integer, 0, 1e6, false, "how often each node is visited at most; default 100"}},
      {"smooth volume all", "smooth hex in surface 3 scheme condition number", "smooth volume 1 iterations 5 boundary fixed"}},
+    {"sphere", SPHERE, "'create sphere'", SOLIDS, {SOLID_ARGUMENTS}, {"sphere radius 1 interval 3"}, "create"},
     {"step", "step {<n>|last|time <t>}", "take the fields of another time step",
      "Of the file that the mesh came from, Exodus II only: its fields at that time, at the places where nodes and hexes are now. "
      "A file that is written has all time steps in any case.",
      {{"n", Kind::integer, 1, 1e9, false, "number of the step"},
       {"t", Kind::number, -1e100, 1e100, false, "its time, or the nearest one"}},
      {"step 1", "step time 2.5", "step last"}},
-    {"surface", "surface <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow} [=free|=fixed] [=beta <value>] [=cpu <value>]", "choose how 'smooth' treats surfaces",
+    {"surface", "surface <range> {smooth " SCHEMES " [=free|=fixed] [=beta <value>] [=cpu <value>]|{name|=rename} <text>}", "name surfaces; choose how 'smooth' treats surfaces",
      "Nothing moves before 'smooth surface' is said, whose own 'scheme' goes before this.",
-     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}},
-     {"surface 3 smooth scheme condition number"}},
+     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}, {"text", Kind::string, 0, 0, false, "name, in quotes"}},
+     {"surface 3 smooth scheme condition number", "surface 3 name \"inlet\""}},
     {"undo", "undo [<steps>] [=on] [=off]", "take back what commands changed",
      "Mesh, CAD, blocks and sets, fixed nodes; settings stay. 'list undo' shows what can be undone and the memory that "
      "takes; 'set undo' limits it or switches it off.",
      {{"steps", Kind::integer, 1, 1e9, false, "how many; default 1"}},
      {"undo", "undo 3"}},
-    {"volume", "volume <range> smooth scheme {mean [ratio]|=mean_ratio|condition [number]|=condition_number|laplacian|untangle|=equipotential|=optimize [jacobian]|=winslow} [=free|=fixed] [=beta <value>] [=cpu <value>]", "choose how 'smooth' treats volumes",
-     "Nothing moves before 'smooth volume' is said, whose own 'scheme' goes before this.",
-     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}},
-     {"volume 1 2 smooth scheme mean ratio"}},
+    {"vertex", "vertex <range> {name|=rename} <text>", "name vertices", "", {{"range", Kind::range, 0, 0, false, range_help}, {"text", Kind::string, 0, 0, false, "name, in quotes"}},
+     {"vertex 1 name \"tip\""}},
+    {"volume", "volume <range> {smooth " SCHEMES " [=free|=fixed] [=beta <value>] [=cpu <value>]|{name|=rename} <text>|" MOVES "}", "name, or move, the volumes; choose how 'smooth' treats volumes",
+     "Nothing moves before 'smooth volume' is said, whose own 'scheme' goes before this. 'move', 'scale', 'rotate' and 'reflect' move mesh and CAD together, all volumes at once: see 'help move'.",
+     {{"range", Kind::range, 0, 0, false, range_help}, {"value", Kind::number, 0, 1e100, false, ""}, {"text", Kind::string, 0, 0, false, "name, in quotes"}, MOVE_ARGUMENTS},
+     {"volume 1 2 smooth scheme mean ratio", "volume 1 name \"core\"", "volume all move x 10"}},
 };
 // clang-format on
 

@@ -72,29 +72,48 @@ Pattern sequence(Cursor& cursor) {
 }
 
 /// nullopt: nothing to show, for it starts with something planned or hidden.
+std::optional<std::string> shown(const Pattern& pattern);
+
+/// What can be shown of the choices, "a|b"; several: whether that are more than one.
+std::string shown_choices(const PatternNode& node, bool& several) {
+  std::string piece;
+  several = false;
+  for (const Pattern& choice : node.choices) {
+    const std::optional<std::string> text = shown(choice);
+    if (!text) continue;
+    several = !piece.empty();
+    piece += (piece.empty() ? "" : "|") + *text;
+  }
+  return piece;
+}
+
 std::optional<std::string> shown(const Pattern& pattern) {
   std::string result;
   for (const PatternNode& node : pattern) {
     if (node.planned || node.hidden) return std::nullopt;
     std::string piece;
-    const bool leaf = node.kind == PatternNode::Kind::word || node.kind == PatternNode::Kind::argument;
-    if (leaf) piece = node.kind == PatternNode::Kind::word ? node.name : "<" + node.name + ">";
-    for (const Pattern& choice : node.choices) {
-      const bool nested = choice.size() == 1 && choice[0].kind == PatternNode::Kind::one_of;
-      std::optional<std::string> text = shown(choice);
-      if (!text) continue;
-      if (node.kind == PatternNode::Kind::options) {
-        if (nested) text = text->substr(1, text->size() - 2);
-        piece += (piece.empty() ? "[" : " [") + *text + "]";
-      } else if (node.kind == PatternNode::Kind::repeated) {
-        piece = *text + " ...";
-      } else {
-        piece += (piece.empty() ? "{" : "|") + *text;
-      }
-    }
-    if (node.kind == PatternNode::Kind::one_of) {
-      if (piece.empty()) return std::nullopt;
-      piece += "}";
+    bool several = false;
+    switch (node.kind) {
+      case PatternNode::Kind::word:
+        piece = node.name;
+        break;
+      case PatternNode::Kind::argument:
+        piece = "<" + node.name + ">";
+        break;
+      case PatternNode::Kind::one_of:
+        piece = shown_choices(node, several);
+        if (piece.empty()) return std::nullopt;
+        if (several) piece = "{" + piece + "}";
+        break;
+      case PatternNode::Kind::options:
+        for (const Pattern& choice : node.choices) {
+          const bool nested = choice.size() == 1 && choice[0].kind == PatternNode::Kind::one_of;
+          const std::string text = nested ? shown_choices(choice[0], several) : shown(choice).value_or("");
+          if (!text.empty()) piece += (piece.empty() ? "[" : " [") + text + "]";
+        }
+        break;
+      case PatternNode::Kind::repeated:
+        piece = shown(node.choices.front()).value_or("") + " ...";
     }
     if (!piece.empty()) result += (result.empty() ? "" : " ") + piece;
   }

@@ -45,6 +45,29 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
   return distance(word, *best) <= (word.size() > 5 ? 2 : 1) ? *best : "";
 }
 
+std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> words, std::size_t most) {
+  if (word.size() > 30 || word.empty()) return {};
+  // Other letters than these, or most of the letters, would be another word.
+  const int far = std::max(2, static_cast<int>(word.size()) / 2);
+  std::vector<std::pair<int, std::string>> found;
+  for (const std::string& each : words)
+    if (const int d = distance(word, each); d <= far && d < static_cast<int>(word.size())) found.emplace_back(d, each);
+  std::ranges::sort(found);
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+    if (found[i].first <= found[0].first + 1) result.push_back(found[i].second);
+  return result;
+}
+
+Reader::Reader(const Statement& statement) : statement_(statement), tokens_(statement.tokens) {
+  // Bodies of other programs are volumes here.
+  for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
+    const bool goes_on = tokens_[i + 1].kind == Token::Kind::number || same_word(tokens_[i + 1].text, "all");
+    if (tokens_[i].kind == Token::Kind::word && same_word(tokens_[i].text, "body") && goes_on)
+      tokens_[i].text = "volume";
+  }
+}
+
 bool begins_word(std::string_view beginning, std::string_view word) {
   return same_word(beginning, word.substr(0, beginning.size()));
 }
@@ -132,7 +155,19 @@ void Reader::fail() const {
 
 void Reader::fail(const Token& token) const {
   if (token.kind == Token::Kind::braces) fail(token, "expressions in braces need a session that knows their values");
-  std::string message = "expected " + alternatives(expected_) + ", found " + found(token);
+  constexpr std::size_t most_shown = 15;  // nobody reads more
+  if (expected_.size() > most_shown && token.kind == Token::Kind::word) {
+    const std::vector<std::string> near = nearest_words(token.text, expected_, 3);
+    const std::string command = statement_.tokens.front().text;
+    fail(token, "'" + printable(token.text) + "' cannot stand here" +
+                    (near.empty() ? "" : ": did you mean " + alternatives(near) + "?") +
+                    (near.empty() ? "; one of " + std::to_string(expected_.size()) + " words could, see 'help "
+                                  : " See 'help ") +
+                    printable(command) + "'");
+  }
+  std::vector<std::string> could = expected_;
+  std::ranges::replace(could, std::string("to"), std::string("'to'"));  // which reads as one more word of ours
+  std::string message = "expected " + alternatives(could) + ", found " + found(token);
   if (token.kind == Token::Kind::word)
     if (const std::string near = nearest_word(token.text, expected_); !near.empty())
       message += " (did you mean '" + near + "'?)";

@@ -24,7 +24,7 @@ struct Keyword {
 
 class Reader {
  public:
-  explicit Reader(const Statement& statement) : statement_(statement), tokens_(statement.tokens) {}
+  explicit Reader(const Statement& statement);
 
   const Statement& statement() const { return statement_; }
   /// The current token; a bad one throws the CommandError that it stands for.
@@ -66,6 +66,8 @@ class Reader {
 
 /// What is closest to a mistyped word, within one or two letters; "" if nothing is.
 std::string nearest_word(std::string_view word, std::span<const std::string> words);
+/// So many of them that are close to it at most, the nearest first.
+std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> words, std::size_t most);
 /// "a, b or c".
 std::string alternatives(std::span<const std::string> words);
 

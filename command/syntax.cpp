@@ -168,11 +168,12 @@ class Matcher {
     while (true) {
       const auto choice = choose(node, said);
       if (!choice) break;
-      if (said[*choice]) reader_.fail(reader_.peek(), "this option was given already");
+      const PatternNode& front = node.choices[*choice].front();
+      if (said[*choice] && !front.hidden) reader_.fail(reader_.peek(), "this option was given already");
       said[*choice] = true;
       const std::size_t begin = out_.items.size();
       sequence(node.choices[*choice]);
-      const PatternNode* first = &node.choices[*choice].front();
+      const PatternNode* first = &front;
       while (!first->choices.empty()) first = &first->choices.front().front();
       for (std::size_t i = begin; i < out_.items.size(); ++i) out_.items[i].option = first->name;
     }
@@ -218,9 +219,15 @@ class Matcher {
 
 const CommandSpec& command_named(Reader& reader) {
   std::vector<Keyword> names;
-  for (const CommandSpec& spec : language()) names.push_back({spec.name, !spec.syntax.empty(), true});
+  for (const CommandSpec& spec : language()) names.push_back({spec.name, !spec.syntax.empty(), spec.may_be_short});
   const auto found = reader.match(names);
-  if (!found) reader.fail();
+  if (!found) {
+    if (reader.peek().kind == Token::Kind::braces) reader.fail();
+    const std::vector<std::string> nearest = nearest_words(reader.peek().text, reader.expected(), 3);
+    reader.fail(reader.peek(), "there is no command '" + printable(reader.peek().text) + "'" +
+                                   (nearest.empty() ? "" : ": did you mean " + alternatives(nearest) + "?") +
+                                   (nearest.empty() ? "; 'help' lists them" : " 'help' lists all"));
+  }
   return language()[*found];
 }
 
@@ -316,11 +323,35 @@ Expected expected_at_end(std::string_view line) {
   return result;
 }
 
+namespace {
+
+/// Options that a command refuses together: with the first the second is not offered any more.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> exclusive = {{{"size", "numsplit"},
+                                                                                     {"sizing_function", "numsplit"},
+                                                                                     {"numsplit", "size"},
+                                                                                     {"numsplit", "bias"},
+                                                                                     {"numsplit", "sizing_function"},
+                                                                                     {"depth", "radius"},
+                                                                                     {"radius", "depth"},
+                                                                                     {"direction", "size"},
+                                                                                     {"direction", "method"}}};
+
+bool is_excluded(std::string_view word, const std::vector<Token>& before) {
+  return std::ranges::any_of(exclusive, [&](const auto& pair) {
+    return word == pair.second &&
+           std::ranges::any_of(before, [&](const Token& token) { return same_word(token.text, pair.first); });
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> completions(std::string_view line) {
   const Expected expected = expected_at_end(line);
   std::vector<std::string> result;
   for (const std::string& word : expected.what)
-    if (word.find(' ') == std::string::npos && begins_word(expected.beginning, word)) result.push_back(word);
+    if (!is_excluded(word, expected.before) && word.find(' ') == std::string::npos &&
+        begins_word(expected.beginning, word))
+      result.push_back(word);
   std::ranges::sort(result);
   return result;
 }

@@ -7,7 +7,7 @@
 //   {a|b} <range> ...   the two before the dots, once or more: further kinds of entities
 //   <name>              a value: see the command's arguments; <range> takes ids of the kind named before it
 //   ~word               known, but not supported yet: an error of its own; never shown
-//   =word               another spelling: understood when written out; never shown
+//   =word               another spelling: understood when written out, as an option more than once; never shown
 #pragma once
 
 #include <functional>
@@ -42,6 +42,7 @@ struct CommandSpec {
   std::vector<ArgumentSpec> arguments;
   std::vector<std::string_view> examples;
   std::string_view alias = {};  ///< does the same as that command
+  bool may_be_short = true;     ///< its name
 };
 
 /// One thing that was said: a word of the syntax (in full) or a value.
@@ -94,8 +95,10 @@ std::vector<std::string> completions(std::string_view line);
 
 /// The syntax of a command without what is not supported yet.
 std::string shown_syntax(const CommandSpec& command);
-/// Help on everything, or on the command that `word` is (short for). Throws Error for an unknown one.
+/// Help on everything; on the command that `word` is (short for), short; on one of its options, or, for "all", with
+/// everything that is to be said. Throws Error for an unknown one.
 std::string help();
 std::string help(std::string_view word);
+std::string help(std::string_view word, std::string_view option);
 
 }  // namespace hextwist

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <utility>
 
+#include "hextwist/command/flow.h"
+
 namespace hextwist {
 namespace {
 
@@ -100,6 +102,29 @@ Token next_token(std::string_view text, std::size_t at) {
           c == '\\' ? "a backslash must be the last of its line" : "this character has no meaning here", 0, at, 1};
 }
 
+/// Where the brace of an expression behind a # stands, npos for a plain comment. Right behind the # every brace is
+/// one; behind blanks or more # only one that says something: an assignment, or a word like {loop(3)}.
+std::size_t brace_of_comment(std::string_view text, std::size_t at) {
+  std::size_t open = at + 1;
+  while (open < text.size() && (text[open] == '#' || is_blank(text[open]))) ++open;
+  if (open >= text.size() || text[open] != '{') return std::string_view::npos;
+  if (open == at + 1) return open;
+  const std::size_t close = closing_brace(text, open);
+  if (close == std::string_view::npos) return close;
+  const std::string_view inside = text.substr(open + 1, close - open - 1);
+  std::size_t begin = 0;
+  while (begin < inside.size() && is_blank(inside[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < inside.size() && (std::isalnum(static_cast<unsigned char>(inside[end])) || inside[end] == '_')) ++end;
+  std::size_t sign = end;
+  while (sign < inside.size() && is_blank(inside[sign])) ++sign;
+  const std::string_view rest = inside.substr(sign), two = rest.substr(0, 2);
+  const bool assigns = end > begin && ((rest.starts_with('=') && two != "==") || two == "+=" || two == "-=" ||
+                                       two == "*=" || two == "/=" || two == "^=" || two == "++" || two == "--");
+  const bool flows = is_flow_word(inside.substr(begin, end - begin)) && (rest.empty() || rest.starts_with('('));
+  return assigns || flows ? open : std::string_view::npos;
+}
+
 /// The expressions that follow a # without anything in between but blanks and more #.
 void comment(std::string_view text, std::size_t at, std::vector<Token>& tokens) {
   while (at < text.size() && (text[at] == '#' || text[at] == '{' || is_blank(text[at]))) {
@@ -172,7 +197,7 @@ std::vector<Statement> split_statements(std::string_view input, std::string_view
       finish(at++);
     } else if (c == '#') {
       const std::size_t end = std::min(text.find('\n', at), text.size());
-      if (at + 1 < end && text[at + 1] == '{') {
+      if (brace_of_comment(text.substr(0, end), at) != std::string_view::npos) {
         finish(at);
         comment(text.substr(0, end), at, statement.tokens);
         finish(end);
@@ -187,14 +212,6 @@ std::vector<Statement> split_statements(std::string_view input, std::string_view
   }
   finish(text.size());
   return result;
-}
-
-bool wants_more(std::string_view text) {
-  std::size_t end = text.size();
-  while (end > 0 && (is_blank(text[end - 1]) || text[end - 1] == '\n')) --end;
-  if (end == 0 || text[end - 1] != '\\') return false;
-  const std::size_t line = text.rfind('\n', end - 1) + 1;
-  return text.substr(line == std::string_view::npos ? 0 : line, end - line).find('#') == std::string_view::npos;
 }
 
 std::string text_of(const Statement& statement) {

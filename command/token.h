@@ -2,7 +2,8 @@
 //
 // `;` and line ends separate statements, `#` starts a comment, a backslash at the end of a line joins the next one.
 // Strings stand between single or double quotes and may hold anything but a line end; \{ in them is a brace.
-// An expression in braces is one token, within a string a part of it; right behind `#` it is a statement of its own.
+// An expression in braces is one token, within a string a part of it; right behind `#` it is a statement of its own,
+// and behind `#` and blanks an assignment is.
 #pragma once
 
 #include <memory>
@@ -55,9 +56,6 @@ std::vector<Token> tokens_of(std::string_view text);
 /// Where the brace at `open` is closed on its line, quotes and inner braces skipped; npos if it is not,
 /// or not within 10,000 bytes, or if there are more than 30 in one another.
 std::size_t closing_brace(std::string_view text, std::size_t open);
-
-/// Does the text end in a backslash that asks for another line?
-bool wants_more(std::string_view text);
 
 /// The statement as written, on one line: line ends become spaces, comments go.
 std::string text_of(const Statement& statement);

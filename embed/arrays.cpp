@@ -86,7 +86,7 @@ void read_groups(const hextwist_arrays& in, Mesh& mesh) {
            set.sides = io::oriented_sides(mesh, quads(members));
            const auto lost = std::ranges::find(set.sides, -1, &Side::hex);
            if (lost != set.sides.end())
-             throw Error(name + "[" + std::to_string(lost - set.sides.begin()) + "] is no side of a hex");
+             throw Error(name + "[" + std::to_string(lost - set.sides.begin()) + "] is not a side of a hex");
            sort_unique(set.sides);
          });
 }
@@ -145,7 +145,7 @@ void read_owners(const hextwist_arrays& in, MeshFile& file) {
     tags.edge_curve.push_back(on_curves[i].second);
   }
   if (const auto lost = std::ranges::count(good, 0))
-    file.notices.push_back(std::to_string(lost) + " of curve_edges are no edges of hexes");
+    file.notices.push_back(std::to_string(lost) + " of curve_edges are not edges of hexes");
 
   const auto nodes = items(in.surface_quads, in.n_surface_quads, 4, "surface_quads");
   const auto surfaces = items(in.quad_surfaces, in.n_surface_quads, 1, "quad_surfaces");
@@ -156,7 +156,7 @@ void read_owners(const hextwist_arrays& in, MeshFile& file) {
     if (sides[i].hex >= 0) on_surfaces.emplace_back(sides[i], surfaces[i]);
   if (on_surfaces.size() < sides.size())
     file.notices.push_back(std::to_string(sides.size() - on_surfaces.size()) +
-                           " of surface_quads are no sides of hexes");
+                           " of surface_quads are not sides of hexes");
   std::ranges::sort(on_surfaces);
   on_surfaces.erase(std::ranges::unique(on_surfaces, {}, [](const auto& each) { return each.first; }).begin(),
                     on_surfaces.end());

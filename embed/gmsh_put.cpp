@@ -157,7 +157,7 @@ class Writing {
   void hexes() {
     for (Index h = 0; h < mesh_.n_hexes(); ++h) {
       const Owner volume{3, meshed_.association.hex_volume[h]};
-      if (!known(volume)) throw Error(to_string(volume) + " is no volume of Gmsh's model");
+      if (!known(volume)) throw Error(to_string(volume) + " is not a volume of Gmsh's model");
       const auto id = static_cast<std::size_t>(hex_id(mesh_, h));
       Hex corners;
       for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh_.hexes[h][file_corner[c]];

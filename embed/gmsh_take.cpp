@@ -117,8 +117,8 @@ class Reading {
       if (type != io::gmsh_kept[entity.dim]) {
         const io::GmshType* known = io::gmsh_type(type);
         throw Error("element " + std::to_string(tags.front()) + " of " + name(entity) + " is a " +
-                    (known ? known->name : "type " + std::to_string(type)) + ", which is no " +
-                    (entity.dim == 2 ? "side" : "edge") + " of a hex");
+                    (known ? known->name : "type " + std::to_string(type)) + ", which is not " +
+                    (entity.dim == 2 ? "a side" : "an edge") + " of a hex");
       }
       elements(entity, tags, entity.element_nodes[t]);
     }
@@ -158,10 +158,10 @@ class Reading {
   }
 
   [[noreturn]] static void refuse(const GmshEntity& entity, std::size_t tag) {
-    throw Error("element " + std::to_string(tag) + " of " + name(entity) + " is no " +
-                (entity.dim == 2   ? "side"
-                 : entity.dim == 1 ? "edge"
-                                   : "corner") +
+    throw Error("element " + std::to_string(tag) + " of " + name(entity) + " is not " +
+                (entity.dim == 2   ? "a side"
+                 : entity.dim == 1 ? "an edge"
+                                   : "a corner") +
                 " of a hex");
   }
 

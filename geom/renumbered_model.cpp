@@ -1,6 +1,7 @@
 #include "hextwist/geom/renumbered_model.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "hextwist/geom/curvature.h"
 
@@ -20,7 +21,7 @@ class RenumberedModel : public Model {
         good = id >= 1 && id <= static_cast<int>(n) && old_[dim][static_cast<std::size_t>(id - 1)] == 0;
         if (good) old_[dim][static_cast<std::size_t>(id - 1)] = static_cast<int>(i) + 1;
       }
-      if (!good) throw Error(std::string("the new ids of each ") + dimension_name(dim) + " are no permutation");
+      if (!good) throw Error(std::string("the new ids of each ") + dimension_name(dim) + " are not a permutation");
       new_.name[dim].resize(n);
     }
   }
@@ -59,6 +60,8 @@ class RenumberedModel : public Model {
   std::vector<int> near(int dim, const Vec3& p, double distance) const override {
     return fresh(dim, model_->near(dim, p, distance));
   }
+  const std::shared_ptr<const Model>& inside() const { return model_; }
+  const Renumbering& renumbering() const { return new_; }
 
  protected:
   std::shared_ptr<const Model> model_;
@@ -95,6 +98,32 @@ class RenumberedCurvature final : public RenumberedModel, public KnowsCurvature 
 std::shared_ptr<const Model> renumbered(std::shared_ptr<const Model> model, Renumbering renumbering) {
   if (curvature_of(*model)) return std::make_shared<RenumberedCurvature>(std::move(model), std::move(renumbering));
   return std::make_shared<RenumberedModel>(std::move(model), std::move(renumbering));
+}
+
+std::shared_ptr<const Model> renamed(std::shared_ptr<const Model> model,
+                                     std::span<const std::pair<Owner, std::string>> names) {
+  Renumbering renumbering;
+  if (const auto of = renumbering_of(*model)) {
+    renumbering = of->renumbering;
+    model = std::shared_ptr<const Model>(of->model);
+  } else {
+    for (int dim = 0; dim < 4; ++dim) {
+      renumbering.id[dim].resize(static_cast<std::size_t>(model->count(dim)));
+      std::iota(renumbering.id[dim].begin(), renumbering.id[dim].end(), 1);
+    }
+  }
+  for (int dim = 0; dim < 4; ++dim) renumbering.name[dim].resize(renumbering.id[dim].size());
+  for (const auto& [owner, text] : names) {
+    const auto& ids = renumbering.id[owner.dim];
+    renumbering.name[owner.dim][static_cast<std::size_t>(std::ranges::find(ids, owner.id) - ids.begin())] = text;
+  }
+  return renumbered(std::move(model), std::move(renumbering));
+}
+
+std::optional<RenumberingOf> renumbering_of(const Model& model) {
+  const auto* is = dynamic_cast<const RenumberedModel*>(&model);
+  if (!is) return std::nullopt;
+  return RenumberingOf{is->inside(), is->renumbering()};
 }
 
 }  // namespace hextwist

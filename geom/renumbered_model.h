@@ -3,7 +3,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hextwist/geom/model.h"
@@ -24,5 +27,16 @@ struct Renumbering {
 /// The same model; every guarantee of Model holds for the new ids. Asks the model given for everything, which stays
 /// alive. It knows curvatures if that does. Throws Error when the ids are no permutation.
 std::shared_ptr<const Model> renumbered(std::shared_ptr<const Model> model, Renumbering renumbering);
+
+/// The same model with the names of some entities, under its own ids; further ones may be given later.
+std::shared_ptr<const Model> renamed(std::shared_ptr<const Model> model,
+                                     std::span<const std::pair<Owner, std::string>> names);
+
+/// What a model made by renumbered() or renamed() is made of; nullopt: it is no such model.
+struct RenumberingOf {
+  std::shared_ptr<const Model> model;
+  const Renumbering& renumbering;
+};
+std::optional<RenumberingOf> renumbering_of(const Model& model);
 
 }  // namespace hextwist

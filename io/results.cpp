@@ -8,6 +8,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/exodus/exodus_internal.h"
+#include "hextwist/mesh/move.h"
 #include "hextwist/mesh/nodal_fields.h"
 
 namespace hextwist {
@@ -191,6 +192,37 @@ std::vector<double> ExtrasNow::factors(std::span<const Side> sides, const SetExt
     }
   });
   return values;
+}
+
+std::shared_ptr<const FileResults> moved(const FileResults& results, const Similarity& similarity) {
+  auto result = std::make_shared<FileResults>(results);
+  if (results.mesh) {
+    auto mesh = std::make_shared<Mesh>(*results.mesh);
+    move(*mesh, similarity);
+    result->mesh = std::move(mesh);
+  }
+  if (!similarity.mirrors()) return result;
+  for (SetExtras& set : result->side_sets) {
+    const SetExtras before = set;
+    std::vector<Index> order(set.sides.size());
+    std::iota(order.begin(), order.end(), 0);
+    for (Side& side : set.sides) side.face = mirrored_face(side.face);
+    std::ranges::sort(order, {}, [&](Index i) { return set.sides[i]; });
+    std::ranges::sort(set.sides);
+    for (TimedValues& variable : set.variables)
+      for (auto& values : variable.at) values = std::make_shared<const std::vector<double>>(items_at(*values, order));
+    if (set.factors.size() != 4 * set.sides.size()) continue;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const auto& then = io::exodus_cycle(before.sides[order[i]].face);
+      const auto& now = io::exodus_cycle(set.sides[i].face);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto corner = std::ranges::find(then, mirrored_corner(now[k])) - then.begin();
+        set.factors[4 * i + k] =
+            before.factors[4 * static_cast<std::size_t>(order[i]) + static_cast<std::size_t>(corner)];
+      }
+    }
+  }
+  return result;
 }
 
 void take_step(Mesh& mesh, std::size_t step) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hextwist/geom/similarity.h"
 #include "hextwist/mesh/locate.h"
 
 namespace hextwist {
@@ -106,6 +107,9 @@ class ExtrasNow {
   const FileResults& of_;
   std::vector<NodeNow> nodes_;  // when asked for
 };
+
+/// The same of a file whose mesh was moved as move() does.
+std::shared_ptr<const FileResults> moved(const FileResults& results, const Similarity& similarity);
 
 /// The nodal and hex fields of a moment: those that the file has at this time in place of those of the mesh with the
 /// same names.

@@ -13,6 +13,8 @@ commands='
   quality volume all shape
   export vtk "hextwist-demo.vtu" overwrite
   export gmsh "hextwist-demo.msh" overwrite
+  draw to "hextwist-demo.html" overwrite
+  draw to "hextwist-demo.png" overwrite
 '
 echo "hextwist --cad models/bracket.brep models/bracket.msh -c '$commands' --json hextwist-demo.json"
 echo
@@ -21,7 +23,12 @@ echo
 cat <<DONE
 
 The refined bracket is in
+  hextwist-demo.html   for any browser: turns with the mouse, tells which hex was clicked
+  hextwist-demo.png    a picture
   hextwist-demo.vtu    for ParaView:  paraview hextwist-demo.vtu   (show "Surface With Edges", colour by shape)
   hextwist-demo.msh    for Gmsh:      gmsh hextwist-demo.msh
   hextwist-demo.json   what each command did: counts, quality, distance from the CAD, seconds
+
+The program is $program.  To find it by its name:
+  export PATH="$(dirname "$program"):\$PATH"      or: ./dev install
 DONE

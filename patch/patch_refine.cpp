@@ -87,9 +87,14 @@ bool is_complete(const MeshedModel& input, const Request& request) {
 
 }  // namespace
 
+bool is_by_places(const Request& request) {
+  return std::holds_alternative<Sizes>(request.how) || request.target.radius;
+}
+
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,
                                         const Progress& progress, const RingsOf& rings_of) {
   const Mesh& mesh = input.mesh;
+  if (request.finish.dry_run && is_by_places(request)) return std::nullopt;
   const Plan plan = hextwist::plan(input, request);
   if (mesh.n_hexes() < patch_rule.least_mesh || !is_complete(input, request)) return std::nullopt;
   if (is_by_levels(request, plan)) return refine_levels_patch(input, known, request, progress, rings_of);

@@ -29,6 +29,9 @@ struct PatchResult {
 /// are looked at. Smoothing and filling reach less far; how far filling grows shows in the hexes that are cut.
 inline constexpr int enough_rings = 4;
 
+/// Do sizes or distances decide between passes what is cut? Then a dry run is a whole run whose mesh is thrown away.
+bool is_by_places(const Request& request);
+
 /// Nothing where the request's plan has no reach or it asks for too much: then the passes over the whole mesh are to be
 /// run. Throws what they throw.
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,

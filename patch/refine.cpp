@@ -16,9 +16,12 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   RefineResult result;
   const Approach approach = plan(input, request).approach;
   {
-    State state(input, request, report, progress);
+    // Where sizes or distances are measured between passes, only the whole run tells what comes of it.
+    Request done = request;
+    done.finish.dry_run = request.finish.dry_run && !is_by_places(request);
+    State state(input, done, report, progress);
     result = run_passes(state, approach);
-    if (!request.finish.dry_run) {
+    if (!done.finish.dry_run) {
       std::vector<Index> old_hex;
       OldPlaces old{result.old_node, {}};
       if (state.is_renumbered && !result.old_node.empty()) {
@@ -37,7 +40,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
   report.nodes_after = result.refined.mesh.n_nodes();
   report.peak_memory_bytes = peak_memory();
   if (request.finish.dry_run) {
-    result = {};
+    if (report.violations.empty()) result = {};
     report.sizes.reset();
   }
   result.levelling = levelling_after(request, result, result.refined);

@@ -1,6 +1,7 @@
 // Completion that knows the session: names of CAD entities, blocks, sets and groups, and commands after `help`.
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "hextwist/base/sorted.h"
@@ -34,6 +35,24 @@ std::string written_name(const std::string& text) {
   return plain ? text : "\"" + text + "\"";
 }
 
+/// Words that a range of the kind may go on with, besides those that every error names.
+std::vector<std::string> shape_words(EntityKind kind) {
+  if (!is_cad(kind)) return {};
+  std::vector<std::string> words = {"adjacent", "largest", "smallest"};
+  if (kind == EntityKind::curve) words.emplace_back("loop");
+  if (kind == EntityKind::curve || kind == EntityKind::surface)
+    for (const char* word : {"chain", "parallel", "perpendicular"}) words.emplace_back(word);
+  return words;
+}
+
+/// The second of two words that belong together.
+std::string_view partner(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pairs = {
+      {{"loop", "of"}, {"chain", "from"}, {"adjacent", "to"}, {"parallel", "to"}, {"perpendicular", "to"}}};
+  const auto found = std::ranges::find_if(pairs, [&](const auto& pair) { return same_word(pair.first, word); });
+  return found == pairs.end() ? std::string_view() : found->second;
+}
+
 }  // namespace
 
 std::vector<std::string> Session::completions(std::string_view line) const {
@@ -50,6 +69,28 @@ std::vector<std::string> Session::completions(std::string_view line) const {
       if (!text.empty() && text.find('"') == std::string::npos && begins_word(expected.beginning, text))
         result.push_back(written_name(text));
     }
+  }
+  const auto offer = [&](std::string text) {
+    if (begins_word(expected.beginning, text)) result.push_back(std::move(text));
+  };
+  const std::string_view last = expected.before.empty() ? std::string_view() : expected.before.back().text;
+  if (kind && expects("common_to"))
+    for (std::string& word : shape_words(*kind)) offer(std::move(word));
+  if (kind && !partner(last).empty()) {
+    result.clear();
+    offer(std::string(partner(last)));
+    return result;
+  }
+  if (kind && same_word(last, "in") && expects("sheet")) {
+    if (*kind == EntityKind::hex || *kind == EntityKind::node) offer("field");
+    for (const char* word : {"box", "sphere", "cylinder"}) offer(word);
+  }
+  if (same_word(last, "field"))
+    for (const Field& field : core_->meshed->mesh.fields) offer("\"" + field.name + "\"");
+  const bool behind_number = expected.before.size() > 1 && expected.before.rbegin()[1].kind == Token::Kind::number;
+  if (kind && same_word(last, "to") && behind_number) {
+    const Selector selector = core_->selector();
+    if (const Index n = count(selector, *kind)) offer(std::to_string(id_of(selector, *kind, n - 1)));
   }
   if (!expected.before.empty() && begins_word(expected.before[0].text, "help") && expects("a word"))
     for (const CommandSpec& spec : language())

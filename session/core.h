@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct [[gnu::visibility("hidden")]] Session::Core {
   int nesting = 0;      ///< of playback
   std::shared_ptr<void> thread_limit;
   History history;
+  std::set<std::string> skipped;         ///< words of other programs that were noted as skipped
   std::unique_ptr<Recording> recording;  ///< null: none
 
   /// Made of the mesh when first asked for, kept until it changes (the neighbours: through splices).

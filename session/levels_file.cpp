@@ -43,7 +43,7 @@ class PieceReader {
  public:
   explicit PieceReader(const std::filesystem::path& file) : bytes_(io::read_bytes(file)) {
     const std::string_view text(bytes_.data.get(), bytes_.size);
-    if (!text.starts_with(first_line)) fail("is no file of levels (version 1)");
+    if (!text.starts_with(first_line)) fail("is not a file of levels (version 1)");
     std::size_t at = first_line.size();
     for (;;) {
       const std::size_t end = text.find('\n', at);

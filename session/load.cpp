@@ -9,7 +9,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/geom/occ/model.h"
-#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/association/meant.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
@@ -96,6 +96,29 @@ Interruptible interruptible_as(const Transaction& run, const char* stage) {
   });
 }
 
+/// By the smallest tolerance that works, up to the one that was asked for: what is more than the mesh needs only takes
+/// nodes for those of other curves and surfaces. Throws what associate() has to say of the largest.
+AssociateResult associated_within(const Mesh& mesh, const Model& model, const Association* tags, double most) {
+  const Association* usable = tags && !tags->empty() ? tags : nullptr;
+  for (double tolerance = std::min(most, AssociateOptions().relative_tolerance);;
+       tolerance = std::min(most, 1.5 * tolerance)) {
+    std::string wrong;
+    try {
+      AssociateResult result = associate(mesh, model, usable, {.relative_tolerance = tolerance});
+      const std::vector<std::string> broken = most > AssociateOptions().relative_tolerance
+                                                  ? check_association(mesh, result.association, model, tolerance)
+                                                  : std::vector<std::string>();
+      if (broken.empty()) return result;
+      wrong = broken.front();
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      if (tolerance >= most) throw;
+    }
+    if (tolerance >= most) throw Error("the mesh does not lie on the model: " + wrong);
+  }
+}
+
 /// On the model, or on its own skin where that is null.
 MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
   const Interruptible interruptible = interruptible_as(run, "associate");
@@ -103,8 +126,7 @@ MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const 
     FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
   }
-  const Association* usable = tags && !tags->empty() ? tags : nullptr;
-  AssociateResult result = associate(mesh, *model, usable, {.relative_tolerance = run.state.tolerance});
+  AssociateResult result = associated_within(mesh, *model, tags, run.state.tolerance);
   for (const std::string& line : result.notices) run.note(line);
   if (run.state.snap) snap(run, mesh, result.association, *model);
   return {std::move(mesh), std::move(model), std::move(result.association)};
@@ -243,7 +265,9 @@ void load_meshed(Transaction& run, MeshedModel meshed) {
     }
   }
   if (!wrong.empty()) throw Error(wrong);
-  if (const auto broken = check_association(meshed.mesh, meshed.association, *meshed.model); !broken.empty())
+  if (const auto broken = check_association(meshed.mesh, meshed.association, *meshed.model,
+                                            std::max(run.state.tolerance, AssociateOptions().relative_tolerance));
+      !broken.empty())
     throw Error(broken.front());
   find_meant(run, meshed);
   replace_and_measure(run, std::move(meshed));
@@ -280,7 +304,7 @@ void take_measured(Transaction& run, const Report& report) {
 
 void accept_refined(Transaction& run, MeshedModel refined, const Report& report) {
   const std::string wrong = record_violations(run.record(), refined.mesh, report.violations);
-  if (!wrong.empty()) throw Error("the result would be no good and is dropped: " + wrong);
+  if (!wrong.empty()) throw Error("the result is refused: " + wrong);
   run.replace(std::move(refined));
   take_measured(run, report);
 }
@@ -299,8 +323,8 @@ void accept_refined(Transaction& run, RefineResult result) {
 void take_fixed(Transaction& run, std::vector<Index> still) {
   const std::size_t n_gone = run.state.fixed_nodes->size() - still.size();
   if (n_gone > 0)
-    run.note(counted(static_cast<std::int64_t>(n_gone), "fixed node") + " of before " + (n_gone == 1 ? "is" : "are") +
-             " no more");
+    run.note(counted(static_cast<std::int64_t>(n_gone), "fixed node") + (n_gone == 1 ? " is" : " are") +
+             " gone with the hexes around");
   run.state.fixed_nodes = still.empty() ? nullptr : std::make_shared<const std::vector<Index>>(std::move(still));
 }
 

@@ -136,10 +136,10 @@ AdaptOutcome Session::adapt(std::span<const double> sizes, const AdaptOptions& o
 std::vector<std::int64_t> Session::ids(std::string_view kind, std::string_view range) const {
   // The reader of commands reads it, as part of the command that is about entities of all kinds.
   const std::vector<Statement> statements = split_statements("list " + std::string(kind) + " " + std::string(range));
-  if (statements.size() != 1) throw CommandError("this is no range", "this is no range", 0, 0);
+  if (statements.size() != 1) throw CommandError("this is not a range", "this is not a range", 0, 0);
   const Command command = parse(statements.front());
   const Item* said = command.find("range");
-  if (!said) throw error_in(statements.front(), "'" + printable(kind) + "' is no kind of entity");
+  if (!said) throw error_in(statements.front(), "'" + printable(kind) + "' is not a kind of entity");
   const Selector selector = core_->selector();
   std::vector<std::string> notices;
   std::vector<std::int64_t> result;

@@ -110,7 +110,7 @@ void check_targets(const MeshedModel& input, const Target& target) {
                     (n == 0 ? "there are none" : kind + " ids go from 1 to " + std::to_string(n)));
   };
   const int dim = cad_dimension(target.kind);
-  if (dim >= 0 && !input.model) throw Error("there is no CAD and no facet model: refine by hex, face, edge or node");
+  if (dim >= 0 && !input.model) throw Error("there is no model at all: refine by hex, face, edge or node");
   if (dim >= 0)
     check(1, input.model->count(dim));
   else if (target.kind == EntityKind::node)

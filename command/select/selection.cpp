@@ -367,7 +367,8 @@ class Evaluation {
   [[noreturn]] void refuse_nothing(EntityKind kind, const Token& token) const {
     if (kind == EntityKind::group) throw error_at(statement_, token, "there are no groups");
     if (is_cad(kind) && !selector_.meshed.model)
-      throw error_at(statement_, token, "there are no " + std::string(plural(kind)) + ": no CAD and no mesh was read");
+      throw error_at(statement_, token,
+                     "there are no " + std::string(plural(kind)) + ": neither CAD nor mesh was read");
     if (!is_cad(kind) && selector_.meshed.mesh.n_hexes() == 0)
       throw error_at(statement_, token, "there are no " + std::string(plural(kind)) + ": no mesh was read");
     throw error_at(statement_, token, "there are no " + std::string(plural(kind)));

@@ -21,7 +21,7 @@ struct PyGroup {
 inline int dimension_of(const std::string& kind) {
   for (int dim = 0; dim < 4; ++dim)
     if (kind == dimension_name(dim)) return dim;
-  throw py::value_error("'" + kind + "' is no kind of CAD entity: vertex, curve, surface, volume");
+  throw py::value_error("'" + kind + "' is not a kind of CAD entity: vertex, curve, surface, volume");
 }
 
 inline const Model& model_of(const MeshView& view) {

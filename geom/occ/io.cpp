@@ -42,6 +42,7 @@
 #include "hextwist/geom/occ/heal_internal.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/geom/occ/model_internal.h"
+#include "hextwist/geom/renumbered_model.h"
 
 namespace hextwist {
 namespace {
@@ -268,8 +269,30 @@ CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options) {
   });
 }
 
+namespace {
+
+/// The model of a shape behind one under other names, and the names by its own ids.
+const OccModel* shape_behind(const Model& model, occ::Names& names) {
+  const auto of = renumbering_of(model);
+  const auto* result = of ? shape_behind(*of->model, names) : dynamic_cast<const OccModel*>(&model);
+  if (!result) return nullptr;
+  if (!of) names = result->names();
+  for (int dim = 0; dim <= 3 && of; ++dim) {
+    const auto& given = of->renumbering.name[dim];
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (given[i].empty()) continue;
+      names[dim].resize(std::max(names[dim].size(), i + 2));
+      names[dim][i + 1] = given[i];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 CadImport glued(const Model& model, double tolerance) {
-  const auto* occ_model = dynamic_cast<const OccModel*>(&model);
+  occ::Names names;
+  const OccModel* const occ_model = shape_behind(model, names);
   if (!occ_model) throw Error("this model has no CAD shape to glue");
   return guarded("shape", [&] {
     const std::lock_guard lock(occ_files());
@@ -278,8 +301,8 @@ CadImport glued(const Model& model, double tolerance) {
     part.shape = occ_model->shape();
     const occ::ShapeMaps maps = occ::entity_maps(part.shape);
     for (std::size_t dim = 0; dim <= 3; ++dim)
-      for (std::size_t id = 1; id < occ_model->names()[dim].size(); ++id)
-        if (const std::string& name = occ_model->names()[dim][id]; !name.empty())
+      for (std::size_t id = 1; id < names[dim].size(); ++id)
+        if (const std::string& name = names[dim][id]; !name.empty())
           part.names.emplace(maps[dim](static_cast<int>(id)).TShape().get(), name);
     return finish(std::move(part), {.glue = true, .glue_tolerance = tolerance}, "shape");
   });
@@ -287,7 +310,7 @@ CadImport glued(const Model& model, double tolerance) {
 
 namespace {
 
-bool write_step(const std::filesystem::path& file, const OccModel& model) {
+bool write_step(const std::filesystem::path& file, const OccModel& model, const occ::Names& names) {
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   Interface_Static::SetCVal("write.step.unit", "MM");
@@ -296,8 +319,8 @@ bool write_step(const std::filesystem::path& file, const OccModel& model) {
   const Handle(Transfer_FinderProcess) process = writer.WS()->TransferWriter()->FinderProcess();
   const occ::ShapeMaps maps = occ::entity_maps(model.shape());
   for (std::size_t dim = 0; dim <= 3; ++dim) {
-    for (std::size_t id = 1; id < model.names()[dim].size(); ++id) {
-      const std::string& name = model.names()[dim][id];
+    for (std::size_t id = 1; id < names[dim].size(); ++id) {
+      const std::string& name = names[dim][id];
       if (name.empty()) continue;
       const auto item = STEPConstruct::FindEntity(process, maps[dim](static_cast<int>(id)));
       if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(name.c_str()));
@@ -318,7 +341,8 @@ bool write_iges(const std::filesystem::path& file, const OccModel& model) {
 }  // namespace
 
 void write_cad(const std::filesystem::path& file, const Model& model) {
-  const auto* occ_model = dynamic_cast<const OccModel*>(&model);
+  occ::Names names;
+  const OccModel* const occ_model = shape_behind(model, names);
   if (!occ_model) throw Error(file.string() + ": this model has no CAD shape to write");
   const CadFormat format = format_by_extension(file);
   if (format == CadFormat::unknown) throw Error(file.string() + ": CAD is written as .step, .brep or .iges");
@@ -327,7 +351,7 @@ void write_cad(const std::filesystem::path& file, const Model& model) {
   const bool written = guarded(file.string(), [&] {
     const std::lock_guard lock(occ_files());
     const Silence silence;
-    if (format == CadFormat::step) return write_step(temporary, *occ_model);
+    if (format == CadFormat::step) return write_step(temporary, *occ_model, names);
     if (format == CadFormat::iges) return write_iges(temporary, *occ_model);
     std::ofstream out(temporary);
     BRepTools::Write(occ_model->shape(), out);

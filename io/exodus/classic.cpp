@@ -63,7 +63,7 @@ class Header {
     const Number found = number(4);
     if (found != 0 && found != tag) fail("tag " + std::to_string(found) + " in place of " + std::to_string(tag));
     const Number n = count(least_bytes);
-    if (found == 0 && n != 0) fail("a list without a tag that is not empty");
+    if (found == 0 && n != 0) fail("a list with entries but without a tag");
     for (Number i = 0; i < n; ++i) item();
   }
   Number type_bytes() {

@@ -317,7 +317,7 @@ class Reader {
       }
       sort_unique(to.sides);
       if (dropped)
-        out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are no sides of a hex");
+        out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are not sides of a hex");
     }
     for (SideSet& quads : quad_sets_) {
       const bool taken = std::ranges::find(out_.mesh.side_sets, quads.id, &SideSet::id) != out_.mesh.side_sets.end();

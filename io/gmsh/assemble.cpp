@@ -53,7 +53,7 @@ class Assembly {
     lines_and_points();
     fields();
     for (const auto& [name, n] : in_.n_dropped)
-      notice("dropped " + std::to_string(n) + " elements of type " + name + ", which are no side or edge of a hex");
+      notice("dropped " + std::to_string(n) + " elements of type " + name + ", which are not sides or edges of a hex");
     tidy(file_.tags);
     file_.extras.periodic = std::move(in_.periodic);
     return std::move(file_);

@@ -122,7 +122,7 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
   const GmshType* known = gmsh_type(type);
   if (!known)
     cursor.fail_at(at, "element " + std::to_string(tag) + " has type " + std::to_string(type) +
-                           ", which is no hex, quad, line or point");
+                           ", which is not a hex, quad, line or point");
   if (type == gmsh_kept[known->dim]) return known->dim;
   if (known->dim == 3)
     cursor.fail_at(at, "element " + std::to_string(tag) + " is a " + known->name + "; only 8-node hexes are accepted");

@@ -79,7 +79,7 @@ class Assembly {
     if (out_.mesh.hexes.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
     for (const auto& [type, n] : n_dropped_)
       out_.notices.push_back("dropped " + std::to_string(n) + " cells of type " + std::to_string(type) +
-                             ", which are no hexes or quads");
+                             ", which are not hexes or quads");
   }
 
   /// `at`: where its nodes stand in the connectivity.
@@ -302,7 +302,7 @@ class Assembly {
         n_without += value(cell_of_hex(h)) == 0 && (array->real(cell_of_hex(h)) != 0 || !zero_is_none);
       if (n_without > 0)
         out_.notices.push_back(std::string(name) + " of " + counted(n_without, "hex", "hexes") +
-                               " is no id of a block (1 to 2147483646): they are in none, the values are a field");
+                               " is not an id of a block (1 to 2147483646): they are in none, the values are a field");
       for (std::size_t h = 0; h < out_.mesh.hexes.size(); ++h)
         if (const int id = value(cell_of_hex(h))) blocks[id].push_back(static_cast<Index>(h));
       for (std::size_t q = 0; q < quad_cells_.size(); ++q)

@@ -110,7 +110,7 @@ class Reader {
       const std::string type(cursor_.word());
       cursor_.line();
       values(type, second, array);
-      if (!array.is_integer() || !out_.ends.is_integer()) cursor_.fail_at(at, "the numbers of cells are no integers");
+      if (!array.is_integer() || !out_.ends.is_integer()) cursor_.fail_at(at, "the numbers of cells are not integers");
       if (out_.ends.size() == 0 || out_.ends.integer(0) != 0 ||
           out_.ends.integer(out_.ends.size() - 1) != static_cast<std::int64_t>(array.size()))
         cursor_.fail_at(at, "the offsets of cells do not fit");

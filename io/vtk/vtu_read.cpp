@@ -333,7 +333,7 @@ class Reader {
     out_.points = vtk_points(points_, cursor_);
     const auto cells = [&](const char* name) -> VtkArray&& {
       VtkArray& array = cells_[name];
-      if (!array.is_integer()) cursor_.fail_at(cursor_.end, std::string(name) + " are no integers");
+      if (!array.is_integer()) cursor_.fail_at(cursor_.end, std::string(name) + " are not integers");
       return std::move(array);
     };
     out_.connectivity = cells("connectivity");

@@ -8,13 +8,15 @@
 namespace hextwist {
 namespace {
 
-/// How far a node may be from where its parameters say, relative to the model size (AssociateOptions' default).
-constexpr double max_relative_distance = 1e-5;
-
 class Checker {
  public:
-  Checker(const Mesh& m, const Association& a, const Model& cad)
-      : mesh_(m), association_(a), model_(cad), faces_(faces(m)), edges_(edges(m)) {
+  Checker(const Mesh& m, const Association& a, const Model& cad, double relative_tolerance)
+      : mesh_(m),
+        association_(a),
+        model_(cad),
+        relative_tolerance_(relative_tolerance),
+        faces_(faces(m)),
+        edges_(edges(m)) {
     for (int dim = 0; dim < 3; ++dim)
       for (int id = 1; id <= cad.count(dim); ++id) {
         auto& above = above_[dim].emplace_back();
@@ -96,7 +98,7 @@ class Checker {
       const Side side = sides[i];
       const int surface = association_.face_surface[i];
       if (side.hex < 0 || side.hex >= mesh_.n_hexes() || side.face < 0 || side.face >= n_hex_faces) {
-        say("surface face " + std::to_string(i) + " is no side of a hex");
+        say("surface face " + std::to_string(i) + " is not a side of a hex");
         continue;
       }
       if (!exists({2, surface})) {
@@ -157,7 +159,7 @@ class Checker {
       }
       const Index edge = find_edge(edges_, listed[i][0], listed[i][1]);
       if (edge < 0 || edges_.nodes[edge] != listed[i]) {
-        say("curve edge " + std::to_string(i) + " is no edge of the mesh, lower node first");
+        say("curve edge " + std::to_string(i) + " is not an edge of the mesh, lower node first");
         continue;
       }
       edge_curve[edge] = curve;
@@ -202,7 +204,7 @@ class Checker {
       const Parameters at = association_.node_parameters[n];
       const Vec3 place = model_.point(owner, at);
       const double distance = (place - mesh_.points[n]).norm();
-      double allowed = std::max(max_relative_distance * size, model_.tolerance(owner));
+      double allowed = std::max(relative_tolerance_ * size, model_.tolerance(owner));
       for (int dim = 0; dim < owner.dim; ++dim)
         for (const int id : model_.adjacent(owner, dim)) allowed = std::max(allowed, model_.tolerance({dim, id}));
       if (!(distance <= allowed))
@@ -213,6 +215,7 @@ class Checker {
   const Mesh& mesh_;
   const Association& association_;
   const Model& model_;
+  const double relative_tolerance_;
   const Faces faces_;
   const Edges edges_;
   std::array<std::vector<std::vector<std::vector<int>>>, 3> above_;  // [dim][id - 1][higher dim - dim - 1]
@@ -222,8 +225,13 @@ class Checker {
 
 }  // namespace
 
+std::vector<std::string> check_association(const Mesh& mesh, const Association& association, const Model& model,
+                                           double relative_tolerance) {
+  return Checker(mesh, association, model, relative_tolerance).run();
+}
+
 std::vector<std::string> check_association(const Mesh& mesh, const Association& association, const Model& model) {
-  return Checker(mesh, association, model).run();
+  return check_association(mesh, association, model, AssociateOptions().relative_tolerance);
 }
 
 }  // namespace hextwist

@@ -18,6 +18,10 @@ std::string number(double value) {
   return short_number(value, 6);
 }
 
+std::string moved_by(const Vec3& way) {
+  return number(way.x()) + " " + number(way.y()) + " " + number(way.z());
+}
+
 /// Guesses why a mesh lies elsewhere: units, or a move.
 std::string hint(const ModelFacts& facts, const Mesh& mesh) {
   struct Unit {
@@ -36,11 +40,13 @@ std::string hint(const ModelFacts& facts, const Mesh& mesh) {
     for (const bool larger : {true, false})
       if (std::abs(ratio / (larger ? factor : 1 / factor) - 1) < alike)
         return "; the mesh is " + number(factor) + " times " + (larger ? "larger" : "smaller") +
-               " than the model: " + reason + " mixed up?";
+               " than the model: " + reason + " mixed up? 'import mesh ... scale " +
+               number(larger ? 1 / factor : factor) + "' mends that";
   const Vec3 mesh_centre = (mesh_box.min + mesh_box.max) / 2, model_centre = (model_box.min + model_box.max) / 2;
   if (std::abs(ratio - 1) < alike && (mesh_centre - model_centre).norm() > alike * facts.size)
     return "; the mesh is as large as the model, but its centre is at " + point_text(mesh_centre, 6) + " instead of " +
-           point_text(model_centre, 6);
+           point_text(model_centre, 6) + ": read the mesh before the CAD and 'move " +
+           moved_by(model_centre - mesh_centre) + "' it";
   if (std::abs(ratio - 1) >= alike)
     return "; the boxes of mesh and model are " + number(mesh_box.diagonal()) + " and " + number(facts.size) +
            " across: another model?";

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/commands/commands.h"
 
@@ -22,12 +22,13 @@ std::string quality_text(const char* metric, const QualityRow& row) {
 void do_check(Execution& run) {
   const SessionState& state = run.state;
   const auto& [mesh, model, association] = *run.meshed;
-  if (mesh.n_hexes() == 0) throw Error("there is no mesh to check");
+  need_mesh(run, "to check");
   run.stage("validate");
   record_violations(run.record(), mesh, validate(mesh));
   run.stage("check association");
   if (model) {
-    for (const std::string& line : check_association(mesh, association, *model))
+    for (const std::string& line :
+         check_association(mesh, association, *model, std::max(state.tolerance, AssociateOptions().relative_tolerance)))
       add_violation(run.record(), "association", line);
     const OffModel off = off_model(mesh, association, *model);
     if (!(off.max_relative <= state.tolerance)) {  // NaN too

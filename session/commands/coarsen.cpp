@@ -13,8 +13,7 @@ namespace hextwist {
 void do_coarsen(Execution& run) {
   const Command& command = run.command;
   const Mesh& mesh = run.meshed->mesh;
-  if (mesh.n_hexes() == 0)
-    throw error_at(command.statement, command.items.front().token, "there is no mesh to coarsen");
+  need_mesh(run, "to coarsen");
   run.stage("select");
   const Item& range = *command.find("range");
   const Target target = target_of(run);

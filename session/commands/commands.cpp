@@ -9,14 +9,16 @@ using Function = void (*)(Execution&);
 
 Function function_of(std::string_view command) {
   static const std::map<std::string_view, Function> functions = {
-      {"block", do_sets},    {"check", do_check},   {"coarsen", do_coarsen},   {"create", do_create},
-      {"curve", do_scheme},  {"delete", do_delete}, {"draw", do_draw},         {"exit", do_quit},
-      {"export", do_export}, {"group", do_group},   {"help", do_help},         {"import", do_import},
-      {"list", do_list},     {"node", do_node},     {"nodeset", do_sets},      {"quality", do_quality},
-      {"quit", do_quit},     {"record", do_record}, {"playback", do_playback}, {"redo", do_redo},
-      {"refine", do_refine}, {"reset", do_reset},   {"set", do_set},           {"sideset", do_sets},
-      {"smooth", do_smooth}, {"sizing", do_sizing}, {"step", do_step},         {"surface", do_scheme},
-      {"undo", do_undo},     {"volume", do_scheme},
+      {"block", do_sets},      {"brick", do_create},  {"check", do_check},       {"coarsen", do_coarsen},
+      {"create", do_create},   {"curve", do_entity},  {"cylinder", do_create},   {"delete", do_delete},
+      {"draw", do_draw},       {"exit", do_quit},     {"export", do_export},     {"group", do_group},
+      {"help", do_help},       {"import", do_import}, {"list", do_list},         {"move", do_move},
+      {"node", do_node},       {"nodeset", do_sets},  {"playback", do_playback}, {"project", do_project},
+      {"quality", do_quality}, {"quit", do_quit},     {"record", do_record},     {"redo", do_redo},
+      {"refine", do_refine},   {"reflect", do_move},  {"reset", do_reset},       {"rotate", do_move},
+      {"scale", do_move},      {"set", do_set},       {"sideset", do_sets},      {"sizing", do_sizing},
+      {"smooth", do_smooth},   {"sphere", do_create}, {"step", do_step},         {"surface", do_entity},
+      {"undo", do_undo},       {"vertex", do_entity}, {"volume", do_entity},
   };
   return functions.at(command);
 }
@@ -49,6 +51,15 @@ bool Execution::asks_for_all_of_none(const Item& range) const {
   if (!filters.empty() || (!items.empty() && items.front().kind != RangeItem::Kind::all)) return false;
   note("there are no " + std::string(plural(range.kind)));
   return true;
+}
+
+void need_mesh(const Execution& run, std::string_view purpose) {
+  if (run.meshed->mesh.n_hexes() > 0) return;
+  const std::string from =
+      run.state.has_cad
+          ? "there is only CAD: read its mesh ('import mesh \"part.e\"'), all-hexahedral"
+          : "read one ('import mesh \"part.e\"', its CAD before it) or make one ('create brick x 10 interval 5')";
+  throw Error("there is no mesh " + std::string(purpose) + "; " + from);
 }
 
 void note_ignored(const Execution& run, std::initializer_list<const char*> words) {

@@ -34,13 +34,16 @@ void do_coarsen(Execution& run);
 void do_create(Execution& run);
 void do_delete(Execution& run);
 void do_draw(Execution& run);
+void do_entity(Execution& run);
 void do_export(Execution& run);
 void do_group(Execution& run);
 void do_help(Execution& run);
 void do_import(Execution& run);
 void do_list(Execution& run);
+void do_move(Execution& run);
 void do_node(Execution& run);
 void do_playback(Execution& run);
+void do_project(Execution& run);
 void do_quality(Execution& run);
 void do_quit(Execution& run);
 void do_record(Execution& run);
@@ -55,6 +58,10 @@ void do_smooth(Execution& run);
 void do_step(Execution& run);
 void do_undo(Execution& run);
 
+/// group.cpp: create group, create block.
+void do_create_empty(Execution& run);
+/// playback.cpp: runs the commands in a file, which has one of these endings where the session is safe.
+void play(Execution& run, const Item& file, std::string_view endings);
 /// files.cpp: throws Error where the session is safe and the file lies outside of its folder, is no ordinary one, or
 /// has none of these endings (".a .b").
 void check_file(const Execution& run, const Item& file, std::string_view endings);
@@ -62,6 +69,8 @@ std::string mesh_endings(bool writing);
 /// Throws Error where the session is safe. what: "this limit"
 void refuse_if_safe(const Execution& run, std::string_view what);
 
+/// Throws Error where there is no mesh, saying where one comes from. purpose: "to refine"
+void need_mesh(const Execution& run, std::string_view purpose);
 /// Says that words were understood and change nothing here.
 void note_ignored(const Execution& run, std::initializer_list<const char*> words);
 /// step.cpp: "3 time steps (0 to 2; fields are those of step 3)"; empty where there is but one.
@@ -71,6 +80,11 @@ std::string members_text(const Selector& selector, const Group& group);
 /// quality.cpp: the metrics that were said in the option which begins with that word (Item::option); shape where none
 /// was.
 std::vector<Metric> metrics_said(const Command& command, std::string_view option);
+/// quality.cpp: leaves of hexes and their values those that 'low', 'high', 'top' and 'bottom' ask for, in the order
+/// they had.
+void filter(const Command& command, std::vector<Index>& hexes, std::vector<double>& values);
+/// attributes.cpp: block ... attribute.
+void change_attributes(Execution& run);
 /// sizing.cpp: a sizing function typed as an expression, where the error points into it. One by name.
 SizeFieldPtr typed_size(const Command& command, const Item& expression);
 SizeFieldPtr named_size(const Execution& run, const Item& name);

@@ -48,9 +48,12 @@ Solid sphere(const Command& command) {
 }  // namespace
 
 void do_create(Execution& run) {
+  const Item& what = run.command.items.at(run.command.has("create") ? 1 : 0);
+  if (what.name == "group" || what.name == "block") return do_create_empty(run);
+  if (const Index n = run.meshed->mesh.n_hexes())
+    run.note("this takes the place of the mesh of " + counted(n, EntityKind::hex) + " that was here");
   forget_members(run.state, true);
   SessionState& state = run.state;
-  const Item& what = run.command.items.at(1);
   run.stage("create");
   Solid solid = what.name == "brick"      ? brick(run.command)
                 : what.name == "cylinder" ? cylinder(run.command)

@@ -186,7 +186,7 @@ class Painter {
     if (!command.has("from")) return;
     picture_.view = {command.find("x")->number, command.find("y")->number, command.find("z")->number};
     if (!(picture_.view.norm() > 0))
-      throw error_at(command.statement, command.find("x")->token, "this is no direction to look from");
+      throw error_at(command.statement, command.find("x")->token, "this is not a direction to look from");
   }
 };
 
@@ -194,8 +194,7 @@ class Painter {
 
 void do_draw(Execution& run) {
   const Command& command = run.command;
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(command.statement, command.items.front().token, "there is no mesh to draw");
+  need_mesh(run, "to draw");
   const Item& file = *command.find("file");
   std::string extension = std::filesystem::path(file.text).extension().string();
   const bool is_png = same_word(extension, ".png");

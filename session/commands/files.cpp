@@ -19,7 +19,7 @@ void check(const Execution& run, const Item& file, std::string_view endings) {
   std::error_code ignored;
   const auto status = std::filesystem::status(file.text, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse("the session is safe: this is no ordinary file");
+    refuse("the session is safe: this is not an ordinary file");
 }
 
 }  // namespace

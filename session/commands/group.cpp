@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
@@ -33,6 +34,15 @@ Group& wanted_group(const Execution& run, std::vector<Group>& groups) {
   return groups.back();
 }
 
+/// Hexes of a range that 'high 0.3' and the like leave.
+std::vector<Index> hexes_by_quality(const Execution& run, const Item& range) {
+  std::vector<Index> hexes = related(run.core.selector(), range.kind, run.chosen(range), EntityKind::hex);
+  const std::vector<Metric> metrics = metrics_said(run.command, "shape");
+  std::vector<double> values = quality(metrics.front(), run.meshed->mesh, hexes);
+  filter(run.command, hexes, values);
+  return hexes;
+}
+
 }  // namespace
 
 std::string members_text(const Selector& selector, const Group& group) {
@@ -48,14 +58,35 @@ std::string members_text(const Selector& selector, const Group& group) {
   return result.empty() ? "empty" : result;
 }
 
+void do_create_empty(Execution& run) {
+  const Command& command = run.command;
+  if (const Item* id = command.find("id")) {
+    const int block = static_cast<int>(id->number);
+    if (std::ranges::find(run.meshed->mesh.blocks, block, &Block::id) != run.meshed->mesh.blocks.end())
+      throw error_at(command.statement, id->token, "block " + std::to_string(block) + " is there already");
+    return run.note("block " + std::to_string(block) + " begins with its first hex: 'block " + std::to_string(block) +
+                    " volume 1', say");
+  }
+  std::vector<Group> groups = run.state.groups ? *run.state.groups : std::vector<Group>();
+  const std::size_t before = groups.size();
+  const Group& group = wanted_group(run, groups);
+  if (groups.size() == before)
+    throw error_at(command.statement, command.find("name")->token,
+                   "group " + std::to_string(group.id) + " is called that already");
+  run.say("group " + std::to_string(group.id) + " '" + printable(group.name) + "': empty");
+  run.state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
+}
+
 void do_group(Execution& run) {
   const Command& command = run.command;
   std::vector<Group> groups = run.state.groups ? *run.state.groups : std::vector<Group>();
   const Selector selector = run.core.selector();
+  const bool by_quality = command.has("quality");
+  const auto kind_of = [&](const Item& range) { return by_quality ? EntityKind::hex : range.kind; };
   std::array<Members, n_entity_kinds> given;
   for (const Item* range : command.find_all("range"))
-    for (const Index i : run.chosen(*range))
-      given[static_cast<int>(range->kind)].push_back(member_of(selector, range->kind, i));
+    for (const Index i : by_quality ? hexes_by_quality(run, *range) : run.chosen(*range))
+      given[static_cast<int>(kind_of(*range))].push_back(member_of(selector, kind_of(*range), i));
   Group& group = wanted_group(run, groups);
   for (int kind = 0; kind < n_entity_kinds; ++kind) {
     Members& own = group.members[kind];

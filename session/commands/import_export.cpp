@@ -4,10 +4,14 @@
 #include <array>
 #include <filesystem>
 
+#include "hextwist/base/sorted.h"
+#include "hextwist/geom/similarity.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/move.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/levels_file.h"
 #include "hextwist/session/load.h"
+#include "hextwist/session/move.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {
@@ -50,13 +54,17 @@ void check_extension(const Execution& run, const Item& word, const Item& file, b
                  word.name + " files end in " + std::string(known) + " here, not in '" + printable(extension) + "'");
 }
 
-/// Only all blocks can be read or written.
+bool says_all(const Item& range) {
+  const auto& [items, filters, token] = range.range;
+  return items.size() == 1 && items[0].kind == RangeItem::Kind::all && filters.empty();
+}
+
+/// Only all blocks can be read.
 void check_blocks(const Execution& run) {
   const Item* blocks = run.command.find("blocks");
-  if (!blocks) return;
-  const auto& [items, filters, token] = blocks->range;
-  if (items.size() != 1 || items[0].kind != RangeItem::Kind::all || !filters.empty())
-    throw error_at(run.command.statement, token, "all blocks are read and written together: say 'all'");
+  if (blocks && !says_all(*blocks))
+    throw error_at(run.command.statement, blocks->range.token,
+                   "all blocks are read together: say 'all', and 'export ... block 1' writes some");
 }
 
 std::string model_text(const Model& model) {
@@ -71,6 +79,7 @@ void import_mesh(Execution& run, const std::filesystem::path& file, std::string_
   run.stage("read mesh");
   MeshFile read = read_mesh(file, format_of(word), fence_of(run));
   for (const std::string& line : read.notices) run.note(line);
+  if (const Item* factor = run.command.find("factor")) scale(read.mesh, factor->number);
   if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
@@ -82,6 +91,7 @@ void import_cad(Execution& run, const std::filesystem::path& file) {
   SessionState& state = run.state;
   state.glued = state.glue == Glue::on;
   auto model = read_model(run, file, state.glued);
+  if (const Item* factor = run.command.find("factor")) model = moved(*model, {.factor = factor->number});
   state.has_cad = true;
   state.cad_file = file;
   const std::string line = file.string() + ": " + model_text(*model);
@@ -128,11 +138,44 @@ WriteOptions write_options(const Execution& run, const std::string& extension) {
   return options;
 }
 
+/// The blocks that the command names, and nothing else of the mesh.
+MeshedModel chosen_blocks(Execution& run) {
+  const Item& range = *run.command.find("blocks");
+  const std::vector<Index> blocks = run.chosen(range);
+  std::vector<Index> hexes;
+  for (const Index b : blocks) {
+    const std::vector<Index>& own = run.meshed->mesh.blocks[b].hexes;
+    hexes.insert(hexes.end(), own.begin(), own.end());
+  }
+  sort_unique(hexes);
+  MeshedModel part = part_of(*run.meshed, hexes);
+  std::erase_if(part.mesh.blocks, [&](const Block& block) {
+    return std::ranges::none_of(blocks, [&](Index b) { return run.meshed->mesh.blocks[b].id == block.id; });
+  });
+  const Mesh &whole = run.meshed->mesh, &mesh = part.mesh;
+  const auto n_gone = std::ssize(whole.node_sets) + std::ssize(whole.side_sets) - std::ssize(mesh.node_sets) -
+                      std::ssize(mesh.side_sets);
+  if (mesh.n_hexes() == whole.n_hexes() && mesh.blocks.size() == whole.blocks.size()) return part;
+  std::string line = "only " + counted(std::ssize(mesh.blocks), EntityKind::block) + " of " +
+                     std::to_string(whole.blocks.size()) + ": " + std::to_string(mesh.n_hexes()) + " of " +
+                     counted(whole.n_hexes(), EntityKind::hex);
+  if (n_gone > 0)
+    line += "; " + counted(n_gone, "set") + " without members there " + (n_gone == 1 ? "is" : "are") + " left out";
+  run.note(line);
+  return part;
+}
+
 }  // namespace
 
 void do_import(Execution& run) {
   check_blocks(run);
-  note_ignored(run, {"heal", "noheal", "no_heal", "no_geom", "attributes_on", "attributes_off", "separate_bodies"});
+  note_ignored(run,
+               {"heal", "noheal", "no_heal", "no_geom", "attributes_on", "attributes_off", "separate_bodies", "use",
+                "linear", "gradient", "quadratic", "spline", "merge", "no_merge", "merge_nodes", "unique", "start_id"});
+  for (const char* word : {"no_nodeset", "no_sideset"})
+    if (run.command.has(word))
+      run.note("'" + std::string(word) +
+               "': sets are read all the same; 'reset nodeset' or 'reset sideset' drops them");
   const double feature_angle = run.state.feature_angle;
   // Between the faces there, not by how much they turn.
   if (const Item* angle = run.command.find("angle")) run.state.feature_angle = 180 - angle->number;
@@ -143,6 +186,9 @@ void do_import(Execution& run) {
   check_extension(run, word, file, false);
   check_file(run, file, is_cad_word(word.name) ? ".step .stp .brep .brp .iges .igs" : mesh_endings(false));
   if (word.name == "levels") {
+    if (const Item* factor = run.command.find("factor"))
+      throw error_at(run.command.statement, factor->token,
+                     "levels have the size that they were written with: say 'scale' afterwards");
     run.stage("read levels");
     forget_members(run.state, !run.state.has_cad);
     read_levels(run, file.text);
@@ -159,13 +205,17 @@ void do_import(Execution& run) {
 }
 
 void do_export(Execution& run) {
-  check_blocks(run);
   const Item& word = run.command.items.at(1);
   const Item& file = *run.command.find("file");
   check_extension(run, word, file, true);
   check_file(run, file, mesh_endings(true));
-  const MeshedModel& meshed = *run.meshed;
-  if (meshed.mesh.n_hexes() == 0) throw Error("there is no mesh to export");
+  need_mesh(run, "to export");
+  const bool is_part = run.command.find("blocks") && !says_all(*run.command.find("blocks"));
+  if (is_part && word.name == "levels")
+    throw error_at(run.command.statement, run.command.find("blocks")->range.token,
+                   "levels are written of the whole mesh");
+  const MeshedModel part = is_part ? chosen_blocks(run) : MeshedModel();
+  const MeshedModel& meshed = is_part ? part : *run.meshed;
   const WriteOptions options = write_options(run, lower_extension(file.text));
   run.stage("write");
   if (word.name == "levels") {

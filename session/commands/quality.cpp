@@ -41,7 +41,24 @@ std::string ids_text(const Mesh& mesh, std::span<const Index> hexes) {
   return result;
 }
 
-/// Leaves of hexes and their values those that 'low', 'high', 'top' and 'bottom' ask for, in the order they had.
+}  // namespace
+
+std::vector<Metric> metrics_said(const Command& command, std::string_view option) {
+  std::string words;
+  bool all = false;
+  for (const Item& item : command.items) {
+    if (item.option != option || item.name == "quality") continue;
+    words += item.name + " ";
+    all |= item.name == "all" || item.name.starts_with("allmetric");
+  }
+  if (all) return {metrics().begin(), metrics().end()};
+  // As other programs call them.
+  if (words.starts_with("diagonal")) words = "diagonal";
+  if (words.starts_with("condition")) words = "condition number";
+  if (words.starts_with("element")) words = "volume";
+  return {words.empty() ? Metric::shape : metric(words)};
+}
+
 void filter(const Command& command, std::vector<Index>& hexes, std::vector<double>& values) {
   const auto number = [&](const char* option, double otherwise) {
     for (std::size_t i = 0; i + 1 < command.items.size(); ++i)
@@ -71,28 +88,9 @@ void filter(const Command& command, std::vector<Index>& hexes, std::vector<doubl
   values.resize(order.size());
 }
 
-}  // namespace
-
-std::vector<Metric> metrics_said(const Command& command, std::string_view option) {
-  std::string words;
-  bool all = false;
-  for (const Item& item : command.items) {
-    if (item.option != option || item.name == "quality") continue;
-    words += item.name + " ";
-    all |= item.name == "all" || item.name.starts_with("allmetric");
-  }
-  if (all) return {metrics().begin(), metrics().end()};
-  // As other programs call them.
-  if (words.starts_with("diagonal")) words = "diagonal";
-  if (words.starts_with("condition")) words = "condition number";
-  if (words.starts_with("element")) words = "volume";
-  return {words.empty() ? Metric::shape : metric(words)};
-}
-
 void do_quality(Execution& run) {
   const Item& range = *run.command.find("range");
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh");
+  need_mesh(run, "to measure");
   const std::vector<Index> hexes = related(run.core.selector(), range.kind, run.chosen(range), EntityKind::hex);
   if (hexes.empty()) throw error_at(run.command.statement, range.range.token, "no hex lies there");
 

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <utility>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/histogram.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
@@ -34,7 +35,9 @@ std::optional<Sizes> sizes_of(const Execution& run) {
   const bool is_asked = sizes.size || sizes.field;
   if (const Item* growth = command.find("growth")) {
     sizes.bias = growth->number;
-    if (sizes.bias != 1 && !is_asked)
+    if (sizes.bias != 1 && splits)
+      run.note("'bias' is how sizes grow: it changes nothing with numsplit");
+    else if (sizes.bias != 1 && !is_asked)
       throw error_at(command.statement, growth->token,
                      "a bias other than 1 needs a size or a sizing function to grow from");
   }
@@ -189,6 +192,31 @@ Target hexes_near_point(const Execution& run) {
   return target;
 }
 
+/// `using surface 7`: of the target only what lies in these, or touches them; of volumes that are hexes.
+void narrow(const Execution& run, Target& target) {
+  const Item* which = run.command.find("which");
+  if (!which) return;
+  const Selector selector = run.core.selector();
+  std::vector<Index> positions = target.ids;
+  if (is_cad(target.kind))
+    for (Index& id : positions) --id;
+  if (dimension(target.kind) == 3 && target.kind != EntityKind::hex) {
+    positions = related(selector, target.kind, positions, EntityKind::hex);
+    target.kind = EntityKind::hex;
+  }
+  sort_unique(positions);
+  const std::size_t before = positions.size();
+  target.ids = intersection(positions, related(selector, which->kind, run.chosen(*which), target.kind));
+  if (target.ids.empty())
+    throw error_at(run.command.statement, which->range.token,
+                   "none of the " + counted(static_cast<std::int64_t>(before), target.kind) + " lies there");
+  run.note("'using': " + std::to_string(target.ids.size()) + " of " +
+           counted(static_cast<std::int64_t>(before), target.kind) + (target.ids.size() == 1 ? " lies" : " lie") +
+           " there");
+  if (is_cad(target.kind))
+    for (Index& id : target.ids) ++id;
+}
+
 }  // namespace
 
 Target target_of(const Execution& run) {
@@ -198,6 +226,7 @@ Target target_of(const Execution& run) {
   Target target{.kind = range.kind, .ids = run.chosen(range)};
   if (is_cad(range.kind))
     for (Index& id : target.ids) ++id;
+  narrow(run, target);
   if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
     if (!is_whole_model(*run.meshed, target))
       throw error_at(command.statement, splits->token,
@@ -208,8 +237,7 @@ Target target_of(const Execution& run) {
 }
 
 void do_refine(Execution& run) {
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(run.command.statement, run.command.items.front().token, "there is no mesh to refine");
+  need_mesh(run, "to refine");
   run.stage("select");
   Request request = request_of(run);
   run.close_stage();
@@ -218,6 +246,9 @@ void do_refine(Execution& run) {
   const bool dry_run = refining.request.finish.dry_run;
   const std::string line = tell(run, report, dry_run);
   if (dry_run) {
+    if (const std::string wrong = record_violations(run.record(), refining.whole.refined.mesh, report.violations);
+        !wrong.empty())
+      throw Error("the result would be refused: " + wrong);
     run.record().dry_run = true;
     run.record().after.hexes = report.hexes_after;
     run.record().after.nodes = report.nodes_after;

@@ -12,7 +12,13 @@ void do_set(Execution& run) {
   if (command.has("glue"))
     run.state.glue = command.has("on") ? Glue::on : command.has("off") ? Glue::off : Glue::automatic;
   if (const Item* degrees = command.find("degrees")) run.state.feature_angle = degrees->number;
-  if (const Item* limit = command.find("limit")) run.state.tolerance = limit->number;
+  if (const Item* limit = command.find("limit")) {
+    run.state.tolerance = limit->number;
+    const OffModel& off = run.state.measured.off_cad;
+    if (run.meshed->mesh.n_hexes() > 0 && off.max_relative > limit->number)
+      run.note("the mesh lies farther off its CAD, by " + short_number(off.max_relative) +
+               " of the model's size: 'check' will say so; 'project to geometry' puts it there");
+  }
   if (command.has("untangle")) run.state.untangle = command.has("on");
   if (command.has("snap")) run.state.snap = command.has("on");
   if (command.has("keep_jumps")) {

@@ -137,7 +137,7 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
         if constexpr (requires { group->hexes; }) note_overlaps(run, groups, items, *group);
     if (after > 0) return line;
     groups.erase(group);
-    return line + ", so that it is no more";
+    return line + "; it is empty now and was deleted";
   });
 }
 
@@ -147,10 +147,14 @@ void do_sets(Execution& run) {
   const Command& command = run.command;
   const EntityKind kind = kind_of(command);
   const Mesh& mesh = run.meshed->mesh;
-  if (mesh.n_hexes() == 0) throw error_at(command.statement, command.items.front().token, "there is no mesh");
+  need_mesh(run, "to make sets of");
   if (const Item* type = command.find("type")) {
     if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
-      throw error_at(command.statement, type->token, "elements are hexes with eight nodes (hex8) here");
+      throw error_at(
+          command.statement, type->token,
+          "'" + printable(type->text) +
+              "' elements are not written: files have hexes with eight nodes (hex8); leave this line out, or "
+              "raise the order afterwards");
     return run.note("every element is a hex8: nothing to change");
   }
   const Item* text = command.find("text");
@@ -158,6 +162,7 @@ void do_sets(Execution& run) {
   if (!command.find("id"))
     throw error_at(command.statement, command.items.at(1).token,
                    "one " + std::string(name(kind)) + " at a time; 'all' goes with 'element type' only");
+  if (command.has("attribute")) return change_attributes(run);
   const int id = static_cast<int>(command.find("id")->number);
   Mesh lists = lists_of(mesh);
   std::string line;

@@ -62,8 +62,7 @@ std::string arrow(double before, double after) {
 void do_smooth(Execution& run) {
   const Command& command = run.command;
   SessionState& state = run.state;
-  if (run.meshed->mesh.n_hexes() == 0)
-    throw error_at(command.statement, command.items.front().token, "there is no mesh to smooth");
+  need_mesh(run, "to smooth");
   run.stage("select");
   const Item& range = *command.find("range");
   const auto targets = by_scheme(run, range.kind, run.chosen(range));

@@ -43,7 +43,8 @@ class Enclose : public Technique {
 }  // namespace
 
 void tell(const Enclosed& done, State& state) {
-  if (done.n_first > 0) state.note(counted(done.n_first, "node") + " where targets meet enclosed before the others");
+  if (done.n_first > 0)
+    state.note(counted(done.n_first, "node") + " where targets meet were refined before the others");
   if (done.n_added > 0) state.note(counted(done.n_added, "node") + " beside the target enclosed with it");
 }
 

@@ -84,10 +84,10 @@ Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* sa
   const double wasted = other.report.total_seconds - start.total_seconds;
   report.seconds.push_back({"other technique", wasted});
   report.total_seconds += wasted;
-  report.notices.push_back(std::string(takes_a ? says_a : says_b) + ": sizes are off by a factor of " +
-                           rounded(std::exp(better.distance)) + " on average, not " +
-                           rounded(std::exp(other.distance)) + "; the worst shape is " + rounded(better.worst_shape) +
-                           ", not " + rounded(other.worst_shape));
+  report.notices.push_back(std::string(takes_a ? says_a : says_b) + ": on average sizes are off by a factor of " +
+                           rounded(std::exp(better.distance)) + " (" + rounded(std::exp(other.distance)) +
+                           " the other way), the worst shape is " + rounded(better.worst_shape) + " (" +
+                           rounded(other.worst_shape) + ")");
   return std::move(better);
 }
 

@@ -19,6 +19,10 @@ using test::folder;
 namespace {
 
 /// The program in a terminal of its own.
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 class Terminal {
  public:
   Terminal() {
@@ -80,16 +84,43 @@ TEST(Interactive, completes_words_and_names_shows_the_caret_and_keeps_history) {
   Terminal terminal;
   terminal.until("hextwist> ");
   terminal.answer("create brick x 1 interval 2; block 1 name 'steel'; nodeset 2 node 1 2 name 'soft rubber'");
-  EXPECT_NE(terminal.answer("li\tblock st\t").find("block 1 'steel': 8 hexes"), std::string::npos);
-  EXPECT_NE(terminal.answer("list nodeset \"so\t").find("nodeset 2 'soft rubber': 2 nodes"), std::string::npos);
-  EXPECT_NE(terminal.answer("refine crve 3").find("  refine crve 3\r\n         ^~~~"), std::string::npos);
-  EXPECT_NE(terminal.answer("help smooth").find("smooth volume all"), std::string::npos);
+  EXPECT_PRED2(has, terminal.answer("li\tblock st\t"), "block 1 'steel': 8 hexes");
+  EXPECT_PRED2(has, terminal.answer("list nodeset \"so\t"), "nodeset 2 'soft rubber': 2 nodes");
+  EXPECT_PRED2(has, terminal.answer("refine crve 3"), "  refine crve 3\r\n         ^~~~");
+  EXPECT_PRED2(has, terminal.answer("help smooth"), "smooth volume all");
   terminal.type("quit\n");
   EXPECT_EQ(terminal.end(), 0);
   std::ifstream history(folder() / "hextwist" / "history");
   const std::string lines{std::istreambuf_iterator<char>(history), {}};
   EXPECT_NE(lines.find("refine crve 3\n"), std::string::npos) << lines;
   EXPECT_NE(lines.find("list block steel"), std::string::npos) << lines;
+}
+
+TEST(Interactive, knows_its_history_and_where_it_is) {
+  Terminal terminal;
+  terminal.until("hextwist> ");
+  const std::string here = folder().string();
+  std::filesystem::create_directories(folder() / "parts");
+  std::ofstream(folder() / "parts" / "a part.msh") << "x";
+  EXPECT_PRED2(has, terminal.answer("cd " + here), here);
+  EXPECT_PRED2(has, terminal.answer("ls"), "  parts/");
+  EXPECT_PRED2(has, terminal.answer("ls parts"), "  a part.msh");
+  terminal.answer("cd parts");
+  EXPECT_PRED2(has, terminal.answer("pwd"), here + "/parts");
+  EXPECT_PRED2(has, terminal.answer("cd \"nowhere\""), "error: nowhere: No such file or directory");
+  terminal.answer("create brick x 1 interval 2");
+  EXPECT_PRED2(has, terminal.answer("!!"), "create brick x 1 interval 2");
+  EXPECT_PRED2(has, terminal.answer("!cre"), "takes the place of the mesh of 8 hexes");
+  EXPECT_PRED2(has, terminal.answer("history"), "  pwd");
+  EXPECT_PRED2(has, terminal.answer("!nosuch"), "no such line in the history");
+  EXPECT_PRED2(has, terminal.answer("list hex 7 to \t"), "hex 8");
+  terminal.type("{loop(2)}\n");
+  terminal.until("        > ");
+  terminal.type("list hex 1\n");
+  terminal.until("        > ");
+  EXPECT_PRED2(has, terminal.answer("{endloop}"), "hex 1");
+  terminal.type("quit\n");
+  EXPECT_EQ(terminal.end(), 0);
 }
 
 TEST(Interactive, control_c_cancels_the_running_command_and_leaves_the_session_as_it_was) {

@@ -150,11 +150,11 @@ TEST(Expressions, errors_point_at_what_is_wrong) {
            {"format(1, '%d%d')", 10, "must hold one of %d"},
            {"format(1e300, '%d')", 14, "too large for %d"},
            {"format(name, '%d')", 7, "a number was expected"},
-           {"loop(5)", 0, "'{loop}': loops, conditions and inclusion in braces are not supported"},
-           {"EndLoop", 0, "'{EndLoop}': loops"},
-           {"Ifdef(x)", 0, "'{Ifdef}': loops"},
-           {"else", 0, "'{else}': loops"},
-           {"include(\"a.jou\")", 0, "'{include}': loops"},
+           {"loop(5)", 0, "'{loop}' stands alone on its line, as in {loop(3)} ... {endloop}"},
+           {"EndLoop", 0, "'{EndLoop}' stands alone"},
+           {"Ifdef(x)", 0, "'{Ifdef}' stands alone"},
+           {"else", 0, "'{else}' stands alone"},
+           {"include(\"a.jou\")", 0, "'{include}' stands alone"},
        }) {
     Variables variables = {{"name", std::string("left")}};
     try {
@@ -227,7 +227,10 @@ TEST(Braces, values_take_their_place_in_commands) {
 TEST(Braces, lines_may_be_expressions_alone) {
   EXPECT_EQ(expanded("{h = 0.5}"), "[h = 0.5]");
   EXPECT_EQ(expanded("#{h = 0.5}"), "[h = 0.5]");
-  EXPECT_EQ(expanded("# {h = 0.5}"), "");
+  EXPECT_EQ(expanded("# {h = 0.5}"), "[h = 0.5]");
+  EXPECT_EQ(expanded("## { n = 1 } # { n ++ } #{n}"), "[n = 1][n = 1][2]");
+  EXPECT_EQ(expanded("# {not this} {nor = this"), "");
+  EXPECT_EQ(expanded("# {h == 0.5}"), "");
   EXPECT_EQ(expanded("#{a = 1} {b = \"x\"} # {c = 2} and so on {d = 3}"), "[a = 1][b = \"x\"][c = 2]");
   EXPECT_EQ(expanded("{a = 1}; {b = a + 1}; refine hex {b} # and {not} this"), "[a = 1][b = 2]<refine hex 2>");
   EXPECT_EQ(expanded("reset #{a = 1}\nrefine hex {a}"), "<reset>[a = 1]<refine hex 1>");
@@ -255,7 +258,7 @@ TEST(Braces, errors_point_into_them) {
   EXPECT_EQ(error("import mesh \"a{n.msh\""), "15: this brace is not closed (\\{ is a plain brace)");
   EXPECT_EQ(error("import mesh ${HOME}/a.msh"), "13: '${...}' is not supported, only '{...}'");
   EXPECT_EQ(error("import mesh \"${HOME}/a.msh\""), "14: '${...}' is not supported, only '{...}'");
-  EXPECT_EQ(error("{loop(3)}"), "2: '{loop}': loops, conditions and inclusion in braces are not supported");
+  EXPECT_EQ(error("refine curve {loop(3)}").substr(0, 37), "15: '{loop}' stands alone on its line");
   EXPECT_EQ(error("refine curve {''}"),
             "18: expected an id, a name, all, except, in, common_to or with, found the end of the command");
   EXPECT_EQ(error("{''}"), "1: this leaves no command");

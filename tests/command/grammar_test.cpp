@@ -109,9 +109,12 @@ struct Wrong {
 
 TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
   for (const auto& [text, column, message] : std::vector<Wrong>{
-           {"foo", 1, "expected block, check, create, curve, delete"},
+           {"foo", 1, "there is no command 'foo'; 'help' lists them"},
+           {"refne curve 3", 1, "there is no command 'refne': did you mean refine"},
+           {"qualty volume 1", 1, "did you mean quality? 'help' lists all"},
            {"refine crve 3", 8,
-            "expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you mean "
+            "expected node, edge, face, hex, vertex, curve, surface, volume, location or sheet, found 'crve' (did you "
+            "mean "
             "'curve'?)"},
            {"refine", 7, "expected node, edge, face"},
            {"refine curve", 13,
@@ -148,7 +151,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine hex with (x_coord > 3", 29, "expected"},
            {"refine hex with x_coord = 3 tolerance x", 39, "expected a number"},
            {"refine hex with x_coord = 3 tolerance -1", 39, "a tolerance can't be negative"},
-           {"refine hex with quality shap2 > 3", 25, "expected shape, scaled_jacobian, mean_ratio"},
+           {"refine hex with quality shap2 > 3", 25, "did you mean shape? See 'help refine'"},
            {"refine hex with x", 17, "'x' may be x_coord, x_min or x_max"},
            {"refine hex with name 'a'", 17, "hexes have no name"},
            {"refine curve with name 3", 24, "expected a name in quotes"},
@@ -163,7 +166,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine hex all except surface 2", 23, "only hexes can be taken from a list of hexes"},
            {"refine hex {n}", 12, "expressions in braces need a session that knows their values"},
            {"{n = 3}", 1, "expressions in braces need a session that knows their values"},
-           {"refine curve 3 nunsplit 2", 16, "(did you mean 'numsplit'?)"},
+           {"refine curve 3 nunsplit 2", 16, "did you mean numsplit? See 'help refine'"},
            {"refine curve 3 numsplit", 24, "expected a whole number, found the end"},
            {"refine curve 3 numsplit x", 25, "expected a whole number, found 'x'"},
            {"refine curve 3 numsplit 0", 25, "numsplit must be a whole number from 1 to 29"},
@@ -186,12 +189,13 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"smooth volume all scheme fast", 26, "expected mean, condition, laplacian or untangle"},
            {"smooth volume all iterations -1", 30, "iterations must be a whole number"},
            {"volume 1 smooth", 16, "expected scheme"},
-           {"volume 1 mesh", 10, "or smooth, found 'mesh'"},
+           {"volume 1 mesh", 10, "with, smooth, name, move, scale, rotate or reflect, found 'mesh'"},
            {"node 1 position", 16, "expected fixed or free"},
            {"undo 0", 6, "undo must be a whole number"},
            {"redo all", 6, "expected a whole number or the end of the command"},
            {"block volume 1", 7, "expected all or a whole number, found 'volume'"},
-           {"block 1 surface 2", 9, "expected hex, volume, group, add, remove, name or element, found 'surface'"},
+           {"block 1 surface 2", 9,
+            "expected hex, volume, group, add, remove, name, element or attribute, found 'surface'"},
            {"block 1 volume 2 hax 3", 18, "hex, volume, group, name or the end of the command, found 'hax'"},
            {"block 1 volume 2 v 3", 18, "hex, volume, group, name or the end of the command, found 'v'"},
            {"block 1 volume 2 hex", 21, "expected an id"},
@@ -199,7 +203,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"block 1 volume 2 name 'a' hex 3", 27, "expected the end of the command, found 'hex'"},
            {"nodeset 1 curve 1 nod 3", 19, "'nod' may be node or nodeset"},
            {"sideset 1 surface 2 curve 3", 21, "expected"},
-           {"group g add curve 1 crve 2", 21, "(did you mean 'curve'?)"},
+           {"group g add curve 1 crve 2", 21, "did you mean curve? See 'help group'"},
            {"block -1 hex 1", 7, "block must be a whole number"},
            {"nodeset 1 node", 15, "expected an id"},
            {"sideset 1 surface 2 wrt surface 1", 25, "expected volume, block or hex"},
@@ -208,14 +212,14 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"set undo maybe", 10, "expected on, off or limit"},
            {"q volume 1", 1, "'q' may be quality or quit"},
            {"quality volume 1 shap all", 23, "this option was given already"},
-           {"quality volume 1 surface", 18, "expected"},
+           {"quality volume 1 surface", 18, "cannot stand here"},
            {"quality volume 1 low", 21, "expected a number"},
            {"quality volume 1 di", 18, "'di' may be diagonal, distortion or dimension"},
            {"import step foo", 13, "expected a file name in quotes, found 'foo'"},
            {"import step \"\"", 13, "this file name is empty"},
            {"import step \"foo", 13, "this quote is not closed"},
            {"import \"foo.step\"", 8, "expected mesh, exodus"},
-           {"import mesh \"a.msh\" \"b\"", 21, "expected snap, no_snap or the end of the command, found \"b\""},
+           {"import mesh \"a.msh\" \"b\"", 21, "expected snap, no_snap, scale or the end of the command, found \"b\""},
            {"reset all", 7, "expected block, nodeset, sideset or the end of the command, found 'all'"},
            {"create sphere radius 0", 22, "radius must be a number above 0"},
            {"create cylinder radius 1", 25, "expected height"},
@@ -231,10 +235,10 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
 }
 
 TEST(Grammar, the_caret_stands_under_the_word) {
-  EXPECT_STREQ(
-      error_of("reset\nrefine crve 3\n", "part.jou").what(),
-      "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume or sheet, found 'crve' (did you "
-      "mean 'curve'?)\n  refine crve 3\n         ^~~~");
+  EXPECT_STREQ(error_of("reset\nrefine crve 3\n", "part.jou").what(),
+               "part.jou:2:8: expected node, edge, face, hex, vertex, curve, surface, volume, location or sheet, found "
+               "'crve' (did you "
+               "mean 'curve'?)\n  refine crve 3\n         ^~~~");
   EXPECT_STREQ(error_of("import\tmésh 3").what(),
                "expected mesh, exodus, gmsh, abaqus, vtk, medit, levels, geometry, step, brep or iges, found 'mésh'"
                "\n  import mésh 3\n         ^~~~");
@@ -259,10 +263,15 @@ TEST(Grammar, ranges_cannot_be_nested_without_end) {
 
 TEST(Grammar, completion_offers_what_could_stand_there) {
   using List = std::vector<std::string>;
-  EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reset"}));
+  EXPECT_EQ(completions("re"), (List{"record", "redo", "refine", "reflect", "reset"}));
   EXPECT_EQ(completions("reset; qu"), (List{"quality", "quit"}));
   EXPECT_EQ(completions("refine cu"), (List{"curve"}));
   EXPECT_EQ(completions("refine curve 3 nu"), (List{"numsplit"}));
+  EXPECT_EQ(completions("refine curve 3 size 0.5 nu"), List{});
+  EXPECT_EQ(completions("refine curve 3 size 0.5 b"), (List{"bias"}));
+  EXPECT_EQ(completions("refine curve 3 numsplit 2 siz"), List{});
+  EXPECT_EQ(completions("refine curve 3 depth 2 rad"), List{});
+  EXPECT_EQ(completions("refine lo"), (List{"location"}));
   EXPECT_EQ(completions("refine curve 3 concave "), (List{"fill", "template"}));
   EXPECT_EQ(completions("refine curve 3 numsplit "), List{});
   EXPECT_EQ(completions("refine bogus 3 "), List{});
@@ -287,6 +296,26 @@ TEST(Grammar, every_command_has_help_and_its_examples_parse) {
   EXPECT_NE(help("range").find("except"), std::string::npos);
   EXPECT_NE(help("expressions").find("atan2d"), std::string::npos);
   EXPECT_THROW(help("bogus"), Error);
+}
+
+TEST(Grammar, help_is_short_first_and_tells_of_one_option) {
+  EXPECT_EQ(help("refine").find("combination technique"), std::string::npos);
+  EXPECT_NE(help("refine").find("'help refine all' tells more"), std::string::npos);
+  EXPECT_LT(help("refine").size(), 2 * help("refine", "all").size() / 3);
+  EXPECT_NE(help("refine").find("location <x> <y> <z>"), std::string::npos);
+  const std::string size = help("ref", "size");
+  EXPECT_NE(size.find("  size <size>\n"), std::string::npos) << size;
+  EXPECT_NE(size.find("wished size of elements at the target"), std::string::npos) << size;
+  EXPECT_NE(size.find("'size' cuts until"), std::string::npos) << size;
+  EXPECT_NE(size.find("refine curve 3 size 0.5 bias 1.5"), std::string::npos) << size;
+  EXPECT_EQ(size.find("refine curve 7 smooth"), std::string::npos) << size;
+  EXPECT_NE(help("refine", "direction").find("thickness|layers <n>"), std::string::npos);
+  EXPECT_NE(help("refine", "no_smooth").find("no_smooth"), std::string::npos);
+  EXPECT_THROW(help("refine", "colour"), Error);
+  for (const CommandSpec& spec : language()) {
+    if (spec.syntax.empty()) continue;
+    EXPECT_FALSE(help(spec.name, "all").empty()) << spec.name;
+  }
 }
 
 TEST(Grammar, the_manual_has_every_command_and_example) {

@@ -43,7 +43,7 @@ TEST(Ranges, ids_that_do_not_exist_are_named) {
   EXPECT_EQ(f.error("sideset all"), "9: there are no sidesets");
   f.meshed = {};
   EXPECT_EQ(f.error("hex 1"), "5: there are no hexes: no mesh was read");
-  EXPECT_EQ(f.error("curve all"), "7: there are no curves: no CAD and no mesh was read");
+  EXPECT_EQ(f.error("curve all"), "7: there are no curves: neither CAD nor mesh was read");
 }
 
 TEST(Ranges, ids_with_gaps_are_skipped_in_spans_and_said) {

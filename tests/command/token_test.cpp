@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hextwist/command/error_at.h"
+#include "hextwist/command/flow.h"
 
 namespace hextwist {
 namespace {

@@ -300,7 +300,7 @@ static void arrays_go_round(void) {
   const int32_t no_side[4] = {a.hexes[0], a.hexes[1], a.hexes[2], a.hexes[6]};
   const hextwist_group odd = {3, NULL, 1, no_side};
   bad.side_sets = &odd, bad.n_side_sets = 1;
-  CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "side set 3[0] is no side"));
+  CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "side set 3[0] is not a side"));
   const hextwist_group repeated[2] = {{3, "a", 0, NULL}, {3, "b", 0, NULL}};
   bad.side_sets = repeated, bad.n_side_sets = 2;
   CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "occurs twice"));

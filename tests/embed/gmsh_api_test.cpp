@@ -169,15 +169,15 @@ TEST(GmshExchange, names_what_it_refuses) {
   gmsh.entities.push_back(element(3, 5, 4, {10, 20, 30, 50}));
   EXPECT_EQ(refusal(gmsh), "element 5 of volume 5 is a tetrahedron; only 8-node hexes in volumes are accepted");
   gmsh.entities.back() = element(2, 6, 3, {10, 20, 40, 80});
-  EXPECT_EQ(refusal(gmsh), "element 5 of surface 6 is no side of a hex");
+  EXPECT_EQ(refusal(gmsh), "element 5 of surface 6 is not a side of a hex");
   gmsh.entities.back() = element(2, 6, 2, {10, 20, 40});
-  EXPECT_EQ(refusal(gmsh), "element 5 of surface 6 is a triangle, which is no side of a hex");
+  EXPECT_EQ(refusal(gmsh), "element 5 of surface 6 is a triangle, which is not a side of a hex");
   gmsh.entities.back() = element(1, 7, 1, {10, 40});
-  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is no edge of a hex");
+  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is not an edge of a hex");
   gmsh.entities.back() = element(1, 7, 1, {10, 99});
-  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is no edge of a hex");
+  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is not an edge of a hex");
   gmsh.entities.back() = element(1, 7, 8, {10, 20, 30});
-  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is a 3-node line, which is no edge of a hex");
+  EXPECT_EQ(refusal(gmsh), "element 5 of curve 7 is a 3-node line, which is not an edge of a hex");
   gmsh.entities.back() = element(2, 6, 2, {91, 92, 93});  // has nothing to do with the hex
   EXPECT_EQ(refusal(gmsh), "no error");
   gmsh = one_hex();

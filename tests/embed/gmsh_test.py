@@ -293,7 +293,7 @@ class Gmsh(unittest.TestCase):
         structured(3)
         gmsh.model.mesh.clear([(3, 2)])
         before = snapshot()
-        with self.assertRaisesRegex(hextwist.Error, "is no edge of a hex|is no side of a hex"):
+        with self.assertRaisesRegex(hextwist.Error, "is not an edge of a hex|is not a side of a hex"):
             self.refine("surface 2")
         self.assertEqual(snapshot(), before)
         for dim in (2, 1, 0):

@@ -172,7 +172,7 @@ class Arrays(unittest.TestCase):
             (ValueError, "blocks: ids are integers", dict(blocks={1.5: [0]})),
             (ValueError, "node_sets: ids are integers", dict(node_sets={2**40: [0]})),
             (hextwist.Error, r"hex_volumes\[0\]: there is no volume -7", dict(hex_volumes=[-7])),
-            (hextwist.Error, "no side", dict(side_sets={1: [[0, 1, 2, 7]]})),
+            (hextwist.Error, "not a side", dict(side_sets={1: [[0, 1, 2, 7]]})),
             (hextwist.Error, "hex 1 is flat", dict(points=points * 0)),
         ):
             with self.assertRaisesRegex(error, words):

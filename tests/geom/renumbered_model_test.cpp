@@ -96,7 +96,7 @@ TEST(RenumberedModel, refuses_ids_that_are_no_permutation) {
       (void)renumbered(model, ids);
       ADD_FAILURE() << wrong;
     } catch (const Error& error) {
-      EXPECT_STREQ(error.what(), "the new ids of each surface are no permutation");
+      EXPECT_STREQ(error.what(), "the new ids of each surface are not a permutation");
     }
   }
 }

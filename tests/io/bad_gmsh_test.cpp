@@ -62,7 +62,7 @@ TEST(bad_gmsh_files, nodes_and_elements_of_version_4) {
   says(elements("1 1 1 1\n3 1 12 1\n7 1 2 3 4 5\n$EndElements\n"),
        ":27: element 7 is a 27-node hex; only 8-node hexes are accepted");
   says(elements("1 1 1 1\n3 1 99 1\n7 1 2 3 4 5\n$EndElements\n"),
-       ":27: element 7 has type 99, which is no hex, quad, line or point");
+       ":27: element 7 has type 99, which is not a hex, quad, line or point");
   says(elements("1 2 1 2\n3 1 5 2\n1 1 2 3 4 5 6 7 8\n1 1 2 3 4 5 6 7 8\n$EndElements\n"),
        ":28: element id 1 occurs twice");
   says(elements("1 2 1 1\n3 1 5 1\n1 1 2 3 4 5 6 7 8\n$EndElements\n"), ":27: the header says 2 elements, there are 1");
@@ -130,9 +130,9 @@ TEST(gmsh_files, parameters_partitions_curve_groups_and_time_steps_are_understoo
   ASSERT_EQ(read.mesh.fields.size(), 1u);
   EXPECT_EQ(read.mesh.fields[0].values[1], 20);
   EXPECT_TRUE(std::isnan(read.mesh.fields[0].values[2]));
-  EXPECT_EQ(read.notices,
-            (std::vector<std::string>{"physical curve group 2 is node set 3: a physical point group has its id",
-                                      "dropped 1 elements of type 3-node line, which are no side or edge of a hex"}));
+  EXPECT_EQ(read.notices, (std::vector<std::string>{
+                              "physical curve group 2 is node set 3: a physical point group has its id",
+                              "dropped 1 elements of type 3-node line, which are not sides or edges of a hex"}));
 }
 
 TEST(bad_gmsh_files, sections_that_a_file_has_once) {

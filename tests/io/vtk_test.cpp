@@ -162,7 +162,7 @@ TEST(vtk_files, material_ids_that_are_no_ids_of_blocks_are_named) {
   EXPECT_TRUE(read.mesh.blocks.empty());
   EXPECT_EQ(read.mesh.fields[0].values, (std::vector<double>{0, 3e9}));
   EXPECT_EQ(read.notices,
-            (std::vector<std::string>{"MaterialID of 2 hexes is no id of a block (1 to 2147483646): they are in "
+            (std::vector<std::string>{"MaterialID of 2 hexes is not an id of a block (1 to 2147483646): they are in "
                                       "none, the values are a field"}));
 }
 
@@ -228,7 +228,7 @@ TEST(vtk_files, what_is_wrong_is_said) {
   const std::string cells = good + "CELLS 2 8\nOFFSETS ";
   const std::string nodes = "CONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n";
   says(cells + "vtktypeint64\n0 9\n" + nodes, ":8: the offsets of cells do not fit");
-  says(cells + "double\n0 8\n" + nodes, ":8: the numbers of cells are no integers");
+  says(cells + "double\n0 8\n" + nodes, ":8: the numbers of cells are not integers");
   says(good +
            "CELLS 3 8\nOFFSETS vtktypeint64\n0 9 8\nCONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7\nCELL_TYPES 2\n12 12\n",
        ": the nodes of cell 1 do not fit: they end at 9 of 8");

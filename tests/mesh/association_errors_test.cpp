@@ -78,16 +78,24 @@ TEST(association_errors, mixed_up_units_and_moved_meshes_are_explained) {
     EXPECT_NE(text.find("the mesh does not lie on the model: node "), std::string::npos) << text;
     return text.substr(std::min(text.size(), text.find(" off;") + 6));
   };
-  EXPECT_EQ(hint(1000, Vec3::Zero()), "the mesh is 1000 times larger than the model: millimetres and metres mixed up?");
+  EXPECT_EQ(hint(1000, Vec3::Zero()),
+            "the mesh is 1000 times larger than the model: millimetres and metres mixed up? 'import mesh ... scale "
+            "0.001' mends that");
   EXPECT_EQ(hint(1 / 25.4, Vec3::Zero()),
-            "the mesh is 25.4 times smaller than the model: millimetres and inches mixed up?");
+            "the mesh is 25.4 times smaller than the model: millimetres and inches mixed up? 'import mesh ... scale "
+            "25.4' mends that");
   EXPECT_EQ(hint(0.1, Vec3::Zero()),
-            "the mesh is 10 times smaller than the model: millimetres and centimetres mixed up?");
-  EXPECT_EQ(hint(304.8, Vec3::Zero()), "the mesh is 304.8 times larger than the model: millimetres and feet mixed up?");
+            "the mesh is 10 times smaller than the model: millimetres and centimetres mixed up? 'import mesh ... scale "
+            "10' mends that");
+  EXPECT_EQ(hint(304.8, Vec3::Zero()),
+            "the mesh is 304.8 times larger than the model: millimetres and feet mixed up? 'import mesh ... scale "
+            "0.00328084' mends that");
   EXPECT_EQ(hint(1 / 0.0254, Vec3::Zero()),
-            "the mesh is 39.3701 times larger than the model: metres and inches mixed up?");
+            "the mesh is 39.3701 times larger than the model: metres and inches mixed up? 'import mesh ... scale "
+            "0.0254' mends that");
   EXPECT_EQ(hint(1, Vec3(7, 0, 0)),
-            "the mesh is as large as the model, but its centre is at (8.5, 1, 0.5) instead of (1.5, 1, 0.5)");
+            "the mesh is as large as the model, but its centre is at (8.5, 1, 0.5) instead of (1.5, 1, 0.5): read the "
+            "mesh before the CAD and 'move -7 0 0' it");
   EXPECT_EQ(hint(2, Vec3::Zero()), "the boxes of mesh and model are 7.48331 and 3.74166 across: another model?");
 }
 

@@ -126,7 +126,7 @@ TEST(check_association, every_broken_promise_is_seen) {
             "side 1 of hex 1 is on surface 7, which is not");
   EXPECT_EQ(broken([](Association& a) { a.edge_curve[0] = 0; }).check()[0], "curve edge 0 is on curve 0, which is not");
   EXPECT_EQ(broken([](Association& a) { a.surface_faces.back().face = 6; }).check()[0],
-            "surface face 53 is no side of a hex");
+            "surface face 53 is not a side of a hex");
   EXPECT_EQ(broken([](Association& a) { std::swap(a.surface_faces[0], a.surface_faces[1]); }).check()[0],
             "surface faces are not ascending");
   EXPECT_EQ(broken([](Association& a) { std::swap(a.curve_edges[0], a.curve_edges[1]); }).check()[0],
@@ -169,7 +169,7 @@ TEST(check_association, every_broken_promise_is_seen) {
                   a.curve_edges.insert(a.curve_edges.begin() + 1, Edge{0, 9});
                   a.edge_curve.insert(a.edge_curve.begin(), 1);
                 }),
-                "is no edge of the mesh, lower node first");
+                "is not an edge of the mesh, lower node first");
   expect_broken(broken([&](Association& a) { a.node_parameters[on_curve].u += 0.01; }),
                 "node 2 is 0.010000 from its place on curve 1", false);
   expect_broken(broken([&](Association& a) { a.node_parameters[on_surface] = {}; }), "from its place on surface 5",

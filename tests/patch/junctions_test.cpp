@@ -51,7 +51,7 @@ std::vector<int> edges_per_curve(const MeshedModel& meshed) {
 TEST(junctions, all_curves_of_a_brick_are_cut_in_three_and_nothing_beside_them) {
   const MeshedModel input = brick(6, 5, 7);
   const RefineResult result = checked(input, {.target = {.kind = EntityKind::curve, .ids = all(input, 1)}});
-  EXPECT_TRUE(says(result.report, "8 nodes where targets meet enclosed before the others"));
+  EXPECT_TRUE(says(result.report, "8 nodes where targets meet were refined before the others"));
   const auto before = edges_per_curve(input), after = edges_per_curve(result.refined);
   for (std::size_t curve = 1; curve < before.size(); ++curve) EXPECT_EQ(after[curve], 3 * before[curve]) << curve;
   EXPECT_GE(result.report.shape_after.min, 0.4);
@@ -72,7 +72,7 @@ TEST(junctions, three_edges_at_a_node_inside_are_cut_in_three) {
     request.target.ids.push_back(find_edge(all_edges, node(2, 2, 2), end));
   std::ranges::sort(request.target.ids);
   const RefineResult result = checked(input, request);
-  EXPECT_TRUE(says(result.report, "1 node where targets meet enclosed before the others"));
+  EXPECT_TRUE(says(result.report, "1 node where targets meet were refined before the others"));
   // Cut at a third from the node in the middle, then what is left of the edge at a third from its other end.
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> at;

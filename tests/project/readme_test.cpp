@@ -20,10 +20,10 @@ std::string readme() {
 }
 
 /// The fenced blocks of one language, in order.
-std::vector<std::string> blocks(const std::string& language) {
+std::vector<std::string> blocks(const std::string& language, const std::string& text = readme()) {
   std::vector<std::string> found;
   bool inside = false;
-  for (const std::string& line : lines(readme())) {
+  for (const std::string& line : lines(text)) {
     if (!inside && line == "```" + language) {
       inside = true;
       found.emplace_back();
@@ -36,12 +36,12 @@ std::vector<std::string> blocks(const std::string& language) {
   return found;
 }
 
-TEST(Readme, shell_commands_work_in_the_order_shown) {
-  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/app/hextwist")) GTEST_SKIP() << "the program is not built";
+/// Runs the blocks one after the other in a folder that has the models; returns how many there were.
+int run_shell(const std::string& text) {
   const auto folder = output_folder();
   std::filesystem::create_directory_symlink(source_folder() / "models", folder / "models");
   int n_run = 0;
-  for (const std::string& block : blocks("sh")) {
+  for (const std::string& block : blocks("sh", text)) {
     // Installing, building and ./dev itself are for a shell outside of the tests.
     if (block.find("./dev") != std::string::npos || block.find("cmake") != std::string::npos) continue;
     ++n_run;
@@ -49,22 +49,46 @@ TEST(Readme, shell_commands_work_in_the_order_shown) {
                                 ":$PATH; export PATH\n" + block);
     EXPECT_EQ(outcome.status, 0) << block << outcome.output;
   }
-  EXPECT_GE(n_run, 3) << "the README shows no commands";
+  return n_run;
 }
 
-TEST(Readme, python_works) {
-  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/python/hextwist"))
-    GTEST_SKIP() << "the Python module is not built";
+void run_python(const std::string& text) {
   const auto folder = output_folder();
   std::filesystem::create_directory_symlink(source_folder() / "models", folder / "models");
-  ASSERT_FALSE(blocks("python").empty());
+  ASSERT_FALSE(blocks("python", text).empty());
   const bool has_gmsh = run(HEXTWIST_PYTHON " -c 'import gmsh'").status == 0;
-  for (const std::string& block : blocks("python")) {
+  for (const std::string& block : blocks("python", text)) {
     if (!has_gmsh && block.find("import gmsh") != std::string::npos) continue;
     const Outcome outcome = run("cd " + quoted(folder) + "; PYTHONPATH=" + quoted(HEXTWIST_BINARY_DIR "/python") +
                                 " " HEXTWIST_PYTHON " -c " + quoted(block));
     EXPECT_EQ(outcome.status, 0) << block << outcome.output;
   }
+}
+
+std::string tutorial() {
+  return content(source_folder() / "docs/tutorial.md");
+}
+
+TEST(Readme, shell_commands_work_in_the_order_shown) {
+  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/app/hextwist")) GTEST_SKIP() << "the program is not built";
+  EXPECT_GE(run_shell(readme()), 3) << "the README shows no commands";
+}
+
+TEST(Tutorial, shell_commands_work_in_the_order_shown) {
+  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/app/hextwist")) GTEST_SKIP() << "the program is not built";
+  EXPECT_GE(run_shell(tutorial()), 5);
+}
+
+TEST(Readme, python_works) {
+  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/python/hextwist"))
+    GTEST_SKIP() << "the Python module is not built";
+  run_python(readme());
+}
+
+TEST(Tutorial, python_works) {
+  if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/python/hextwist"))
+    GTEST_SKIP() << "the Python module is not built";
+  run_python(tutorial());
 }
 
 TEST(Readme, embedding_example_is_part_of_the_one_that_is_compiled) {

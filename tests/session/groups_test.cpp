@@ -54,7 +54,8 @@ TEST(Groups, are_undone_and_forgotten_with_their_model) {
   EXPECT_EQ(f.error("list group 1"), "there are no groups");
   EXPECT_EQ(f.error("list group all; list nodeset all; delete sideset all"), "no error");
   EXPECT_EQ(f.notices,
-            (std::vector<std::string>{"there are no groups", "there are no nodesets", "there are no sidesets"}));
+            (std::vector<std::string>{"this takes the place of the mesh of 27 hexes that was here",
+                                      "there are no groups", "there are no nodesets", "there are no sidesets"}));
 }
 
 TEST(Groups, members_that_are_gone_count_no_longer) {

@@ -92,8 +92,8 @@ TEST_F(Safe, nothing_takes_it_back) {
 
 TEST_F(Safe, a_pipe_is_no_ordinary_file) {
   if (std::system("mkfifo p.jou 2> /dev/null") != 0) GTEST_SKIP() << "no pipes";
-  EXPECT_EQ(f.error("playback 'p.jou'"), "the session is safe: this is no ordinary file");
-  EXPECT_EQ(f.error("record 'p.jou' overwrite"), "the session is safe: this is no ordinary file");
+  EXPECT_EQ(f.error("playback 'p.jou'"), "the session is safe: this is not an ordinary file");
+  EXPECT_EQ(f.error("record 'p.jou' overwrite"), "the session is safe: this is not an ordinary file");
 }
 
 TEST_F(Safe, calls_of_the_program_itself_are_not_concerned) {

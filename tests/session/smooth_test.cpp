@@ -196,7 +196,7 @@ TEST(SmoothCommand, can_be_cancelled_at_any_sweep) {
 
 TEST(SmoothCommand, needs_a_mesh) {
   Fixture f;
-  EXPECT_EQ(f.error("smooth volume all"), "there is no mesh to smooth");
+  EXPECT_TRUE(f.error("smooth volume all").starts_with("there is no mesh to smooth; read one"));
   EXPECT_NE(f.error("node 1 position fixed"), "no error");
 }
 

@@ -67,8 +67,8 @@ TEST(size_mix, both_are_told_when_both_were_tried) {
   Request request{.target = {.kind = EntityKind::surface, .ids = {5}, .depth = 1}, .how = Sizes{.size = 0.5}};
   const RefineResult halved = checked(input, request);
   EXPECT_NE(
-      notices(halved).find("one into eight where that comes nearer, else one into 27: sizes are off by a factor of "
-                           "1.00 on average, not 1.50; the worst shape is "),
+      notices(halved).find("one into eight where that comes nearer, else one into 27: on average sizes are off by a "
+                           "factor of 1.00 (1.50 the other way), the worst shape is "),
       std::string::npos)
       << notices(halved);
   request.method = Method::parallel;
