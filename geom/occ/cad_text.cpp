@@ -95,6 +95,7 @@ std::string brep_defect(std::string_view text) {
 std::string iges_defect(std::string_view text) {
   const std::size_t end = text.find_last_not_of(blanks), line = text.rfind('\n', end);
   const std::size_t start = line == std::string_view::npos ? 0 : line + 1;
+  if (end == std::string_view::npos) return truncated(CadFormat::iges);
   return end - start >= 72 && text[start + 72] == 'T' ? "" : truncated(CadFormat::iges);
 }
 

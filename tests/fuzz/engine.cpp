@@ -23,6 +23,7 @@ class Input {
 
 std::string next_command(Input& in, const Mesh& mesh) {
   const int what = in.below(16);
+  if (mesh.n_hexes() == 0) return "redo";  // its making was undone
   if (what == 0) return "undo";
   if (what == 1) return "redo";
   if (what == 2) return "smooth volume all";

@@ -209,6 +209,7 @@ TEST(occ_files, files_cut_anywhere_or_with_pieces_missing_are_refused) {
                                    text.substr(0, text.size() * static_cast<std::size_t>(i) / 40));
       EXPECT_EQ(refusal(file), std::string("the ") + format + " file is truncated: its end is missing");
     }
+    EXPECT_EQ(refusal(write_text(folder / (std::string("blank") + ext), " \n")), "the file is empty");
   }
   std::string text = text_of(folder / "whole.step");
   const std::size_t middle = text.find("\n#", text.size() / 2) + 1;
