@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "hextwist/sizing/levelling.h"
+
 namespace hextwist {
 namespace {
 
@@ -64,6 +66,10 @@ Step::Step(std::string said, const ModelState& from, const ModelState& to, MeshC
   if (to.tags && from.tags != to.tags) bytes += bytes_of(*to.tags);
   if (to.fixed_nodes && from.fixed_nodes != to.fixed_nodes) bytes += bytes_of(*to.fixed_nodes);
   if (to.schemes && from.schemes != to.schemes) bytes += bytes_of(*to.schemes);
+  if (to.levelling && from.levelling != to.levelling) {
+    state.levelling = without_stack(to.levelling);
+    bytes += bytes_of(*state.levelling);
+  }
   if (std::holds_alternative<WholeMesh>(mesh) || std::holds_alternative<ArraysChange>(mesh))
     state.measured.extremes = nullptr;  // not worth the memory
   else if (std::holds_alternative<SpliceChange>(mesh))

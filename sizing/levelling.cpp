@@ -210,6 +210,41 @@ LevellingPtr levelling_after_move(const LevellingPtr& before, std::span<const In
   return std::make_shared<const Levelling>(Levelling{before->forest, overlay_after(before->overlay, moved, meshed)});
 }
 
+LevellingPtr without_stack(const LevellingPtr& levelling) {
+  if (!levelling || !levelling->forest.grown || !levelling->forest.grown->has_stack) return levelling;
+  const GrownForest& grown = *levelling->forest.grown;
+  auto rest = std::make_shared<GrownForest>();
+  rest->marks = grown.marks;
+  rest->hexes = grown.hexes;
+  rest->next_node_id = grown.next_node_id;
+  rest->next_hex_id = grown.next_hex_id;
+  Levelling result = *levelling;
+  result.forest.grown = std::move(rest);
+  return std::make_shared<const Levelling>(std::move(result));
+}
+
+std::size_t bytes_of(const Levelling& levelling) {
+  std::size_t sum = 0;
+  const auto add = [&](const auto& list) { sum += list.size() * sizeof list[0]; };
+  const auto add_marks = [&](const LevelMarks& marks) {
+    for (const CellMarks& level : marks) {
+      add(level.cell);
+      add(level.corners);
+    }
+  };
+  add_marks(levelling.forest.wished);
+  if (levelling.forest.grown) {
+    add_marks(levelling.forest.grown->marks);
+    add(levelling.forest.grown->hexes.cut);
+    add(levelling.forest.grown->hexes.cell);
+    add(levelling.forest.grown->hexes.origin);
+  }
+  add(levelling.overlay.nodes);
+  add(levelling.overlay.points);
+  add(levelling.overlay.parameters);
+  return sum;
+}
+
 void raise_levels(const Lineage& lineage, bool make, Mesh& refined) {
   Field* const field = level_field_of(refined, make);
   if (!field) return;

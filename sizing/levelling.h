@@ -50,6 +50,10 @@ void run_levels(State& state, KnownLevels& known);
 /// had: of nodes, edges and faces of a mesh that was cut by levels already.
 bool run_combination_by_levels(State& state);
 
+/// The same without what can be made again, for keeping; bytes that it takes beside its base.
+LevellingPtr without_stack(const LevellingPtr& levelling);
+std::size_t bytes_of(const Levelling& levelling);
+
 /// The hex field of levels; null: there is none.
 const Field* level_field(const Mesh& mesh);
 
