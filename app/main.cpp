@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   catch_interrupts();
+  keep_freed_memory();
   limit_memory(available_memory());
   Session session;
   Console console;

@@ -72,6 +72,10 @@ struct AssociateResult {
 ///    that share no surface (STEP) it asks for the CAD to be glued.
 AssociateResult associate(const Mesh& mesh, const Model& model, const Association* tags,
                           const AssociateOptions& options = {});
+/// From geometry alone.
+inline AssociateResult associate(const Mesh& mesh, const Model& model, const AssociateOptions& options = {}) {
+  return associate(mesh, model, nullptr, options);
+}
 
 /// A facet model of the mesh's own skin, and the association with it. Volumes: the blocks where they partition the
 /// mesh, in the blocks' order, else one. With tags the skin is divided as they say instead of by angle and blocks: by
