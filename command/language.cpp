@@ -110,10 +110,10 @@ const std::vector<CommandSpec> table = {
      "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
      " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [overwrite]",
      "draw the mesh into a picture or a page",
-     "A .png is a picture; a .html is a page of its own that turns with the mouse and tells which hex was clicked. Hexes "
-     "(of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side sets) alone; edges and nodes (of curves, "
-     "vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or sheets apart, or with 'quality' good "
-     "from bad. 'from' is the direction to look from.",
+     "A .html is the viewer with the whole mesh inside: what the command is about is picked there, and hexes and faces are "
+     "shown alone. A .png is a picture: hexes (of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side "
+     "sets) alone; edges and nodes (of curves, vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or "
+     "sheets apart, or with 'quality' good from bad. 'from' is the direction to look from.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"x", Kind::number, -1e100, 1e100, false, "from the mesh to the eye; default 1 -1 0.7, z is up"},
       {"y", Kind::number, -1e100, 1e100, false, ""},
