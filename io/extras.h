@@ -38,6 +38,8 @@ struct PeriodicPairs {
 struct FileExtras {
   /// Abaqus: the type of the hexes of a block, by its id; at 0 that of all others, C3D8 where there is none.
   std::map<int, std::string> element_types;
+  /// Nodes of the hexes of a block, by its id: 8, 20 or 27; at 0 those of all others, 8 where there is none.
+  std::map<int, int> nodes_per_hex;
   std::string heading;  ///< Abaqus: lines below *HEADING
   std::vector<AbaqusCard> cards;
   std::vector<int> node_surfaces;  ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
@@ -46,8 +48,8 @@ struct FileExtras {
   std::map<int, int> curve_groups;
 
   bool empty() const {
-    return element_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty() &&
-           curve_groups.empty();
+    return element_types.empty() && nodes_per_hex.empty() && heading.empty() && cards.empty() &&
+           node_surfaces.empty() && periodic.empty() && curve_groups.empty();
   }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hextwist/geom/model.h"
+#include "hextwist/mesh/second_order/middle_nodes.h"
 #include "hextwist/mesh/topology.h"
 
 namespace HEXTWIST_API hextwist {
@@ -88,6 +89,8 @@ struct FacetResult {
 struct SkinOptions {
   double feature_angle = 35;          ///< degrees
   const Association* tags = nullptr;  ///< lists ascending, as in a complete association
+  /// The skin is curved: through these. Null, or where all lie halfway: straight.
+  const MiddleNodes* middles = nullptr;
 };
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options = {});
 
