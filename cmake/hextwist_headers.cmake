@@ -17,6 +17,9 @@ set(HEXTWIST_HEADERS
   mesh/association/association.h
   mesh/quality/quality.h
   mesh/quality/validity.h
+  mesh/second_order/jacobian.h
+  mesh/second_order/middle_nodes.h
+  mesh/second_order/second_order.h
   mesh/smooth/smooth.h
   mesh/validate/validate.h
   io/extras.h

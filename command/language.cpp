@@ -68,7 +68,7 @@ const std::vector<CommandSpec> table = {
      {{"id", Kind::integer, 0, max_group_id, false, "number of the block"},
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"},
-      {"type", Kind::word, 0, 0, false, "hex8, which every element is"},
+      {"type", Kind::word, 0, 0, false, "hex8, hex20 or hex27: of the files that are written"},
       {"n", Kind::integer, 0, 1000, false, "how many attributes the hexes of the block have"},
       {"index", Kind::integer, 1, 1000, false, "which of them"},
       {"value", Kind::number, -1e300, 1e300, false, "for all hexes of the block"}},
@@ -110,10 +110,10 @@ const std::vector<CommandSpec> table = {
      "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
      " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [overwrite]",
      "draw the mesh into a picture or a page",
-     "A .png is a picture; a .html is a page of its own that turns with the mouse and tells which hex was clicked. Hexes "
-     "(of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side sets) alone; edges and nodes (of curves, "
-     "vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or sheets apart, or with 'quality' good "
-     "from bad. 'from' is the direction to look from.",
+     "A .html is the viewer with the whole mesh inside: what the command is about is picked there, and hexes and faces are "
+     "shown alone. A .png is a picture: hexes (of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side "
+     "sets) alone; edges and nodes (of curves, vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or "
+     "sheets apart, or with 'quality' good from bad. 'from' is the direction to look from.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"x", Kind::number, -1e100, 1e100, false, "from the mesh to the eye; default 1 -1 0.7, z is up"},
       {"y", Kind::number, -1e100, 1e100, false, ""},
@@ -123,17 +123,18 @@ const std::vector<CommandSpec> table = {
       {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
      "something fails, as it was. An existing file is kept unless 'overwrite' is said. 'text' or 'binary' where a format has "
-     "both (.msh, .vtu); 'version' of .msh; 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
+     "both (.msh, .vtu); 'version' of .msh; 'order 2' writes hexes of 20 nodes (27 where the blocks have those); 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
      "programs want it. 'levels' writes the base of the mesh and what was refined of it (not the mesh), so that 'coarsen' "
      "can go on another day.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"},
       {"version", Kind::number, 2.2, 4.1, false, "of .msh: 2.2 or 4.1; default 4.1"},
       {"blocks", Kind::range, 0, 0, false, "only these blocks, with what sets and fields have of them"},
+      {"order", Kind::integer, 1, 2, false, "of the hexes: 2 with middle nodes, on the CAD where that bends"},
       {"dimension", Kind::integer, 3, 3, false, ""}},
-     {"export gmsh \"part.msh\" text version 2.2 groups only", "export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite"}},
+     {"export gmsh \"part.msh\" text version 2.2 groups only", "export exodus \"part.e\"", "export vtk \"part.vtu\" overwrite", "export abaqus \"part.inp\" order 2"}},
     {"group",
      "group {<name>|<word>|<id>} {add|equals|remove|xor} {{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet} <range> ..."
      "|quality {node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [{" METRICS "}] " FILTERS "}",
@@ -287,10 +288,11 @@ const std::vector<CommandSpec> table = {
      "All lengths, from the origin or from a point. Only the mesh or only the CAD is scaled when it is read: 'import mesh \"part.e\" "
      "scale 1000'. What is kept: see 'help move'.",
      {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"scale 0.001"}},
-    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}"
+    {"set", "set {glue {auto|on|off}|feature_angle <degrees>|tolerance <limit>|threads <count>|undo {on|off|limit <megabytes>}|order <order>"
      "|max_hexes <most>|max_memory <gigabytes>|reading {fenced {on|off}|time <seconds>|memory <megabytes>}|safe on|untangle {on|off}|snap {on|off}|keep_jumps {off|<field>}|=duplicate block elements {on|off}}",
      "change a setting",
      "glue: whether touching solids of a CAD file share their faces; 'auto' (the default) does so when the mesh does. "
+     "order: of meshes that are written, 2 with middle nodes (default: as the mesh was read). "
      "feature_angle: an edge of a mesh without CAD is a curve where its faces turn by more (default 35). "
      "tolerance: how far a mesh may lie off its CAD, relative to the model size (default 1e-5). threads: 0 for all cores. "
      "undo: whether commands can be undone, and the memory for that (default 1000 MB; the oldest go first). max_hexes, max_memory: "
@@ -306,6 +308,7 @@ const std::vector<CommandSpec> table = {
       {"count", Kind::integer, 0, 1024, false, "number of threads"},
       {"megabytes", Kind::number, 0, 1e9, false, "memory, in MB"},
       {"seconds", Kind::number, 0, 1e9, false, "seconds"},
+      {"order", Kind::integer, 1, 2, false, "1 or 2"},
       {"most", Kind::integer, 0, 9e15, false, "hexes of a mesh at most"},
       {"gigabytes", Kind::number, 0, 1e9, false, "memory of the program, in GB"},
       {"field", Kind::string, 0, 0, false, "name of a hex field, in quotes"}},

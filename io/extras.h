@@ -49,6 +49,8 @@ struct PeriodicPairs {
 struct FileExtras {
   /// Abaqus: the type of the hexes of a block, by its id; at 0 that of all others, C3D8 where there is none.
   std::map<int, std::string> element_types;
+  /// Nodes of the hexes of a block, by its id: 8, 20 or 27; at 0 those of all others, 8 where there is none.
+  std::map<int, int> nodes_per_hex;
   std::string heading;                  ///< Abaqus: lines below *HEADING
   std::vector<AbaqusCard> cards;        ///< Abaqus: those that are no mesh, in the order of the file
   std::vector<int> node_surfaces;       ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
@@ -58,8 +60,8 @@ struct FileExtras {
 
   /// Does the file say nothing beyond its mesh?
   bool empty() const {
-    return element_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty() &&
-           curve_groups.empty();
+    return element_types.empty() && nodes_per_hex.empty() && heading.empty() && cards.empty() &&
+           node_surfaces.empty() && periodic.empty() && curve_groups.empty();
   }
 };
 

@@ -32,20 +32,21 @@ void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Ass
 
 struct Format {
   std::string_view extension, name;
+  std::array<int, 2> second_order;  ///< nodes per hex that it can have, the usual first; 0: none
   MeshFile (*read)(const std::filesystem::path&, const Fence&);
   void (*write)(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&);
 };
 
 constexpr Format formats[] = {
-    {".msh", "gmsh", read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
-    {".e", "exodus", io::read_exodus, write_exodus},
-    {".exo", "exodus", io::read_exodus, write_exodus},
-    {".g", "genesis", io::read_exodus, write_exodus},
-    {".gen", "genesis", io::read_exodus, write_exodus},
-    {".inp", "abaqus", io::read_abaqus, write_whole<io::write_abaqus>},
-    {".mesh", "medit", read_whole<io::read_medit>, write_whole<io::write_medit>},
-    {".vtk", "vtk", read_whole<io::read_vtk>, nullptr},
-    {".vtu", "vtk", read_whole<io::read_vtu>, write_whole<io::write_vtu>},
+    {".msh", "gmsh", {20, 27}, read_whole<io::read_gmsh>, write_whole<io::write_gmsh>},
+    {".e", "exodus", {20, 27}, io::read_exodus, write_exodus},
+    {".exo", "exodus", {20, 27}, io::read_exodus, write_exodus},
+    {".g", "genesis", {20, 27}, io::read_exodus, write_exodus},
+    {".gen", "genesis", {20, 27}, io::read_exodus, write_exodus},
+    {".inp", "abaqus", {20, 27}, io::read_abaqus, write_whole<io::write_abaqus>},
+    {".mesh", "medit", {0, 0}, read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".vtk", "vtk", {0, 0}, read_whole<io::read_vtk>, nullptr},
+    {".vtu", "vtk", {20, 27}, read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };
 
 /// What only another format has.
@@ -104,6 +105,76 @@ const Format* format_to_write(const std::filesystem::path& file, std::string_vie
   return format && !format->write && !name.empty() ? format_of("a.vtu", name) : format;
 }
 
+/// Nodes per hex that what is known of the blocks asks for. Throws Error where they don't fit together.
+int nodes_per_hex_of(const Mesh& mesh, const FileExtras* extras) {
+  if (!extras || extras->nodes_per_hex.empty()) return 8;
+  const auto of = [&](int block) {
+    const auto found = extras->nodes_per_hex.find(block);
+    return found == extras->nodes_per_hex.end() ? 0 : found->second;
+  };
+  const int others = std::max(of(0), 8);
+  std::vector<int> nodes(mesh.hexes.size(), 0);
+  for (const Block& block : mesh.blocks)
+    if (const int n = of(block.id); n > 0)
+      for (const Index h : block.hexes)
+        if (nodes[h] == 0) nodes[h] = n;
+  for (int& n : nodes)
+    if (n == 0) n = others;
+  const auto other = std::ranges::adjacent_find(nodes, std::ranges::not_equal_to{});
+  if (other != nodes.end()) {
+    const auto h = static_cast<Index>(other - nodes.begin());
+    throw Error("hex " + std::to_string(hex_id(mesh, h)) + " has " + std::to_string(nodes[h]) + " nodes and hex " +
+                std::to_string(hex_id(mesh, h + 1)) + " " + std::to_string(nodes[h + 1]) +
+                ": all hexes of a file have as many here ('block all element type ...', or an order for the file)");
+  }
+  return nodes.empty() ? 8 : nodes.front();
+}
+
+/// The most that any block has.
+int most_nodes_per_hex(const FileExtras* extras) {
+  int most = 8;
+  if (extras)
+    for (const auto& [block, n] : extras->nodes_per_hex) most = std::max(most, n);
+  return most;
+}
+
+/// Nodes per hex of the file: what is asked for, as far as the format has it.
+int nodes_per_hex_in(const Format& format, const Mesh& mesh, const WriteOptions& options, Notices& notices) {
+  const auto& known = format.second_order;
+  const std::string files = std::string(format.extension) + " files ";
+  const bool asked = options.order == 2;
+  int n = 8;
+  if (asked && options.nodes_per_hex > 0)
+    n = options.nodes_per_hex;
+  else if (options.order != 1)
+    n = asked ? most_nodes_per_hex(options.extras) : nodes_per_hex_of(mesh, options.extras);
+  if (asked && n <= 8) n = known[0];
+  if (known[0] == 0) {
+    if (asked) throw Error(files + "have no middle nodes here: export with order 1");
+    if (n > 8) notices.push_back(files + "have no middle nodes here: they are left out");
+    return 8;
+  }
+  if (n > 8 && std::ranges::find(known, n) == known.end()) {
+    if (asked && options.nodes_per_hex > 0)
+      throw Error(files + "have no hexes with " + std::to_string(n) + " nodes here, but with " +
+                  std::to_string(known[0]));
+    notices.push_back(files + "have hexes with " + std::to_string(known[0]) + " nodes here, not " + std::to_string(n));
+    n = known[0];
+  }
+  return n;
+}
+
+void write_in(const Format& format, const std::filesystem::path& file, const Mesh& mesh, const Association& association,
+              const WriteOptions& options, Notices& notices) {
+  const int n = nodes_per_hex_in(format, mesh, options, notices);
+  if (n == 8) return format.write(file, mesh, association, options, notices);
+  const SecondOrder second = second_order(mesh, association, options.model ? options.model : options.skin, n);
+  if (const std::string text = straightened_text(second); !text.empty()) notices.push_back(text);
+  WriteOptions with_middles = options;
+  with_middles.second = &second;
+  format.write(file, second.mesh, second.association, with_middles, notices);
+}
+
 template <class Does>
 std::string extensions(Does&& does) {
   std::string result;
@@ -135,10 +206,13 @@ std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mes
   if (!format || !format->write)
     throw Error(file.string() + ": meshes of this kind cannot be written; known are " + writable_extensions());
   static const Association nothing;
+  const Association& own = association ? *association : nothing;
   Notices notices;
+  if (options.order < 0 || options.order > 2)
+    throw Error(file.string() + ": order " + std::to_string(options.order) + " is neither 1 nor 2");
   if (options.extras) say_left_out(*options.extras, format->extension, notices);
   try {
-    format->write(file, mesh, association ? *association : nothing, options, notices);
+    write_in(*format, file, mesh, own, options, notices);
     if (mesh.results && format->write != write_exodus)
       if (const std::string more = extras_text(*mesh.results); !more.empty())
         notices.push_back(std::string(format->extension) + " has no place for what came with " + more + ": left out");

@@ -1,4 +1,5 @@
-// Mesh files. Hexes only: a file with any other volume element is refused, naming the first one.
+// Mesh files. Hexes only, of first or second order: a file with any other volume element is refused, naming the first
+// one.
 //
 //   .msh        Gmsh 2.2 and 4.1, text and binary (1.0 is read as well)
 //               Entity tags are owners. Physical groups: 3D are blocks, 2D side sets, 1D and 0D node sets; a node set
@@ -34,6 +35,8 @@
 #include "hextwist/io/extras.h"
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/second_order/middle_nodes.h"
+#include "hextwist/mesh/second_order/second_order.h"
 
 namespace HEXTWIST_API hextwist {
 
@@ -44,6 +47,8 @@ struct MeshFile {
   Association tags;                  ///< ids are those of the file: associate() checks them against a model
   std::vector<std::string> notices;  ///< empty: there is nothing to remark
   FileExtras extras;                 ///< for WriteOptions::extras
+  /// Of a file of second order: the mesh has the corners only, and this says where the other nodes were.
+  MiddleNodes middles;
 };
 
 /// Reads by extension (case ignored). Node and hex ids are those of the file where it has any (in .msh the tags of
@@ -66,6 +71,12 @@ struct WriteOptions {
   const Model* model = nullptr;        ///< .msh: the CAD of the association; lines then run as its curves do
   const FileExtras* extras = nullptr;  ///< of the file that the mesh, or what it was refined from, was read from
   std::string format = {};             ///< as read_mesh() takes it; empty: by extension
+  /// 2: with middle nodes, placed on `model` (second_order.h); formats without them refuse. 0: as `extras` say of the
+  /// blocks, which formats without middle nodes tell of.
+  int order = 0;
+  int nodes_per_hex = 0;  ///< of order 2: 20 or 27; 0: as `extras` say, else what the format has, 20 where it has both
+  const Model* skin = nullptr;          ///< what the mesh lies on where `model` is null: for middle nodes
+  const SecondOrder* second = nullptr;  ///< made by write_mesh() itself
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole

@@ -125,7 +125,8 @@ MeshedModel read_base(Transaction& run, const PieceReader& in) {
         associate(read.mesh, *run.meshed->model, &read.tags, {.relative_tolerance = run.state.tolerance});
     base = {std::move(read.mesh), run.meshed->model, std::move(on_cad.association)};
   } else {
-    FacetResult skin = associate_with_own_skin(read.mesh, {.feature_angle = run.state.feature_angle});
+    FacetResult skin =
+        associate_with_own_skin(read.mesh, {.feature_angle = run.state.feature_angle, .middles = &read.middles});
     base = {std::move(read.mesh), std::move(skin.model), std::move(skin.association)};
   }
   if (owner_rows(base.association) != in.get<OwnerRow>("base_owners"))
@@ -183,7 +184,13 @@ void write_levels(const Transaction& run, const std::filesystem::path& file, boo
   const GrownForest& forest = *levelling.forest.grown;
   Replacement replacement(file, overwrite);
   const Scratch scratch(replacement.temporary());
-  write_mesh(scratch.file, base.mesh, &base.association, {.write_quality = false});
+  // A skin that is curved is written as middle nodes.
+  const bool curved = base.model && base.model->count(2) > 0 && base.model->type({2, 1}) == "quadratic facets";
+  write_mesh(scratch.file, base.mesh, &base.association,
+             {.write_quality = false,
+              .model = curved ? base.model.get() : nullptr,
+              .order = curved ? 2 : 1,
+              .nodes_per_hex = curved ? 27 : 0});
   const io::Bytes vtu = io::read_bytes(scratch.file);
   PieceWriter out(replacement.temporary());
   out.add("base", std::vector<char>(vtu.data.get(), vtu.data.get() + vtu.size));

@@ -120,10 +120,11 @@ AssociateResult associated_within(const Mesh& mesh, const Model& model, const As
 }
 
 /// On the model, or on its own skin where that is null.
-MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags) {
+MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
+                       const MiddleNodes* middles) {
   const Interruptible interruptible = interruptible_as(run, "associate");
   if (!model) {
-    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle});
+    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle, .middles = middles});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
   }
   AssociateResult result = associated_within(mesh, *model, tags, run.state.tolerance);
@@ -163,7 +164,7 @@ std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem:
 }
 
 void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
-               const std::string& what) {
+               const std::string& what, const MiddleNodes* middles) {
   SessionState& state = run.state;
   run.stage("check mesh");
   if (mesh.n_hexes() == 0) throw Error(what + ": there are no hexes");
@@ -217,7 +218,11 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
   const bool on_cad = model != nullptr;
   MeshedModel result;
   try {
-    result = associated(run, std::move(mesh), std::move(model), tags);
+    if (!inverted.empty() && middles && !middles->empty() && !model) {
+      run.note(what + ": its middle nodes are left out, as hexes had to be untangled");
+      middles = nullptr;
+    }
+    result = associated(run, std::move(mesh), std::move(model), tags, middles);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
@@ -231,7 +236,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     if (!untangle_near(run, result.mesh, result.association, result.model.get(), still(), true).empty() && !on_cad) {
       // A fold in the skin looks like a feature of it, along which nothing can slide.
       untangle_freely(run, result.mesh, still());
-      result = associated(run, std::move(result.mesh), nullptr, tags);
+      result = associated(run, std::move(result.mesh), nullptr, tags, nullptr);
     }
     if (!still().empty() && !untangle_far(run, result.mesh, result.association, result.model.get(), still()).empty())
       throw Error(what + ": " + wrong + "; untangling did not help");

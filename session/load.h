@@ -15,9 +15,10 @@ Fence fence_of(const Transaction& run);
 std::shared_ptr<const Model> read_model(Transaction& run, const std::filesystem::path& file, bool glue);
 
 /// Repairs, checks and associates a mesh, and makes it that of the session. model: null, then its own skin. tags: what
-/// is known of the association; may be null. what: what messages call the mesh.
+/// is known of the association; may be null. what: what messages call the mesh. middles: the shape of its own skin,
+/// where that is curved; may be null.
 void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
-               const std::string& what);
+               const std::string& what, const MiddleNodes* middles = nullptr);
 /// The same for an association that is complete.
 void load_meshed(Transaction& run, MeshedModel meshed);
 /// Makes it the mesh of the session: checks nothing, measures everything that the records want.

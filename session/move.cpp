@@ -9,6 +9,7 @@
 #include "hextwist/io/results.h"
 #include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/move.h"
+#include "hextwist/mesh/second_order/second_order.h"
 #include "hextwist/session/load.h"
 
 namespace hextwist {
@@ -37,8 +38,8 @@ void find_parameters(const Mesh& mesh, Association& association, const Model& mo
 }
 
 /// A skin of its own for the moved mesh, under the ids and names of the one before.
-void put_on_own_skin(MeshedModel& meshed) {
-  FacetResult skin = associate_with_own_skin(meshed.mesh, {.tags = &meshed.association});
+void put_on_own_skin(MeshedModel& meshed, const MiddleNodes& middles) {
+  FacetResult skin = associate_with_own_skin(meshed.mesh, {.tags = &meshed.association, .middles = &middles});
   const Model& before = *meshed.model;
   Renumbering ids;
   for (int dim = 0; dim < 4; ++dim) ids.id[dim].assign(static_cast<std::size_t>(skin.model->count(dim)), 0);
@@ -96,6 +97,10 @@ void move(Transaction& run, const Similarity& similarity) {
   Mesh& mesh = meshed.mesh;
   if (mesh.n_hexes() == 0 && !meshed.model) throw Error("there is neither mesh nor CAD to move");
   run.stage("move");
+  MiddleNodes middles;
+  if (!state.has_cad) middles = skin_middles(meshed);
+  for (auto* points : {&middles.edge_points, &middles.face_points})
+    for (Vec3& p : *points) p = similarity.of(p);
   if (state.has_cad) meshed.model = moved(*meshed.model, similarity);
   if (mesh.n_hexes() == 0) return replace_and_measure(run, std::move(meshed));
   move(mesh, similarity);
@@ -104,7 +109,7 @@ void move(Transaction& run, const Similarity& similarity) {
   if (state.has_cad)
     find_parameters(mesh, meshed.association, *meshed.model);
   else
-    put_on_own_skin(meshed);
+    put_on_own_skin(meshed, middles);
   if (const auto broken = check_association(mesh, meshed.association, *meshed.model,
                                             std::max(state.tolerance, AssociateOptions().relative_tolerance));
       !broken.empty())

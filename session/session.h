@@ -184,6 +184,8 @@ class Session {
   bool finished() const;
 
   struct Core;  ///< defined in core.h
+  /// For our own programs, which know what is inside.
+  Core& core() { return *core_; }
 
  private:
   std::unique_ptr<Core> core_;

@@ -52,6 +52,7 @@ struct SessionState : ModelState {
 
   Glue glue = Glue::automatic;
   double feature_angle = 35;            ///< degrees
+  int order = 0;                        ///< of meshes that are written; 0: as they were read
   double tolerance = 1e-5;              ///< of a mesh on its CAD, relative to the model size
   bool untangle = true;                 ///< repair inverted hexes of a mesh that is read
   std::vector<std::string> keep_jumps;  ///< hex fields whose jumps smoothing leaves in place

@@ -84,8 +84,13 @@ void Transaction::splice(const SpliceChange& change) {
   }
 }
 
+void Transaction::leave_mesh() {
+  if (!back && !mesh_before_) back = SameMesh();
+}
+
 void Transaction::end_levels() {
   if (is_playback || is_history || !(back || mesh_before_)) return;
+  if (back && std::holds_alternative<SameMesh>(*back)) return;
   if (!state.levelling || state.levelling != state_before_.levelling) return;
   // Changed by a command that knows nothing of levels.
   state.levelling = nullptr;
@@ -96,7 +101,7 @@ std::optional<Step> Transaction::undo_step() {
   if (is_playback || is_history || !core.history.on) return std::nullopt;
   const ModelState &now = state, &then = state_before_;
   if (!back && !mesh_before_ && now.fixed_nodes == then.fixed_nodes && now.schemes == then.schemes &&
-      now.groups == then.groups)
+      now.groups == then.groups && now.extras == then.extras)
     return std::nullopt;
   if (!back) back = mesh_before_ ? difference(*meshed, **mesh_before_) : SameMesh();
   core.history.undo.reserve(core.history.undo.size() + 1);

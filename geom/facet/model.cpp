@@ -12,9 +12,11 @@
 #include <mutex>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/geom/curvature.h"
 #include "hextwist/geom/facet/bilinear.h"
 #include "hextwist/geom/facet/curvature_internal.h"
+#include "hextwist/geom/facet/quadratic.h"
 #include "hextwist/geom/facet/skin.h"
 #include "hextwist/geom/incidence.h"
 #include "hextwist/geom/segment.h"
@@ -43,6 +45,63 @@ Foot foot_on(const Segment& segment, const Vec3& p) {
   const double s = closest_fraction(segment[0], segment[1], p);
   return {-1, s, 0, ((1 - s) * segment[0] + s * segment[1] - p).squaredNorm()};
 }
+Foot foot_on(const QuadraticPatch& patch, const Vec3& p) {
+  const PatchFoot foot = closest(patch, p);
+  return {-1, foot.s, foot.t, foot.distance2};
+}
+Foot foot_on(const QuadraticSegment& segment, const Vec3& p) {
+  const PatchFoot foot = closest(segment, p);
+  return {-1, foot.s, 0, foot.distance2};
+}
+
+// What a straight segment and patch have in common with a curved one.
+using hextwist::corners, hextwist::length, hextwist::slope;
+Vec3 point_of(const Segment& segment, double s) {
+  return (1 - s) * segment[0] + s * segment[1];
+}
+Vec3 point_of(const QuadraticSegment& segment, double s) {
+  return point(segment, s);
+}
+Vec3 slope(const Segment& segment, double) {
+  return segment[1] - segment[0];
+}
+double length(const Segment& segment) {
+  return (segment[1] - segment[0]).norm();
+}
+const BilinearPatch& corners(const BilinearPatch& patch) {
+  return patch;
+}
+
+/// A skin of straight pieces.
+struct Straight {
+  using Patch = BilinearPatch;
+  using Segment = std::array<Vec3, 2>;
+  static constexpr std::array<const char*, 4> types = {"vertex", "polyline", "facets", "volume"};
+
+  std::span<const Vec3> points;
+  const SkinFeatures& skin;
+
+  Segment segment(std::int32_t a, std::int32_t b) const { return {points[a], points[b]}; }
+  Patch patch(std::size_t q) const {
+    const auto& quad = skin.quads[q];
+    return {points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]};
+  }
+};
+/// One of quadratic pieces.
+struct Curved {
+  using Patch = QuadraticPatch;
+  using Segment = QuadraticSegment;
+  static constexpr std::array<const char*, 4> types = {"vertex", "quadratic curve", "quadratic facets", "volume"};
+
+  std::span<const Vec3> points;
+  const SkinFeatures& skin;
+  const FacetMiddles& middles;
+
+  Segment segment(std::int32_t a, std::int32_t b) const {
+    return segment_through(points[a], middles.middle(points, a, b), points[b]);
+  }
+  const Patch& patch(std::size_t q) const { return skin.patches[q]; }
+};
 
 double distance2(const CGAL::Bbox_3& box, const Vec3& p) {
   double sum = 0;
@@ -177,15 +236,17 @@ class ItemTree {
   Tree tree_;
 };
 
+template <class Patch>
 struct FacetSurface {
-  std::vector<BilinearPatch> patches;
+  std::vector<Patch> patches;
   std::vector<FacetNodes> quads;  ///< the nodes of the patches
-  std::unique_ptr<const ItemTree<BilinearPatch>> tree;
+  std::unique_ptr<const ItemTree<Patch>> tree;
   std::array<int, 2> volumes;
   Box box;
   double area = 0;
 };
 
+template <class Segment>
 struct FacetCurve {
   std::vector<Segment> segments;
   std::vector<double> start;  ///< per segment: arc length where it starts; one more at the end
@@ -204,21 +265,23 @@ struct FacetCurve {
   }
   Vec3 point(double t) const {
     const auto [segment, s] = locate(t);
-    return (1 - s) * segments[segment][0] + s * segments[segment][1];
+    return point_of(segments[segment], s);
   }
 };
 
+/// Kind: Straight or Curved.
+template <class Kind>
 class FacetModel final : public Model, public KnowsCurvature {
+  using Patch = typename Kind::Patch;
+  using Segment = typename Kind::Segment;
+
  public:
-  FacetModel(std::span<const Vec3> points, const SkinFeatures& skin);
+  FacetModel(std::span<const Vec3> points, const SkinFeatures& skin, const Kind& kind);
   using Model::project;
 
   int count(int dim) const override { return incidence_.count(dim); }
   std::string name(Owner) const override { return ""; }
-  std::string type(Owner entity) const override {
-    constexpr const char* types[] = {"vertex", "polyline", "facets", "volume"};
-    return types[entity.dim];
-  }
+  std::string type(Owner entity) const override { return Kind::types[entity.dim]; }
   double tolerance(Owner) const override { return 0; }
   std::vector<int> adjacent(Owner entity, int dim) const override { return incidence_.adjacent(entity, dim); }
   Box box() const override { return box_; }
@@ -226,13 +289,13 @@ class FacetModel final : public Model, public KnowsCurvature {
   double measure(Owner entity) const override;
 
   CurveRange range(int curve) const override {
-    const FacetCurve& c = curves_[curve - 1];
+    const FacetCurve<Segment>& c = curves_[curve - 1];
     return {0, c.length(), c.closed ? c.length() : 0};
   }
   Vec3 point(Owner entity, Parameters at) const override;
   Vec3 tangent(int curve, double t) const override {
-    const auto& [from, to] = curves_[curve - 1].segments[curves_[curve - 1].locate(t).first];
-    return (to - from).stableNormalized();
+    const auto [segment, s] = curves_[curve - 1].locate(t);
+    return slope(curves_[curve - 1].segments[segment], s).stableNormalized();
   }
   Vec3 normal(int surface, Parameters at) const override {
     const Vec3 vector = area_vector(surfaces_[surface - 1].patches[facet_of(surface, at)], s_of(at), at.v);
@@ -256,15 +319,15 @@ class FacetModel final : public Model, public KnowsCurvature {
   }
   static double s_of(Parameters at) { return std::clamp(at.u - 2 * std::floor(at.u / 2), 0.0, 1.0); }
 
-  Parameters closest_on_curve(const FacetCurve& curve, const Vec3& p, Parameters seed) const;
+  Parameters closest_on_curve(const FacetCurve<Segment>& curve, const Vec3& p, Parameters seed) const;
   Parameters closest_on_surface(int surface, const Vec3& p, Parameters seed) const;
 
   /// Estimated when first asked for: most sessions never do.
   const std::vector<double>& curvatures(Owner entity) const;
 
   std::vector<Vec3> vertices_;
-  std::vector<FacetCurve> curves_;
-  std::vector<FacetSurface> surfaces_;
+  std::vector<FacetCurve<Segment>> curves_;
+  std::vector<FacetSurface<Patch>> surfaces_;
   std::vector<double> volumes_;  ///< measures
   Incidence incidence_;
   Box box_;
@@ -274,7 +337,8 @@ class FacetModel final : public Model, public KnowsCurvature {
   double on_it2_ = 0;  ///< squared distance below which a point is on the seed's facet or segment: rounding only
 };
 
-FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
+template <class Kind>
+FacetModel<Kind>::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin, const Kind& kind)
     : curves_(skin.curve_nodes.size()),
       surfaces_(skin.n_surfaces),
       volumes_(skin.n_volumes, 0),
@@ -288,16 +352,17 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
   }
 
   for (std::size_t c = 0; c < curves_.size(); ++c) {
-    FacetCurve& curve = curves_[c];
+    FacetCurve<Segment>& curve = curves_[c];
     const auto& nodes = skin.curve_nodes[c];
     const Owner owner{1, static_cast<int>(c) + 1};
     curve.closed = nodes.front() == nodes.back();
     curve.start.push_back(0);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      curve.segments.push_back({points[nodes[i]], points[nodes[i + 1]]});
-      curve.start.push_back(curve.start.back() + (points[nodes[i + 1]] - points[nodes[i]]).norm());
+      curve.segments.push_back(kind.segment(nodes[i], nodes[i + 1]));
+      curve.start.push_back(curve.start.back() + length(curve.segments.back()));
     }
-    for (const std::int32_t node : nodes) curve.box.add(points[node]);
+    for (const Segment& segment : curve.segments)
+      for (const Vec3& p : segment) curve.box.add(p);
     for (const std::int32_t end : {nodes.front(), nodes.back()})
       if (vertex_at[end]) incidence_.add(owner, {0, vertex_at[end]});
     curve.tree = std::make_unique<ItemTree<Segment>>(std::span<const Segment>(curve.segments));
@@ -305,25 +370,22 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
 
   for (std::size_t q = 0; q < skin.quads.size(); ++q) {
     const int id = skin.classification.quad_surface[q];
-    FacetSurface& surface = surfaces_[id - 1];
-    BilinearPatch patch;
-    for (int c = 0; c < 4; ++c) {
-      patch[c] = points[skin.quads[q][c]];
-      surface.box.add(patch[c]);
-      if (vertex_at[skin.quads[q][c]]) incidence_.add({2, id}, {0, vertex_at[skin.quads[q][c]]});
-    }
-    surface.patches.push_back(patch);
+    FacetSurface<Patch>& surface = surfaces_[id - 1];
+    for (const std::int32_t node : skin.quads[q])
+      if (vertex_at[node]) incidence_.add({2, id}, {0, vertex_at[node]});
+    surface.patches.push_back(kind.patch(q));
+    for (const Vec3& p : surface.patches.back()) surface.box.add(p);
     surface.quads.push_back(skin.quads[q]);
   }
   for (const auto& [surface, curve] : skin.surface_curves) incidence_.add({2, surface}, {1, curve});
-  for (const FacetSurface& surface : surfaces_) box_.add(surface.box);
+  for (const FacetSurface<Patch>& surface : surfaces_) box_.add(surface.box);
   on_it2_ = 1e-30 * (box_.max - box_.min).squaredNorm();
   const Vec3 centre = (box_.min + box_.max) / 2;
   for (int s = 0; s < skin.n_surfaces; ++s) {
-    FacetSurface& surface = surfaces_[s];
+    FacetSurface<Patch>& surface = surfaces_[s];
     surface.volumes = skin.surface_volumes[s];
     double cones = 0;
-    for (const BilinearPatch& patch : surface.patches) {
+    for (const Patch& patch : surface.patches) {
       surface.area += area(patch);
       cones += cone_volume(patch, centre);
     }
@@ -334,13 +396,14 @@ FacetModel::FacetModel(std::span<const Vec3> points, const SkinFeatures& skin)
       if (volume) incidence_.add({3, volume}, {2, s + 1});
   }
   const auto make_tree = [&](std::size_t s) {
-    surfaces_[s].tree = std::make_unique<ItemTree<BilinearPatch>>(std::span<const BilinearPatch>(surfaces_[s].patches));
+    surfaces_[s].tree = std::make_unique<ItemTree<Patch>>(std::span<const Patch>(surfaces_[s].patches));
   };
   parallel_each(surfaces_.size(), make_tree, 1);
   incidence_.close();
 }
 
-Box FacetModel::box(Owner entity) const {
+template <class Kind>
+Box FacetModel<Kind>::box(Owner entity) const {
   Box result;
   switch (entity.dim) {
     case 0:
@@ -358,7 +421,8 @@ Box FacetModel::box(Owner entity) const {
   return result;
 }
 
-double FacetModel::measure(Owner entity) const {
+template <class Kind>
+double FacetModel<Kind>::measure(Owner entity) const {
   switch (entity.dim) {
     case 0:
       return 0;
@@ -371,13 +435,15 @@ double FacetModel::measure(Owner entity) const {
   }
 }
 
-Vec3 FacetModel::point(Owner entity, Parameters at) const {
+template <class Kind>
+Vec3 FacetModel<Kind>::point(Owner entity, Parameters at) const {
   if (entity.dim == 0) return vertices_[entity.id - 1];
   if (entity.dim == 1) return curves_[entity.id - 1].point(at.u);
   return hextwist::point(surfaces_[entity.id - 1].patches[facet_of(entity.id, at)], s_of(at), at.v);
 }
 
-Parameters FacetModel::closest_on_curve(const FacetCurve& curve, const Vec3& p, Parameters seed) const {
+template <class Kind>
+Parameters FacetModel<Kind>::closest_on_curve(const FacetCurve<Segment>& curve, const Vec3& p, Parameters seed) const {
   const std::int32_t start = std::isfinite(seed.u) ? curve.locate(seed.u).first : -1;
   const Foot foot = curve.tree->closest(p, std::numeric_limits<double>::infinity(), start, on_it2_);
   const double from = curve.start[foot.item], to = curve.start[foot.item + 1];
@@ -385,14 +451,16 @@ Parameters FacetModel::closest_on_curve(const FacetCurve& curve, const Vec3& p, 
   return {curve.closed && t >= curve.length() ? 0 : t, std::numeric_limits<double>::quiet_NaN()};
 }
 
-Parameters FacetModel::closest_on_surface(int surface, const Vec3& p, Parameters seed) const {
+template <class Kind>
+Parameters FacetModel<Kind>::closest_on_surface(int surface, const Vec3& p, Parameters seed) const {
   const std::int32_t start = std::isfinite(seed.u) ? facet_of(surface, seed) : -1;
   const Foot foot = surfaces_[surface - 1].tree->closest(p, std::numeric_limits<double>::infinity(), start, on_it2_);
   return {2.0 * foot.item + foot.s, foot.t};
 }
 
-void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
-                         std::span<Projection> out) const {
+template <class Kind>
+void FacetModel<Kind>::project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
+                               std::span<Projection> out) const {
   assert(entity.dim >= 0 && entity.dim <= 2 && entity.id >= 1 && entity.id <= count(entity.dim));
   assert(out.size() == points.size() && (seeds.empty() || seeds.size() == points.size()));
   const auto one = [&](std::size_t i) {
@@ -411,45 +479,53 @@ void FacetModel::project(Owner entity, std::span<const Vec3> points, std::span<c
   }
 }
 
-const std::vector<double>& FacetModel::curvatures(Owner entity) const {
+template <class Kind>
+const std::vector<double>& FacetModel<Kind>::curvatures(Owner entity) const {
   // Without threads: one that waits in here could be given other work that needs this result.
   std::call_once(curvatures_known_, [&] {
     for (std::size_t c = 0; c < curves_.size(); ++c) {
-      const FacetCurve& curve = curves_[c];
+      const FacetCurve<Segment>& curve = curves_[c];
       const bool corner = !incidence_.adjacent({1, static_cast<int>(c) + 1}, 0).empty();  // where a closed one starts
       std::vector<Vec3> points;
       for (const Segment& segment : curve.segments) points.push_back(segment[0]);
-      points.push_back(curve.segments.back()[1]);
+      points.push_back(curve.segments.back().back());
       curvatures_[1].push_back(segment_curvatures(points, curve.closed && !corner));
     }
-    for (const FacetSurface& surface : surfaces_)
-      curvatures_[2].push_back(facet_curvatures(surface.patches, surface.quads, features_));
+    for (const FacetSurface<Patch>& surface : surfaces_) {
+      std::vector<BilinearPatch> flat;
+      for (const Patch& patch : surface.patches) flat.push_back(corners(patch));
+      curvatures_[2].push_back(facet_curvatures(flat, surface.quads, features_));
+    }
   });
   return curvatures_[entity.dim][entity.id - 1];
 }
 
-double FacetModel::curvature(Owner entity, Parameters at) const {
+template <class Kind>
+double FacetModel<Kind>::curvature(Owner entity, Parameters at) const {
   if (entity.dim == 1) return curvatures(entity)[curves_[entity.id - 1].locate(at.u).first];
   return entity.dim == 2 ? curvatures(entity)[facet_of(entity.id, at)] : 0;
 }
 
-std::vector<Bend> FacetModel::bends(Owner entity) const {
+template <class Kind>
+std::vector<Bend> FacetModel<Kind>::bends(Owner entity) const {
   std::vector<Bend> result;
   if (entity.dim != 1 && entity.dim != 2) return result;
   const std::vector<double>& known = curvatures(entity);
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] == 0) continue;
     if (entity.dim == 2) {
-      result.push_back({surfaces_[entity.id - 1].patches[i], known[i]});
+      result.push_back({corners(surfaces_[entity.id - 1].patches[i]), known[i]});
     } else {
-      const auto& [from, to] = curves_[entity.id - 1].segments[i];
+      const Segment& segment = curves_[entity.id - 1].segments[i];
+      const Vec3 &from = segment.front(), &to = segment.back();
       result.push_back({{from, to, to, from}, known[i]});
     }
   }
   return result;
 }
 
-std::vector<int> FacetModel::near(int dim, const Vec3& p, double distance) const {
+template <class Kind>
+std::vector<int> FacetModel<Kind>::near(int dim, const Vec3& p, double distance) const {
   // A little more than asked for, since distances carry rounding.
   const double reach = distance * (1 + 1e-12) + 1e-14 * (box_.diagonal() + p.norm());
   const double reach2 = reach * reach;
@@ -466,7 +542,8 @@ std::vector<int> FacetModel::near(int dim, const Vec3& p, double distance) const
   return ids;
 }
 
-bool FacetModel::contains(int volume, const Vec3& p) const {
+template <class Kind>
+bool FacetModel<Kind>::contains(int volume, const Vec3& p) const {
   const auto& boundary = incidence_.adjacent({3, volume}, 2);
   const double slack = contains_slack * box_.diagonal();
   const auto is_near = [&](const Box& box) { return !(std::sqrt(distance2(box, p)) > slack); };
@@ -487,7 +564,7 @@ bool FacetModel::contains(int volume, const Vec3& p) const {
     bool unsure = false;
     count = 0;
     for (const int surface : boundary) {
-      const FacetSurface& s = surfaces_[surface - 1];
+      const FacetSurface<Patch>& s = surfaces_[surface - 1];
       const int sign = s.volumes[0] == volume ? 1 : -1;
       s.tree->along_ray(p, direction, slack, [&](std::int32_t facet) {
         const Crossing crossing = pierce(s.patches[facet], p, direction);
@@ -502,11 +579,20 @@ bool FacetModel::contains(int volume, const Vec3& p) const {
 
 }  // namespace
 
+Vec3 FacetMiddles::middle(std::span<const Vec3> points, std::int32_t a, std::int32_t b) const {
+  const Index edge = position_in(edges, std::array{std::min(a, b), std::max(a, b)});
+  return edge < 0 ? Vec3((points[a] + points[b]) / 2) : edge_points[edge];
+}
+
 FacetImport facet_model(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
                         std::span<const std::array<int, 2>> quad_volumes, const FacetModelOptions& options) {
-  SkinFeatures skin = find_skin_features(points, quads, quad_volumes, options.feature_angle, options.labels);
+  SkinFeatures skin =
+      find_skin_features(points, quads, quad_volumes, options.feature_angle, options.labels, options.middles);
   FacetImport result;
-  result.model = std::make_shared<FacetModel>(points, skin);
+  if (options.middles)
+    result.model = std::make_shared<FacetModel<Curved>>(points, skin, Curved{points, skin, *options.middles});
+  else
+    result.model = std::make_shared<FacetModel<Straight>>(points, skin, Straight{points, skin});
   result.classification = std::move(skin.classification);
   return result;
 }

@@ -29,6 +29,17 @@ struct FacetLabels {
   std::span<const std::int32_t> vertices;              ///< nodes, ascending
 };
 
+/// Middles of edges and faces, for skins of hexes of second order. Those that are not named are straight, and faces
+/// what their edges say.
+struct FacetMiddles {
+  std::span<const std::array<std::int32_t, 2>> edges;  ///< (a < b), lexicographic
+  std::span<const Vec3> edge_points;                   ///< per edge
+  std::span<const std::array<std::int32_t, 4>> faces;  ///< nodes ascending, lexicographic
+  std::span<const Vec3> face_points;                   ///< per face
+
+  Vec3 middle(std::span<const Vec3> points, std::int32_t a, std::int32_t b) const;
+};
+
 struct FacetModelOptions {
   /// An edge whose two quads' normals differ by more than this is a feature, a node where two features turn by more
   /// is a vertex. Degrees, 0..180.
@@ -36,6 +47,9 @@ struct FacetModelOptions {
   /// Instead of angles: features are where the quads' labels differ and the labelled edges, vertices where edges'
   /// labels change and the labelled ones, besides what features and vertices are in any case. Null: by angles.
   const FacetLabels* labels = nullptr;
+  /// The skin is curved: facets are biquadratic patches, curves quadratic between nodes, angles those of their normals
+  /// and tangents. Null: straight.
+  const FacetMiddles* middles = nullptr;
 };
 
 struct FacetImport {
@@ -54,6 +68,8 @@ struct FacetImport {
 /// Curves are straight between nodes; their parameter is the arc length, from the end from which their lowest edge
 /// runs to its higher node. Closed curves are periodic, whether they have a vertex (where they start) or not (they
 /// start at their lowest node). Surface parameters: u = 2 * facet + s, v = t with s, t in [0, 1] on the facet.
+/// With middles all of that holds of the curved facets; the parameter of a curve is its length up to a node, between
+/// nodes it goes on evenly in the parameter of the segment. Types: "quadratic curve", "quadratic facets".
 /// Types: "vertex", "polyline", "facets", "volume"; tolerance() is 0; names are "".
 /// project() is global with and without seeds: a seed only makes it faster, so one that is far off does no harm.
 /// Throws Error when the angle is out of range.

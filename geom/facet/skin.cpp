@@ -37,6 +37,7 @@ struct Finder {
   std::span<const Vec3> points;
   double feature_angle = 0;
   const FacetLabels* labels = nullptr;
+  const FacetMiddles* middles = nullptr;
   SkinFeatures result;
   std::vector<std::array<int, 2>> quad_volumes;  ///< turned like the quads
   std::vector<Vec3> normals;                     ///< per quad
@@ -44,6 +45,11 @@ struct Finder {
   std::vector<std::array<std::size_t, 2>> feature_uses;  ///< per feature edge: range of uses
   std::vector<char> is_vertex;                           ///< per node
 
+  /// Of a quad at a corner, or halfway from there to the next one.
+  Vec3 normal_at(std::int32_t quad, int corner) const;
+  Vec3 normal_along(const EdgeUse& use) const;
+  /// The way from one node to the next where it leaves the first.
+  Vec3 way(Node from, Node to) const;
   void turn_quads(std::span<const QuadNodes> quads, std::span<const std::array<int, 2>> volumes);
   void sort_edges();
   bool is_feature(std::size_t first, std::size_t last) const;
@@ -70,6 +76,35 @@ void Finder::turn_quads(std::span<const QuadNodes> quads, std::span<const std::a
     result.n_volumes = std::max({result.n_volumes, behind, front});
     normals[q] = (points[quad[2]] - points[quad[0]]).cross(points[quad[3]] - points[quad[1]]);
   }
+  if (!middles) return;
+  for (const QuadNodes& quad : result.quads) {
+    std::array<Vec3, 4> corners, edges;
+    for (int c = 0; c < 4; ++c) {
+      corners[c] = points[quad[c]];
+      edges[c] = middles->middle(points, quad[c], quad[(c + 1) % 4]);
+    }
+    QuadNodes ascending = quad;
+    std::ranges::sort(ascending);
+    const Index face = position_in(middles->faces, ascending);
+    result.patches.push_back(
+        patch_through(corners, edges, face < 0 ? blended_middle(corners, edges) : middles->face_points[face]));
+  }
+}
+
+Vec3 Finder::normal_at(std::int32_t quad, int corner) const {
+  if (!middles) return normals[quad];
+  return area_vector(result.patches[quad], corner == 1 || corner == 2, corner >= 2);
+}
+
+Vec3 Finder::normal_along(const EdgeUse& use) const {
+  if (!middles) return normals[use.quad];
+  constexpr std::array<std::array<double, 2>, 4> halfway = {{{0.5, 0}, {1, 0.5}, {0.5, 1}, {0, 0.5}}};
+  return area_vector(result.patches[use.quad], halfway[use.corner][0], halfway[use.corner][1]);
+}
+
+Vec3 Finder::way(Node from, Node to) const {
+  if (!middles) return points[to] - points[from];
+  return slope(segment_through(points[from], middles->middle(points, from, to), points[to]), 0);
 }
 
 void Finder::sort_edges() {
@@ -88,7 +123,8 @@ bool Finder::is_feature(std::size_t first, std::size_t last) const {
   if (labels)
     return quad_volumes[p] != quad_volumes[q] || labels->quads[p] != labels->quads[q] ||
            std::ranges::binary_search(labels->edges, std::array{uses[first].a, uses[first].b});
-  return quad_volumes[p] != quad_volumes[q] || angle_between(normals[p], normals[q]) > feature_angle + rounding;
+  return quad_volumes[p] != quad_volumes[q] ||
+         angle_between(normal_along(uses[first]), normal_along(uses[first + 1])) > feature_angle + rounding;
 }
 
 void Finder::find_edges_and_surfaces() {
@@ -130,7 +166,7 @@ int Finder::edge_label(Node a, Node b) const {
 
 bool Finder::bends(Node node, Node from, Node to) const {
   if (labels) return edge_label(from, node) != edge_label(node, to);
-  return angle_between(points[node] - points[from], points[to] - points[node]) > feature_angle + rounding;
+  return angle_between(-way(node, from), way(node, to)) > feature_angle + rounding;
 }
 
 void Finder::find_vertices() {
@@ -164,7 +200,7 @@ void Finder::find_vertices() {
       const auto corner = static_cast<std::int32_t>(4 * q) + c;
       const Node node = result.quads[q][c];
       n_fans[node] += find_root(fans, corner) == corner;
-      mean[node] += normals[q].stableNormalized();
+      mean[node] += normal_at(static_cast<std::int32_t>(q), c).stableNormalized();
     }
   for (std::size_t n = 0; n < n_nodes; ++n) {
     const Node node = static_cast<Node>(n);
@@ -178,8 +214,10 @@ void Finder::find_vertices() {
       if (n_fans[node] > 0) is_vertex[node] = 1;
   // Cone tips: no feature leads there, but the quads around look far from their common direction.
   for (std::size_t q = 0; q < result.quads.size(); ++q)
-    for (const Node node : result.quads[q])
-      if (!labels && n_features[node] == 0 && angle_between(normals[q], mean[node]) > feature_angle + rounding)
+    for (int c = 0; c < 4; ++c)
+      if (const Node node = result.quads[q][c];
+          !labels && n_features[node] == 0 &&
+          angle_between(normal_at(static_cast<std::int32_t>(q), c), mean[node]) > feature_angle + rounding)
         is_vertex[node] = 1;
   for (std::size_t n = 0; n < n_nodes; ++n)
     if (is_vertex[n]) result.classification.vertex_nodes.push_back(static_cast<Node>(n));
@@ -228,7 +266,7 @@ void Finder::find_curves() {
 
 SkinFeatures find_skin_features(std::span<const Vec3> points, std::span<const QuadNodes> quads,
                                 std::span<const std::array<int, 2>> quad_volumes, double feature_angle,
-                                const FacetLabels* labels) {
+                                const FacetLabels* labels, const FacetMiddles* middles) {
   if (!(feature_angle >= 0 && feature_angle <= 180))
     throw Error("feature angle must lie between 0 and 180 degrees, not " + std::to_string(feature_angle));
   assert(quads.size() == quad_volumes.size());
@@ -236,6 +274,7 @@ SkinFeatures find_skin_features(std::span<const Vec3> points, std::span<const Qu
   finder.points = points;
   finder.feature_angle = feature_angle;
   finder.labels = labels;
+  finder.middles = middles;
   finder.turn_quads(quads, quad_volumes);
   finder.sort_edges();
   finder.find_edges_and_surfaces();

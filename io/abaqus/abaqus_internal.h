@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 
 namespace hextwist::io {
 
@@ -56,6 +56,7 @@ struct AbaqusScope {
   std::vector<Vec3> points;
   std::vector<Run> node_runs;
   std::vector<std::int64_t> hex_ids, hex_nodes;
+  std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> hex_middles;  ///< hex, what follows its corners
   std::vector<const char*> hex_at;
   std::vector<std::pair<std::size_t, std::string>> hex_types;  ///< from which hex on
   std::vector<std::int64_t> quad_ids, quad_nodes;
@@ -115,6 +116,8 @@ struct AbaqusParts {
   std::map<std::int64_t, Index> quad_of_id;
   std::vector<int> type_of_hex;
   std::vector<std::string> types;
+  FoundMiddles middles;
+  std::vector<std::uint8_t> is_middle;  ///< per node; empty: none is
 };
 AbaqusParts place_abaqus(const AbaqusContents& contents, MeshFile& out);
 /// Sets, types and cards.

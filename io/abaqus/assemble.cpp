@@ -160,6 +160,13 @@ class Assembly {
     for (const AbaqusPlaced& placed : parts_.placed)
       for (const AbaqusScope* scope : placed.scopes)
         if (scope) hexes(placed, *scope);
+    parts_.middles.finish(out_.mesh.hexes.size());
+    if (parts_.middles.any()) {
+      parts_.hexes.sort(parts_.middles.nodes, FoundMiddles::width);
+      parts_.is_middle.assign(out_.mesh.points.size(), 0);
+      for (const Index node : parts_.middles.nodes)
+        if (node >= 0) parts_.is_middle[node] = 1;
+    }
     parts_.hexes.sort(out_.mesh.hexes);
     parts_.hexes.sort(parts_.type_of_hex);
     for (const AbaqusPlaced& placed : parts_.placed)
@@ -180,9 +187,17 @@ class Assembly {
     return static_cast<int>(at - parts_.types.begin());
   }
 
+  Index node_of(const AbaqusPlaced& placed, const AbaqusScope& scope, std::size_t hex, std::int64_t id) const {
+    const Index node = find_node(placed, id);
+    if (node < 0)
+      in_.fail(scope.hex_at[hex], "element " + std::to_string(scope.hex_ids[hex]) + " names node " +
+                                      std::to_string(id) + ", which is not there");
+    return node;
+  }
+
   void hexes(const AbaqusPlaced& placed, const AbaqusScope& scope) {
     const bool skip = &scope == placed.scopes[1] && !placed.repeated_hexes.empty();
-    std::size_t run = 0;
+    std::size_t run = 0, middles = 0;
     int type = 0;
     for (std::size_t i = 0; i < scope.hex_ids.size(); ++i) {
       if (run < scope.hex_types.size() && scope.hex_types[run].first == i)
@@ -191,13 +206,13 @@ class Assembly {
       parts_.type_of_hex.push_back(type);
       Hex& hex = out_.mesh.hexes.emplace_back();
       for (std::size_t c = 0; c < 8; ++c) {
-        const std::int64_t id = scope.hex_nodes[8 * i + c];
-        const Index node = find_node(placed, id);
-        if (node < 0)
-          in_.fail(scope.hex_at[i], "element " + std::to_string(scope.hex_ids[i]) + " names node " +
-                                        std::to_string(id) + ", which is not there");
-        hex[file_corner[c]] = node;
+        hex[file_corner[c]] = node_of(placed, scope, i, scope.hex_nodes[8 * i + c]);
       }
+      while (middles < scope.hex_middles.size() && scope.hex_middles[middles].first < i) ++middles;
+      if (middles == scope.hex_middles.size() || scope.hex_middles[middles].first != i) continue;
+      std::vector<Index> nodes;
+      for (const std::int64_t id : scope.hex_middles[middles].second) nodes.push_back(node_of(placed, scope, i, id));
+      parts_.middles.add(out_.mesh.hexes.size() - 1, nodes, abaqus_middles);
     }
   }
   void quads(const AbaqusPlaced& placed, const AbaqusScope& scope) {

@@ -34,15 +34,21 @@ namespace {
 
 enum class Shape { hex, quad, other, refused };
 
+/// Nodes of a solid by the number in its name ("C3D20R": 20), 0 where there is none.
+int nodes_of_solid(const std::string& type) {
+  const std::size_t digit =
+      type.find_first_of("0123456789", type.find("3D") == std::string::npos ? 0 : type.find("3D") + 2);
+  return digit == std::string::npos ? 0 : std::atoi(type.c_str() + digit);
+}
+
 /// Element types by what they are made of. Names: C3D8R, AC3D20, S4R, T3D2, ...
 Shape shape_of(const std::string& type) {
   const auto has = [&](std::string_view start) { return type.starts_with(start); };
   for (const std::string_view solid : {"C3D", "AC3D", "DC3D", "DCC3D", "Q3D", "F3D", "FC3D", "EC3D", "CIN3D", "COH3D"})
     if (has(solid)) {
-      const std::size_t digit = solid.size();
-      const bool eight = type.size() > digit && type[digit] == '8' &&
-                         (type.size() == digit + 1 || !std::isdigit(static_cast<unsigned char>(type[digit + 1])));
-      return eight ? Shape::hex : Shape::refused;
+      const int n =
+          solid == "COH3D" || solid == "CIN3D" ? (type.substr(solid.size(), 1) == "8" ? 8 : 0) : nodes_of_solid(type);
+      return n == 8 || n == 20 || n == 27 ? Shape::hex : Shape::refused;
     }
   if (has("SC8")) return Shape::hex;  // continuum shell: eight corners as well
   if (has("SC6") || has("CSS8")) return has("SC6") ? Shape::refused : Shape::hex;
@@ -301,6 +307,8 @@ class Parser {
     if (keyword.find("INPUT")) out_.fail(keyword.at, "*ELEMENT with INPUT= is not supported");
     const std::string type = upper_case(required(keyword, "TYPE"));
     const Shape shape = shape_of(type);
+    const bool second_order = shape == Shape::hex && !type.starts_with("SC8") && !type.starts_with("CSS8") &&
+                              !type.starts_with("COH") && nodes_of_solid(type) > 8;
     AbaqusScope& to = *scope_;
     std::vector<std::int64_t> ids;
     bool ignored = false;
@@ -309,13 +317,16 @@ class Parser {
       const auto id = cursor.integer("an element id");
       ids.push_back(id);
       if (shape == Shape::refused)
-        cursor.fail_at(at,
-                       "element " + std::to_string(id) + " is of type " + type + "; only 8-node hexes are accepted");
+        cursor.fail_at(at, "element " + std::to_string(id) + " is of type " + type +
+                               "; only hexes of 8, 20 or 27 nodes are accepted");
       bool more = comma(cursor);
       if (shape == Shape::hex || shape == Shape::quad) {
-        auto& nodes = shape == Shape::hex ? to.hex_nodes : to.quad_nodes;
-        const int n = shape == Shape::hex ? 8 : 4;
+        const int n = shape == Shape::quad ? 4 : second_order ? nodes_of_solid(type) : 8;
+        std::vector<std::int64_t> middles;
         for (int c = 0; c < n; ++c) {
+          auto& nodes = c >= 8 ? middles : shape == Shape::hex ? to.hex_nodes : to.quad_nodes;
+          // Many nodes go on in the next line, with or without a comma at the end of this one.
+          if (!more && second_order && c >= 8 && line_ends(cursor)) more = data_line(cursor, ignored);
           if (!more)
             cursor.fail_at(at, "element " + std::to_string(id) + " has " + std::to_string(c) + " of " +
                                    std::to_string(n) + " nodes");
@@ -324,6 +335,7 @@ class Parser {
           more = comma(cursor);
         }
         if (shape == Shape::hex) to.hex_at.push_back(at);
+        if (!middles.empty()) to.hex_middles.emplace_back(to.hex_at.size() - 1, std::move(middles));
       } else {
         // Its nodes may be of instances ("part-1.3"), and it is not kept: only where it ends matters.
         while (more) {
@@ -487,6 +499,7 @@ MeshFile read_abaqus(const std::filesystem::path& file, const Fence& fence) {
   out.notices = std::move(contents.notices);
   const AbaqusParts parts = place_abaqus(contents, out);
   add_abaqus_sets(contents, parts, out);
+  if (parts.middles.any()) take_middles(out, parts.middles);
   return out;
 }
 

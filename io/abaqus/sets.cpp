@@ -318,7 +318,7 @@ class Sets {
     if (const auto id = number(name)) {
       const bool nodes = kind == AbaqusNamed::nodes;
       const Index at = nodes ? parts_.nodes.find(home->nodes(*id)) : parts_.hexes.find(home->elements(*id));
-      if (at < 0) return {{}, true};
+      if (at < 0 || (nodes && !parts_.is_middle.empty() && parts_.is_middle[at])) return {{}, true};
       return {std::pair(nodes ? Reference::node : Reference::hex, nodes ? home->nodes(*id) : home->elements(*id)),
               false};
     }

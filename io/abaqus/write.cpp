@@ -61,6 +61,19 @@ void write_ids(Output& out, std::size_t n, Id&& id) {
   for (std::size_t i = 0; i < n; ++i) out << id(i) << (i % 16 == 15 || i + 1 == n ? "\n" : ", ");
 }
 
+/// The type of the same elements with so many nodes: C3D8R is C3D20R. What can't have them stays as it is.
+std::string with_nodes(const std::string& type, int n_nodes) {
+  for (const std::string_view solid : {"C3D", "AC3D", "DC3D"}) {
+    if (!type.starts_with(solid)) continue;
+    std::size_t end = solid.size();
+    while (end < type.size() && std::isdigit(static_cast<unsigned char>(type[end]))) ++end;
+    std::string rest = type.substr(end);
+    if (n_nodes > 8 && rest == "I") rest.clear();  // incompatible modes are of 8 nodes
+    return std::string(solid) + std::to_string(n_nodes) + rest;
+  }
+  return type;
+}
+
 /// Hexes by their element type, C3D8 where nothing says otherwise.
 std::vector<std::pair<std::string, std::vector<Index>>> hexes_by_type(const Mesh& mesh, const FileExtras& extras,
                                                                       std::vector<std::string>& notices) {
@@ -159,11 +172,17 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
     for (const double x : p) (out << ", ").number(x, number_width);
     out << '\n';
   }
-  for (const auto& [type, hexes] : hexes_by_type(mesh, extras, notices)) {
+  for (const auto& [named, hexes] : hexes_by_type(mesh, extras, notices)) {
+    const int n_nodes = options.second ? options.second->nodes_per_hex : 8;
+    const std::string type = with_nodes(named, n_nodes);
+    if (type == named && n_nodes > 8 && !named.starts_with("C3D" + std::to_string(n_nodes)))
+      throw Error("elements of type " + named + " have no middle nodes: export with order 1");
     out << "*ELEMENT, TYPE=" << type << (labels[AbaqusCard::Reference::block].has("EALL") ? "\n" : ", ELSET=EALL\n");
     for (const Index h : hexes) {
       out << id_of(hex_ids, h);
-      for (const int c : file_corner) out << ", " << id_of(node_ids, mesh.hexes[h][c]);
+      const FileHex nodes = file_hex(mesh, options.second, h, abaqus_middles);
+      for (int c = 0; c < nodes.n; ++c)  // sixteen numbers in a line
+        out << (c > 0 && c % 15 == 0 ? ",\n" : ", ") << id_of(node_ids, nodes.nodes[c]);
       out << '\n';
     }
   }

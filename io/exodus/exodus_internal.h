@@ -3,7 +3,7 @@
 
 #include <exodusII.h>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 #include "hextwist/io/results.h"
 
 namespace hextwist::io {

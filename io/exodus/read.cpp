@@ -63,6 +63,7 @@ class ExodusReader {
       out_.mesh.file_hexes.resize(out_.mesh.hexes.size());
       std::iota(out_.mesh.file_hexes.begin(), out_.mesh.file_hexes.end(), 0);
     }
+    if (middles_.any()) take_middles(out_, middles_);
     return std::move(out_);
   }
 
@@ -181,6 +182,8 @@ class ExodusReader {
       map.resize(n_kept);
     }
     hexes_ = Ids(std::move(map), "element", [&](std::size_t, const std::string& what) { fail(what); });
+    middles_.finish(out_.mesh.hexes.size());
+    if (middles_.any()) hexes_.sort(middles_.nodes, FoundMiddles::width);
     hexes_.sort(out_.mesh.hexes);
     out_.mesh.hex_ids = hexes_.stored();
     if (!hexes_.place().empty())
@@ -233,7 +236,8 @@ class ExodusReader {
     const auto starts = [&](std::string_view word) { return type.starts_with(word); };
     const auto n_nodes = block.num_nodes_per_entry;
     const bool unnamed = type.empty() || type == "null" || type == "unknown";
-    const bool hexes = map.empty() ? unnamed || starts("hex") : n_nodes == 8 && (starts("hex") || unnamed);
+    const bool sized = n_nodes == 8 || n_nodes == 20 || n_nodes == 27;
+    const bool hexes = map.empty() ? unnamed || starts("hex") : sized && (starts("hex") || unnamed);
     blocks_.push_back({block.id, first, std::ssize(map), hexes});
     if (map.empty()) return;
     const bool quads = n_nodes == 4 && (starts("quad") || starts("shell"));
@@ -242,7 +246,7 @@ class ExodusReader {
                        starts("point") || n_nodes == 1;
     if (!hexes && !small)
       fail(name + ": element " + std::to_string(map[0]) + " is of type " + block.topology + " with " +
-           std::to_string(n_nodes) + " nodes; only 8-node hexes are accepted");
+           std::to_string(n_nodes) + " nodes; only hexes of 8, 20 or 27 nodes are accepted");
     if (!hexes && !quads) {
       out_.notices.push_back("dropped " + std::to_string(map.size()) + " elements of type " + block.topology + " (" +
                              name + ")");
@@ -262,8 +266,11 @@ class ExodusReader {
         resize_for_overwrite(out_.mesh.hexes, n_before + size);
         for (std::size_t k = 0; k < size; ++k) {
           Hex hex;
-          std::copy_n(&nodes[8 * k], 8, hex.begin());
+          const std::size_t width = static_cast<std::size_t>(n_nodes);
+          std::copy_n(&nodes[width * k], 8, hex.begin());
           out_.mesh.hexes[n_before + k] = in_file_order(hex);
+          if (n_nodes > 8)
+            middles_.add(n_before + k, std::span(nodes).subspan(width * k + 8, width - 8), exodus_middles);
           hex_of_element_[first_element + k] = static_cast<Index>(n_before + k);
         }
       } else {
@@ -394,6 +401,7 @@ class ExodusReader {
   ex_init_params init_{};
   MeshFile out_;
   Ids nodes_, hexes_;
+  FoundMiddles middles_;
   std::vector<FileBlock> blocks_;
   std::map<std::pair<ex_entity_type, std::int64_t>, int> number_of_wide_;
   std::vector<FileResults::WideId> wide_ids_;

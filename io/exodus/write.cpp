@@ -24,8 +24,8 @@ std::string named(const char* kind, std::int64_t id, const std::string& name) {
 
 class Writer {
  public:
-  Writer(const Replacement& file, const Mesh& mesh, std::vector<std::string>& notices)
-      : replacement_(file), mesh_(mesh), notices_(notices), values_(mesh, notices) {
+  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, std::vector<std::string>& notices)
+      : replacement_(file), mesh_(mesh), second_(second), notices_(notices), values_(mesh, notices) {
     if (mesh.results) extras_ = mesh.results.get();
     divide();
     tell_names();
@@ -129,7 +129,8 @@ class Writer {
            return std::ranges::any_of(property.values, [](const auto& value) { return std::abs(value.second) > most; });
          })));
     // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
-    const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / 32 - 1;
+    const std::size_t bytes_per_hex = 4 * static_cast<std::size_t>(second_ ? second_->nodes_per_hex : 8);
+    const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / bytes_per_hex - 1;
     int mode = EX_CLOBBER | (wide_ || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL);
     if (wide_) mode |= EX_ALL_INT64_DB | EX_MAPS_INT64_API | EX_IDS_INT64_API;
     int memory = 8, disk = 8;
@@ -190,16 +191,20 @@ class Writer {
   }
 
   void blocks() {
-    std::vector<Hex> nodes(exodus_piece);
+    const int nodes_per_hex = second_ ? second_->nodes_per_hex : 8;
+    const std::string type = "HEX" + std::to_string(nodes_per_hex);
+    std::vector<Index> nodes(exodus_piece * static_cast<std::size_t>(nodes_per_hex));
     for (const ExodusPart& part : parts_) {
       const auto n = std::ssize(part.hexes);
       std::vector<std::string> attributes = values_.attributes(part);
-      check(ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, "HEX8", n, 8, 0, 0, std::ssize(attributes)));
+      check(
+          ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, type.c_str(), n, nodes_per_hex, 0, 0, std::ssize(attributes)));
       put_name(EX_ELEM_BLOCK, part.in_file, part.name);
       in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
+        Index* to = nodes.data();
         for (std::size_t i = 0; i < size; ++i) {
-          nodes[i] = in_file_order(mesh_.hexes[part.hexes[first + i]]);
-          for (Index& node : nodes[i]) ++node;
+          const FileHex hex = file_hex(mesh_, second_, part.hexes[first + i], exodus_middles);
+          for (const Index node : hex.all()) *to++ = node + 1;
         }
         check(ex_put_partial_elem_conn(id_, part.in_file, exodus_position(first), exodus_position(size - 1),
                                        nodes.data()));
@@ -268,6 +273,7 @@ class Writer {
 
   const Replacement& replacement_;
   const Mesh& mesh_;
+  const SecondOrder* second_;
   std::vector<std::string>& notices_;
   ExodusValues values_;
   const FileResults* extras_ = nullptr;
@@ -283,7 +289,7 @@ void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Wri
                   std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
   if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
-  Writer(replacement, mesh, notices).write();
+  Writer(replacement, mesh, options.second, notices).write();
   replacement.commit();
 }
 

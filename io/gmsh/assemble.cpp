@@ -56,6 +56,7 @@ class Assembly {
       notice("dropped " + std::to_string(n) + " elements of type " + name + ", which are not sides or edges of a hex");
     tidy(file_.tags);
     file_.extras.periodic = std::move(in_.periodic);
+    if (in_.middles.any()) take_middles(file_, in_.middles);
     return std::move(file_);
   }
 
@@ -174,10 +175,15 @@ class Assembly {
     }
     for (std::size_t i = 0; i < first.size(); ++i) hex_of_element_[i] = hex_of_element_[first[i]];
     derive_node_owners(3);
+    in_.middles.finish(in_.hexes.size());
     std::size_t n_kept = 0;
     for (const Index i : kept) in_.hexes[n_kept++] = in_.hexes[i];
     if (!first.empty()) in_.hexes.resize(n);
     hex_ids_.sort(in_.hexes);
+    if (in_.middles.any()) {
+      if (!first.empty()) in_.middles.nodes = items_at(in_.middles.nodes, kept, FoundMiddles::width);
+      hex_ids_.sort(in_.middles.nodes, FoundMiddles::width);
+    }
     file_.mesh.hexes = std::move(in_.hexes);
     file_.mesh.hex_ids = hex_ids_.stored();
   }

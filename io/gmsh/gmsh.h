@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 
 namespace hextwist::io {
 
@@ -19,6 +19,9 @@ const GmshType* gmsh_type(int type);
 inline constexpr int most_gmsh_nodes = 56;  ///< of the known types
 inline constexpr int gmsh_line = 1, gmsh_quad = 3, gmsh_hex = 5, gmsh_point = 15;
 inline constexpr std::array<int, 4> gmsh_kept = {gmsh_point, gmsh_line, gmsh_quad, gmsh_hex};  // per dimension
+/// Lines, quads and hexes of second order: kept by their corners, which come first.
+inline constexpr std::array<int, 5> gmsh_second_order = {8, 10, 16, 12, 17};
+inline constexpr std::array<int, 4> gmsh_corners = {1, 2, 4, 8};  // per dimension
 
 /// Elements of one kept type, in file order.
 struct GmshElements {
@@ -45,6 +48,7 @@ struct GmshContents {
   std::vector<Parameters> node_parameters;  ///< 4.1 only, empty when there are none
   std::array<GmshElements, 4> elements;
   std::vector<Hex> hexes;                              ///< nodes of elements[3], in our corner order
+  FoundMiddles middles;                                ///< of these
   std::map<Owner, std::vector<int>> entity_physicals;  ///< 4.1 only
   std::map<Owner, std::string> physical_names;
   std::map<Owner, Owner> parents;  ///< of entities that are parts of others, or only carry a group ("nobody")

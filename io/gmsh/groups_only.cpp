@@ -3,7 +3,7 @@
 
 namespace hextwist::io {
 
-std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split) {
+std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split, const SecondOrder* second) {
   std::vector<char> used(mesh.points.size(), 0);
   for (int dim = 0; dim < 4; ++dim) {
     PlannedElements& elements = plan.elements[dim];
@@ -20,10 +20,8 @@ std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split
       kept.runs.push_back(run);
     }
     elements = std::move(kept);
-    for (const Index n : elements.nodes) used[n] = 1;
-    if (dim == 3)
-      for (const Index h : elements.items)
-        for (const Index n : mesh.hexes[h]) used[n] = 1;
+    for (std::size_t k = 0; k < elements.size; ++k)
+      for (const Index n : gmsh_nodes(mesh, elements, dim, k, second).all()) used[n] = 1;
   }
   std::vector<Index> nodes;
   for (Index n = 0; n < mesh.n_nodes(); ++n)

@@ -12,8 +12,10 @@ namespace {
 /// Lines of a set among candidates: those with both ends in it. Empty unless they have all of its nodes.
 class Cover {
  public:
-  Cover(const Mesh& mesh, const NodeSet& set) : inside_(mesh.points.size(), 0), n_left_(set.nodes.size()) {
-    for (const Index n : set.nodes) inside_[n] = 1;
+  /// Middle nodes, from n_corners on, come with the lines.
+  Cover(const Mesh& mesh, const NodeSet& set, Index n_corners) : inside_(mesh.points.size(), 0) {
+    for (const Index n : set.nodes)
+      if (n < n_corners) inside_[n] = 1, ++n_left_;
   }
   bool has(const Edge& edge) const { return inside_[edge[0]] && inside_[edge[1]]; }
   void add(const Edge& edge) {
@@ -24,7 +26,7 @@ class Cover {
 
  private:
   std::vector<char> inside_;  // 1 in the set, 2 on one of its lines
-  std::size_t n_left_;
+  std::size_t n_left_ = 0;
 };
 
 std::vector<Index> lines_of_whole_curves(const Association& tags, Cover cover) {
@@ -78,7 +80,7 @@ std::vector<Index> lines_anywhere(const NodeSet& set, const Edges& all, Cover co
 
 }  // namespace
 
-PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras) {
+PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras, Index n_corners) {
   const std::size_t n = mesh.node_sets.size();
   PlannedLines plan{association.curve_edges, association.edge_curve, std::vector<char>(n, 0), {}, {}};
   plan.members.resize(n);
@@ -92,7 +94,7 @@ PlannedLines plan_lines(const Mesh& mesh, const Association& association, const 
       plan.is_group[s] = was_group;
       continue;
     }
-    const Cover cover(mesh, set);
+    const Cover cover(mesh, set, n_corners);
     std::vector<Index>& lines = plan.members[s];
     lines = lines_of_whole_curves(association, cover);
     if (lines.empty() && was_group) {

@@ -16,11 +16,13 @@ constexpr std::array<int, 4> n_element_nodes = {1, 2, 4, 8};
 /// Makes the plan in the order of dimensions 3, 2, 1, 0.
 class Planner {
  public:
-  Planner(const Mesh& mesh, const Association& association, bool split, const Model* model, const FileExtras* extras)
+  Planner(const Mesh& mesh, const Association& association, bool split, const Model* model, const FileExtras* extras,
+          Index n_corners)
       : mesh_(mesh),
         tags_(association),
         split_(split),
         extras_(extras),
+        n_corners_(n_corners),
         directions_(curve_directions(mesh, association, model)) {}
 
   GmshPlan result() {
@@ -132,7 +134,7 @@ class Planner {
   }
 
   void lines() {
-    lines_ = plan_lines(mesh_, tags_, extras_);
+    lines_ = plan_lines(mesh_, tags_, extras_, n_corners_);
     std::vector<std::span<const Index>> members;
     for (std::size_t s = 0; s < lines_.is_group.size(); ++s)
       if (lines_.is_group[s]) {
@@ -285,6 +287,7 @@ class Planner {
   const Association& tags_;
   const bool split_;
   const FileExtras* const extras_;
+  const Index n_corners_;
   const CurveDirections directions_;
   GmshPlan plan_;
   std::array<int, 4> next_tag_ = {1, 1, 1, 1};
@@ -307,8 +310,8 @@ std::size_t GmshPlan::n_elements() const {
 }
 
 GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
-                   const FileExtras* extras) {
-  return Planner(mesh, association, split, model, extras).result();
+                   const FileExtras* extras, Index n_corners) {
+  return Planner(mesh, association, split, model, extras, n_corners).result();
 }
 
 }  // namespace hextwist::io

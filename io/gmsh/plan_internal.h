@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 
 namespace hextwist::io {
 
@@ -76,7 +76,7 @@ struct PlannedLines {
 };
 /// A node set is a group of lines where it is exactly the nodes of some whole curves, and where it came from such a
 /// group (FileExtras::curve_groups) and lines between its nodes have all of them.
-PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras);
+PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras, Index n_corners);
 
 /// Curves around surfaces, negative where the loop runs against them; a seam occurs both ways.
 class SurfaceLoops {
@@ -94,6 +94,10 @@ class SurfaceLoops {
   std::map<int, int> turns_;
 };
 
+/// Nodes of an element of a dimension in Gmsh's order: corners, and middle nodes where `second` is not null.
+FileHex gmsh_nodes(const Mesh& mesh, const PlannedElements& elements, int dim, std::size_t k,
+                   const SecondOrder* second);
+
 /// Pairs of nodes on periodic entities of a mesh, from those of the file before it was refined.
 struct PlannedPeriodic {
   int dim, entity, of;
@@ -104,7 +108,7 @@ std::vector<PlannedPeriodic> plan_periodic(const Mesh& mesh, const Association& 
                                            const std::vector<PeriodicPairs>& before, std::vector<std::string>& notices);
 
 /// Takes elements out of the plan that are in no physical group. Returns, ascending, the nodes that are left.
-std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split);
+std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split, const SecondOrder* second);
 
 /// Of the physical group that a block or set becomes: its id, another one for 0, which is no group in these files.
 template <class Group>
@@ -114,6 +118,6 @@ int group_tag(const std::vector<Group>& groups, const Group& group) {
 
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
 GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
-                   const FileExtras* extras);
+                   const FileExtras* extras, Index n_corners);
 
 }  // namespace hextwist::io

@@ -123,9 +123,11 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
   if (!known)
     cursor.fail_at(at, "element " + std::to_string(tag) + " has type " + std::to_string(type) +
                            ", which is not a hex, quad, line or point");
-  if (type == gmsh_kept[known->dim]) return known->dim;
+  if (type == gmsh_kept[known->dim] || std::ranges::find(gmsh_second_order, type) != gmsh_second_order.end())
+    return known->dim;
   if (known->dim == 3)
-    cursor.fail_at(at, "element " + std::to_string(tag) + " is a " + known->name + "; only 8-node hexes are accepted");
+    cursor.fail_at(at, "element " + std::to_string(tag) + " is a " + known->name +
+                           "; only hexes of 8, 20 or 27 nodes are accepted");
   contents.n_dropped[known->name] += count;
   return -1;
 }
@@ -144,8 +146,13 @@ void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std
     Hex hex;
     for (int c = 0; c < 8; ++c) hex[c] = node(node_ids[c]);
     contents.hexes.push_back(in_file_order(hex));
+    if (node_ids.size() == 8) return;
+    std::array<Index, 19> middles;
+    for (std::size_t i = 8; i < node_ids.size(); ++i) middles[i - 8] = node(node_ids[i]);
+    contents.middles.add(contents.hexes.size() - 1, std::span(middles).first(node_ids.size() - 8), gmsh_middles);
   } else {
-    for (const std::int64_t id : node_ids) contents.elements[dim].nodes.push_back(node(id));
+    for (const std::int64_t id : node_ids.first(static_cast<std::size_t>(gmsh_corners[dim])))
+      contents.elements[dim].nodes.push_back(node(id));
   }
 }
 

@@ -43,14 +43,14 @@ void begin_run(GmshElements& elements, const char* at) {
 }
 
 /// Tag, entity, physical group and nodes of an element of the versions 1 and 2.
-void add_element(GmshContents& contents, GmshSource& source, int dim, int tag, int physical, int entity,
+void add_element(GmshContents& contents, GmshSource& source, int dim, int type, int tag, int physical, int entity,
                  const char* at) {
   GmshElements& elements = contents.elements[dim];
   begin_run(elements, at);
   elements.physical.push_back(positive(physical));
   elements.entity.push_back(std::max(entity, 0));
-  std::array<std::int64_t, 8> ids;
-  const auto nodes = std::span(ids).first(static_cast<std::size_t>(gmsh_type(gmsh_kept[dim])->n_nodes));
+  std::array<std::int64_t, 27> ids;
+  const auto nodes = std::span(ids).first(static_cast<std::size_t>(gmsh_type(type)->n_nodes));
   for (std::int64_t& id : nodes) id = source.integer("a node");
   add_gmsh_element(contents, source.cursor, dim, tag, nodes, at);
 }
@@ -71,7 +71,7 @@ void read_gmsh_elements_1(GmshContents& contents, GmshSource& source) {
       cursor.fail_at(at, "element " + std::to_string(tag) + " has " + std::to_string(n_nodes) + " nodes, a " +
                              gmsh_type(type)->name + " has " + std::to_string(gmsh_type(type)->n_nodes));
     if (dim >= 0)
-      add_element(contents, source, dim, tag, physical, entity, at);
+      add_element(contents, source, dim, type, tag, physical, entity, at);
     else
       for (int k = 0; k < n_nodes; ++k) cursor.integer("a node");
   }
@@ -107,7 +107,7 @@ void read_gmsh_elements_2(GmshContents& contents, GmshSource& source) {
       }
       const int dim = check_gmsh_type(contents, cursor, at, type, tag, 1);
       if (dim >= 0)
-        add_element(contents, source, dim, tag, physical, entity, at);
+        add_element(contents, source, dim, type, tag, physical, entity, at);
       else
         for (int c = 0; c < gmsh_type(type)->n_nodes; ++c) source.integer("a node");
     }

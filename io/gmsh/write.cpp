@@ -199,32 +199,38 @@ void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& associ
   to.out << "$EndNodes\n";
 }
 
+/// Type of the elements of a dimension, 0 points, of hexes with 8, 20 or 27 nodes; and how many nodes they have.
+constexpr int element_type(int dim, int nodes_per_hex) {
+  if (nodes_per_hex == 8 || dim == 0) return gmsh_kept[dim];
+  return dim == 1 ? 8 : dim == 2 ? (nodes_per_hex == 20 ? 16 : 10) : nodes_per_hex == 20 ? 17 : 12;
+}
+constexpr std::size_t element_size(int dim, int nodes_per_hex) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> sizes = {{{1, 1, 1}, {2, 3, 3}, {4, 8, 9}, {8, 20, 27}}};
+  return sizes[dim][nodes_per_hex == 8 ? 0 : nodes_per_hex == 20 ? 1 : 2];
+}
+
 /// Ids of the nodes of element k, in Gmsh's order.
-template <int dim>
-auto element_node_ids(const Mesh& mesh, const PlannedElements& elements, std::size_t k) {
-  constexpr std::size_t n = dim == 3 ? 8 : dim == 2 ? 4 : dim + 1;
-  std::array<Index, n> nodes;
-  if constexpr (dim == 3)
-    nodes = in_file_order(mesh.hexes[elements.item(k)]);
-  else
-    std::ranges::copy_n(&elements.nodes[n * k], n, nodes.begin());
+template <int dim, int nodes_per_hex>
+auto element_node_ids(const Mesh& mesh, const PlannedElements& elements, std::size_t k, const SecondOrder* second) {
+  constexpr std::size_t n = element_size(dim, nodes_per_hex);
+  const FileHex nodes = gmsh_nodes(mesh, elements, dim, k, second);
   std::array<std::int64_t, n> ids;
-  for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes[c]);
+  for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes.nodes[c]);
   return ids;
 }
 
-template <int dim>
-void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+template <int dim, int nodes_per_hex>
+void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan, const SecondOrder* second) {
   const PlannedElements& elements = plan.elements[dim];
   for (const auto& run : elements.runs) {
     to.integer(dim);
     to.integer(run.entity);
-    to.integer(gmsh_kept[dim]);
+    to.integer(element_type(dim, nodes_per_hex));
     to.large(run.n);
     to.end_line();
     to.rows(run.n, [&](std::size_t i) {
       const std::size_t k = run.first + i;
-      const auto ids = element_node_ids<dim>(mesh, elements, k);
+      const auto ids = element_node_ids<dim, nodes_per_hex>(mesh, elements, k, second);
       std::array<std::int64_t, ids.size() + 1> row;
       row[0] = plan.tag(mesh, dim, k);
       std::ranges::copy(ids, row.begin() + 1);
@@ -249,7 +255,8 @@ std::pair<std::int64_t, std::int64_t> element_tags(const Mesh& mesh, const GmshP
   return {high == 0 ? 0 : low, high};
 }
 
-void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+template <int nodes_per_hex>
+void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan, const SecondOrder* second) {
   std::size_t n_blocks = 0;
   for (const auto& elements : plan.elements) n_blocks += elements.runs.size();
   const auto [low, high] = element_tags(mesh, plan);
@@ -259,10 +266,10 @@ void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan) 
   to.id(low);
   to.id(high);
   to.end_line();
-  write_elements_4<0>(to, mesh, plan);
-  write_elements_4<1>(to, mesh, plan);
-  write_elements_4<2>(to, mesh, plan);
-  write_elements_4<3>(to, mesh, plan);
+  write_elements_4<0, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_4<1, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_4<2, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_4<3, nodes_per_hex>(to, mesh, plan, second);
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -279,17 +286,17 @@ void write_nodes_2(const Writer& to, const Mesh& mesh, const Selection& selectio
   to.out << "$EndNodes\n";
 }
 
-template <int dim>
-void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+template <int dim, int nodes_per_hex>
+void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan, const SecondOrder* second) {
   const PlannedElements& elements = plan.elements[dim];
   if (to.binary && elements.size > 0) {
-    to.integer(gmsh_kept[dim]);
+    to.integer(element_type(dim, nodes_per_hex));
     to.integer(static_cast<int>(elements.size));
     to.integer(2);
   }
   for (const auto& run : elements.runs) {
     const auto row = [&]<std::size_t n_head>(std::size_t k, const std::array<int, n_head>& head) {
-      const auto ids = element_node_ids<dim>(mesh, elements, k);
+      const auto ids = element_node_ids<dim, nodes_per_hex>(mesh, elements, k, second);
       std::array<std::int32_t, n_head + ids.size()> result;
       std::ranges::copy(head, result.begin());
       for (std::size_t c = 0; c < ids.size(); ++c) result[n_head + c] = static_cast<int>(ids[c]);
@@ -302,17 +309,19 @@ void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) 
       });
     else
       to.rows(run.n, [&](std::size_t i) {
-        return row(run.first + i, std::array{tag(run.first + i), gmsh_kept[dim], 2, run.physical, run.entity});
+        return row(run.first + i,
+                   std::array{tag(run.first + i), element_type(dim, nodes_per_hex), 2, run.physical, run.entity});
       });
   }
 }
 
-void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan) {
+template <int nodes_per_hex>
+void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan, const SecondOrder* second) {
   to.out << "$Elements\n" << plan.n_elements() << '\n';
-  write_elements_2<0>(to, mesh, plan);
-  write_elements_2<1>(to, mesh, plan);
-  write_elements_2<2>(to, mesh, plan);
-  write_elements_2<3>(to, mesh, plan);
+  write_elements_2<0, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_2<1, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_2<2, nodes_per_hex>(to, mesh, plan, second);
+  write_elements_2<3, nodes_per_hex>(to, mesh, plan, second);
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -367,8 +376,9 @@ void write_periodic(const Writer& to, const Mesh& mesh, const std::vector<Planne
 }
 
 /// Leaves physical groups and what they need.
-Selection groups_only(GmshPlan& plan, const Mesh& mesh, bool v4, std::vector<std::string>& notices) {
-  Selection result{false, keep_groups_only(plan, mesh, v4), plan.elements[3].items};
+Selection groups_only(GmshPlan& plan, const Mesh& mesh, bool v4, const SecondOrder* second,
+                      std::vector<std::string>& notices) {
+  Selection result{false, keep_groups_only(plan, mesh, v4, second), plan.elements[3].items};
   std::ranges::sort(result.hexes);
   if (result.hexes.empty()) throw Error("there is no hex in a block, so there is nothing of groups only to write");
   if (const auto n = mesh.hexes.size() - result.hexes.size())
@@ -378,13 +388,31 @@ Selection groups_only(GmshPlan& plan, const Mesh& mesh, bool v4, std::vector<std
 
 }  // namespace
 
+FileHex gmsh_nodes(const Mesh& mesh, const PlannedElements& elements, int dim, std::size_t k,
+                   const SecondOrder* second) {
+  if (dim == 3) return file_hex(mesh, second, elements.item(k), gmsh_middles);
+  FileHex result;
+  result.n = 1 << dim;
+  std::ranges::copy_n(&elements.nodes[static_cast<std::size_t>(result.n) * k], result.n, result.nodes.begin());
+  if (!second || dim == 0) return result;
+  const auto& n = result.nodes;
+  const int n_corners = result.n;
+  for (int c = 0; c < (dim == 1 ? 1 : 4); ++c)
+    result.nodes[result.n++] = second->middle_between(n[c], n[(c + 1) % n_corners]);
+  if (dim == 2 && second->nodes_per_hex == 27) result.nodes[result.n++] = second->middle_of({n[0], n[1], n[2], n[3]});
+  return result;
+}
+
 void write_gmsh(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                 std::vector<std::string>& notices) {
   if (options.gmsh_version != 22 && options.gmsh_version != 41)
     throw Error("Gmsh version " + std::to_string(options.gmsh_version) + " is neither 22 nor 41");
   const bool v4 = options.gmsh_version == 41;
-  GmshPlan plan = plan_gmsh(mesh, association, v4, options.model, options.extras);
-  const Selection selection = options.groups_only ? groups_only(plan, mesh, v4, notices) : Selection{};
+  const SecondOrder* const second = options.second;
+  const int nodes_per_hex = second ? second->nodes_per_hex : 8;
+  GmshPlan plan =
+      plan_gmsh(mesh, association, v4, options.model, options.extras, second ? second->n_corners : mesh.n_nodes());
+  const Selection selection = options.groups_only ? groups_only(plan, mesh, v4, second, notices) : Selection{};
   if (!v4 && std::ranges::any_of(plan.groups, [](const PlannedGroup& group) { return !group.more.empty(); }))
     notices.emplace_back(
         "groups overlap, and version 2.2 says one group of each element: other programs see the first");
@@ -411,12 +439,18 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   if (v4) {
     write_entities_4(to, plan);
     write_nodes_4(to, mesh, association, plan, selection);
-    write_elements_4(to, mesh, plan);
+    const auto write = nodes_per_hex == 8    ? write_elements_4<8>
+                       : nodes_per_hex == 20 ? write_elements_4<20>
+                                             : write_elements_4<27>;
+    write(to, mesh, plan, second);
   } else {
     check_int32(mesh.points.empty() ? 0 : node_id(mesh, mesh.n_nodes() - 1), "version 2.2 of ");
     check_int32(element_tags(mesh, plan).second, "version 2.2 of ");
     write_nodes_2(to, mesh, selection);
-    write_elements_2(to, mesh, plan);
+    const auto write = nodes_per_hex == 8    ? write_elements_2<8>
+                       : nodes_per_hex == 20 ? write_elements_2<20>
+                                             : write_elements_2<27>;
+    write(to, mesh, plan, second);
   }
   // Behind the elements: some readers want nothing else before them (PETSc).
   if (options.extras && !options.groups_only)

@@ -16,7 +16,10 @@ namespace {
 
 /// Cell types below dimension 3; everything else but hexes and voxels is refused.
 constexpr int lower_types[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36, 68, 69, 70, 75, 76, 77};
-constexpr int vtk_pixel = 8, vtk_quad = 9, vtk_voxel = 11, vtk_hex = 12;
+/// Quads of second order, by their corners.
+constexpr std::pair<int, std::size_t> curved_quads[] = {{23, 8}, {28, 9}, {70, 9}};
+constexpr int vtk_pixel = 8, vtk_quad = 9, vtk_voxel = 11, vtk_hex = 12, vtk_hex_20 = 25, vtk_hex_27 = 29,
+              vtk_lagrange_hex = 72;
 
 std::string type_name(std::int64_t type) {
   constexpr std::pair<int, const char*> names[] = {
@@ -43,6 +46,8 @@ class Assembly {
       global_ids();
     }
     fields();
+    middles_.finish(out_.mesh.hexes.size());
+    if (middles_.any()) take_middles(out_, middles_);
     return std::move(out_);
   }
 
@@ -84,7 +89,17 @@ class Assembly {
 
   /// `at`: where its nodes stand in the connectivity.
   void cell(std::size_t i, std::int64_t type, std::span<const Index> nodes, std::size_t at) {
-    const bool hex = type == vtk_hex || type == vtk_voxel, quad = type == vtk_quad || type == vtk_pixel;
+    const bool hex = type == vtk_hex || type == vtk_voxel;
+    const bool curved_quad =
+        std::ranges::find(curved_quads, std::pair(static_cast<int>(type), nodes.size())) != std::end(curved_quads);
+    const bool quad = type == vtk_quad || type == vtk_pixel || curved_quad;
+    for (const auto& [known, n] : {std::pair(vtk_hex_20, std::size_t{20}), {vtk_hex_27, std::size_t{27}}})
+      if (type == known && nodes.size() != n)
+        fail("cell " + std::to_string(i + 1) + " has " + std::to_string(nodes.size()) + " nodes instead of " +
+             std::to_string(n));
+    if ((type == vtk_hex_20 && nodes.size() == 20) || (type == vtk_hex_27 && nodes.size() == 27) ||
+        (type == vtk_lagrange_hex && (nodes.size() == 27 || nodes.size() == 8)))
+      return second_order_hex(i, type, nodes, at);
     if (hex && nodes.size() == 8) {
       check(i, nodes, at);
       Hex corners;
@@ -93,8 +108,8 @@ class Assembly {
     }
     const std::string name = "cell " + std::to_string(i + 1);
     if (!hex && std::ranges::find(lower_types, type) == std::end(lower_types))
-      fail(name + " is a " + type_name(type) + "; only 8-node hexes are accepted");
-    if (hex || (quad && nodes.size() != 4))
+      fail(name + " is a " + type_name(type) + "; only hexes of 8, 20 or 27 nodes are accepted");
+    if (hex || (quad && !curved_quad && nodes.size() != 4))
       fail(name + " has " + std::to_string(nodes.size()) + " nodes instead of " + (hex ? "8" : "4"));
     constexpr std::pair<int, std::size_t> sizes[] = {{1, 1}, {3, 2}, {5, 3}, {21, 3}, {22, 6}, {23, 8}, {28, 9}};
     for (const auto& [known, n] : sizes)
@@ -113,6 +128,16 @@ class Assembly {
     if (type == vtk_pixel) std::swap(cycle[2], cycle[3]);
     quads_.push_back(cycle);
     quad_cells_.push_back(i);
+  }
+  void second_order_hex(std::size_t i, std::int64_t type, std::span<const Index> nodes, std::size_t at) {
+    check(i, nodes, at);
+    Hex corners;
+    std::ranges::copy(nodes.first(8), corners.begin());
+    add_hex(i, in_file_order(corners));
+    if (nodes.size() == 8) return;
+    std::vector<Index> middles(nodes.begin() + 8, nodes.end());
+    if (type == vtk_lagrange_hex && in_.old_lagrange) std::swap(middles[10], middles[11]);
+    middles_.add(out_.mesh.hexes.size() - 1, middles, vtk_middles);
   }
   void add_hex(std::size_t i, const Hex& hex) {
     out_.mesh.hexes.push_back(hex);
@@ -348,6 +373,7 @@ class Assembly {
   std::map<std::int64_t, std::int64_t> n_dropped_;  // by cell type
   std::vector<Quad> quads_;
   std::vector<std::string> made_;
+  FoundMiddles middles_;
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ class LegacyReader {
     const std::string_view version = trimmed(first.substr(mark.size()));
     if (version.empty() || version[0] < '1' || version[0] > '5')
       cursor_.fail_at(cursor_.begin, "version " + shown(version) + " is not known, 1.0 to 5.1 are");
+    out_.old_lagrange = version < "5.1";
     cursor_.line();
     const char* at = cursor_.at;
     std::string_view mode = trimmed(cursor_.line());

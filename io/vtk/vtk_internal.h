@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 
 namespace hextwist::io {
 
@@ -115,6 +115,8 @@ struct VtkContents {
   VtkArray ends;  ///< per cell: the end of its nodes in `connectivity`; integers, not checked
   VtkArray types;
   std::vector<VtkArray> arrays;
+  /// Files before XML 2.1 and legacy 5.1 have the last two middle nodes of edges of Lagrange hexes the other way round.
+  bool old_lagrange = false;
 };
 
 /// Points from their array. Throws at coordinates that are not finite.

@@ -71,7 +71,7 @@ class VtuReader {
     find_appended();
     while (const auto tag = next_tag()) {
       if (tag->name == "VTKFile" && !tag->closing)
-        header(*tag);
+        header(*tag), out_.old_lagrange = (*tag)["version"] < "2.1";
       else if (tag->name == "AppendedData")
         break;
       else if (tag->name == "Piece" && !tag->closing)

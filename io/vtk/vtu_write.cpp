@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -130,6 +130,14 @@ std::string tuples(std::size_t n) {
   return " NumberOfTuples=\"" + std::to_string(n) + "\"";
 }
 
+template <std::size_t n>
+std::array<Index, n> cell_nodes(const Mesh& mesh, const SecondOrder& second, std::size_t hex) {
+  const FileHex nodes = file_hex(mesh, &second, static_cast<Index>(hex), vtk_middles);
+  std::array<Index, n> result;
+  std::ranges::copy_n(nodes.nodes.begin(), n, result.begin());
+  return result;
+}
+
 /// What VTK has no place for.
 void add_field_data(Arrays& arrays, const std::string& made_names, const Mesh& mesh, const Association& association) {
   const auto name = [](const char* kind, const auto& group) {
@@ -235,9 +243,18 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   out << "</CellData>\n<Points>\n";
   arrays.add<double>("Points", coordinates(mesh.points), 3);
   out << "</Points>\n<Cells>\n";
-  arrays.add_each("connectivity", n_hexes, 1, [&](std::size_t h) { return in_file_order(mesh.hexes[h]); });
-  arrays.add_each("offsets", n_hexes, 1, [](std::size_t h) { return 8 * (static_cast<std::int64_t>(h) + 1); });
-  arrays.add_each("types", n_hexes, 1, [](std::size_t) { return std::uint8_t{12}; });
+  const SecondOrder* const second = options.second;
+  const int nodes_per_hex = second ? second->nodes_per_hex : 8;
+  if (!second)
+    arrays.add_each("connectivity", n_hexes, 1, [&](std::size_t h) { return in_file_order(mesh.hexes[h]); });
+  else if (nodes_per_hex == 20)
+    arrays.add_each("connectivity", n_hexes, 1, [&](std::size_t h) { return cell_nodes<20>(mesh, *second, h); });
+  else
+    arrays.add_each("connectivity", n_hexes, 1, [&](std::size_t h) { return cell_nodes<27>(mesh, *second, h); });
+  arrays.add_each("offsets", n_hexes, 1,
+                  [=](std::size_t h) { return nodes_per_hex * (static_cast<std::int64_t>(h) + 1); });
+  const std::uint8_t type = nodes_per_hex == 8 ? 12 : nodes_per_hex == 20 ? 25 : 29;
+  arrays.add_each("types", n_hexes, 1, [=](std::size_t) { return type; });
   out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
   arrays.finish();
   out << "</VTKFile>\n";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hextwist/geom/model.h"
+#include "hextwist/mesh/second_order/middle_nodes.h"
 #include "hextwist/mesh/topology.h"
 
 namespace HEXTWIST_API hextwist {
@@ -74,6 +75,10 @@ struct AssociateResult {
 ///    that share no surface (STEP) it asks for the CAD to be glued.
 AssociateResult associate(const Mesh& mesh, const Model& model, const Association* tags,
                           const AssociateOptions& options = {});
+/// From geometry alone.
+inline AssociateResult associate(const Mesh& mesh, const Model& model, const AssociateOptions& options = {}) {
+  return associate(mesh, model, nullptr, options);
+}
 
 /// A facet model of a mesh's own skin, and the association with it.
 struct FacetResult {
@@ -84,6 +89,8 @@ struct FacetResult {
 struct SkinOptions {
   double feature_angle = 35;          ///< degrees, 0..180: an edge at which faces turn by more is on a curve
   const Association* tags = nullptr;  ///< lists ascending, as in a complete association; null: by angle and blocks
+  /// The skin is curved: through these. Null, or where all lie halfway: straight.
+  const MiddleNodes* middles = nullptr;
 };
 /// The mesh's skin as its model. Volumes: the blocks where they partition the mesh, in the blocks' order, else one.
 /// With tags the skin is divided as they say instead of by angle and blocks: by the tags of hexes, of faces (0 where

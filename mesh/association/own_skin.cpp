@@ -50,6 +50,23 @@ struct Labels {
   Labels(const Labels&) = delete;
 };
 
+/// Does any middle of an edge or a face lie elsewhere than straight edges and bilinear faces have it?
+bool bends(const Mesh& mesh, const MiddleNodes& middles) {
+  constexpr double straight = 1e-10;  // of the length
+  const auto& x = mesh.points;
+  for (std::size_t e = 0; e < middles.edges.size(); ++e) {
+    const auto [a, b] = middles.edges[e];
+    if ((middles.edge_points[e] - (x[a] + x[b]) / 2).norm() > straight * (x[b] - x[a]).norm()) return true;
+  }
+  for (std::size_t f = 0; f < middles.faces.size(); ++f) {
+    const Quad& q = middles.faces[f];
+    if ((middles.face_points[f] - (x[q[0]] + x[q[1]] + x[q[2]] + x[q[3]]) / 4).norm() >
+        straight * (x[q[3]] - x[q[0]]).norm())
+      return true;
+  }
+  return false;
+}
+
 /// Parameters of the nodes on curves and surfaces.
 std::vector<Parameters> parameters_on(const Model& model, const Mesh& mesh, std::span<const Owner> owners) {
   std::vector<Parameters> parameters(owners.size());
@@ -95,9 +112,15 @@ FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options
 
   std::optional<Labels> labels;
   if (tags) labels.emplace(*tags, association.surface_faces);
-  FacetImport import =
-      facet_model(mesh.points, quads, quad_volumes,
-                  {.feature_angle = options.feature_angle, .labels = labels ? &labels->view : nullptr});
+  const bool curved = options.middles && bends(mesh, *options.middles);
+  FacetMiddles middles;
+  if (curved)
+    middles = {options.middles->edges, options.middles->edge_points, options.middles->faces,
+               options.middles->face_points};
+  FacetImport import = facet_model(mesh.points, quads, quad_volumes,
+                                   {.feature_angle = options.feature_angle,
+                                    .labels = labels ? &labels->view : nullptr,
+                                    .middles = curved ? &middles : nullptr});
   const FacetClassification& pieces = import.classification;
   association.face_surface = pieces.quad_surface;
   association.curve_edges = pieces.edges;

@@ -50,5 +50,7 @@ bool all_valid(const Mesh& mesh);
 
 /// Hexes with index >= first whose scaled Jacobian (quality.h) is below a limit, ascending.
 std::vector<Index> hexes_below(const Mesh& mesh, double limit, Index first = 0);
+/// The same among some hexes, ascending.
+std::vector<Index> hexes_below(const Mesh& mesh, double limit, std::span<const Index> hexes);
 
 }  // namespace hextwist

@@ -52,7 +52,8 @@ struct ValidateOptions {
 std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options = {});
 
 /// Quicker, and in less memory: false when validate() may find something worse than a warning. True is certain.
-bool has_only_warnings(const Mesh& mesh);
+/// known_valid: that all hexes are valid (quality/validity.h) has been found out already.
+bool has_only_warnings(const Mesh& mesh, bool known_valid = false);
 
 /// A violation that only warns: the mesh can still be refined.
 bool is_warning(ViolationKind kind);

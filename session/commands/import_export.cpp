@@ -81,7 +81,8 @@ void import_mesh(Execution& run, const std::filesystem::path& file, std::string_
   for (const std::string& line : read.notices) run.note(line);
   if (const Item* factor = run.command.find("factor")) scale(read.mesh, factor->number);
   if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
-  load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string());
+  load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string(),
+            &read.middles);
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
   run.state.extras = read.extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(read.extras));
   say_mesh(run, file.string());
@@ -117,6 +118,9 @@ WriteOptions write_options(const Execution& run, const std::string& extension) {
   options.extras = run.state.extras.get();
   options.format = format_of(run.command.items.at(1).name);
   if (run.state.has_cad) options.model = run.meshed->model.get();
+  options.skin = run.meshed->model.get();
+  options.order = run.state.order;
+  if (const Item* order = run.command.find("order")) options.order = static_cast<int>(order->number);
   const bool gmsh = extension == ".msh", both = gmsh || extension == ".vtu";
   const Item& file = *run.command.find("file");
   const auto only = [&](std::string_view word, bool known, const char* formats) {

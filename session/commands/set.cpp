@@ -19,6 +19,7 @@ void do_set(Execution& run) {
       run.note("the mesh lies farther off its CAD, by " + short_number(off.max_relative) +
                " of the model's size: 'check' will say so; 'project to geometry' puts it there");
   }
+  if (const Item* order = command.find("order")) run.state.order = static_cast<int>(order->number);
   if (command.has("untangle")) run.state.untangle = command.has("on");
   if (command.has("snap")) run.state.snap = command.has("on");
   if (command.has("keep_jumps")) {

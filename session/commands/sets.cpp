@@ -141,6 +141,30 @@ std::string change_members(const Execution& run, Mesh& lists, EntityKind kind, i
   });
 }
 
+/// block ... element type: how many nodes hexes have in files.
+void change_element_type(Execution& run, const Item& type) {
+  const Command& command = run.command;
+  const std::string word = lower_case(type.text);
+  const int n = word == "hex" || word == "hex8" ? 8 : word == "hex20" ? 20 : word == "hex27" ? 27 : 0;
+  if (n == 0)
+    throw error_at(command.statement, type.token,
+                   "'" + printable(type.text) + "' elements are not written: files have hex8, hex20 or hex27");
+  FileExtras extras = run.state.extras ? *run.state.extras : FileExtras();
+  std::string what = "every element";
+  if (const Item* id = command.find("id")) {
+    const int block = static_cast<int>(id->number);
+    if (std::ranges::find(run.meshed->mesh.blocks, block, &Block::id) == run.meshed->mesh.blocks.end())
+      throw error_at(command.statement, id->token, "there is no block " + std::to_string(block));
+    extras.nodes_per_hex[block] = n;
+    what = "every element of block " + std::to_string(block);
+  } else {
+    extras.nodes_per_hex.clear();
+    if (n > 8) extras.nodes_per_hex[0] = n;
+  }
+  run.state.extras = extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(extras));
+  run.say(what + " is a hex" + std::to_string(n) + " in files");
+}
+
 }  // namespace
 
 void do_sets(Execution& run) {
@@ -149,13 +173,7 @@ void do_sets(Execution& run) {
   const Mesh& mesh = run.meshed->mesh;
   need_mesh(run, "to make sets of");
   if (const Item* type = command.find("type")) {
-    if (!same_word(type->text, "hex") && !same_word(type->text, "hex8"))
-      throw error_at(
-          command.statement, type->token,
-          "'" + printable(type->text) +
-              "' elements are not written: files have hexes with eight nodes (hex8); leave this line out, or "
-              "raise the order afterwards");
-    return run.note("every element is a hex8: nothing to change");
+    return change_element_type(run, *type);
   }
   const Item* text = command.find("text");
   if (text && text->text.empty()) throw error_at(command.statement, text->token, "this name is empty");

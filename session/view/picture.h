@@ -1,4 +1,4 @@
-// Pictures of a mesh: what is seen of it, and the two files that show that.
+// Pictures of a mesh: what is seen of it, and the file that shows that.
 #pragma once
 
 #include <array>
@@ -51,7 +51,5 @@ const char* row_colour_name(std::size_t i);
 std::vector<Colour> render(const Picture& picture, int width, int height);
 /// A PNG file of such pixels.
 std::string png(const std::vector<Colour>& pixels, int width, int height);
-/// A page that draws the picture by itself, to be turned with the mouse; nothing is loaded from elsewhere.
-std::string html(const Picture& picture);
 
 }  // namespace hextwist

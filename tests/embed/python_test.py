@@ -43,6 +43,23 @@ def volumes(mesh):
     return total
 
 
+class Interpreters(unittest.TestCase):
+    def run_python(self, code):
+        # Without the packages of the interpreter.
+        return subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=False)
+
+    def test_one_without_numpy_is_told_which_has_it_and_runs_commands(self):
+        ran = self.run_python("import hextwist; hextwist.Session().cmd('create brick x 1 interval 2'); print('fine')")
+        self.assertEqual(ran.stdout, "fine\n", ran.stderr)
+        self.assertIn("has no numpy", ran.stderr)
+        self.assertIn(hextwist._built_for.python, ran.stderr)
+
+    def test_one_of_another_version_is_told_which_it_was_built_for(self):
+        ran = self.run_python("import sys; sys.modules['hextwist._core'] = None; import hextwist")
+        self.assertNotEqual(ran.returncode, 0)
+        self.assertIn(f"hextwist was built for {hextwist._built_for.python} (Python 3.", ran.stderr)
+
+
 class Arrays(unittest.TestCase):
     def test_have_the_stated_shapes_and_describe_the_mesh(self):
         mesh = session_on("bracket").mesh

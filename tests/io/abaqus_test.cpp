@@ -412,9 +412,12 @@ TEST(abaqus_files, what_is_wrong_is_said_with_its_line) {
   says("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,9\n", ":15: element 1 names node 9, which is not there");
   says("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7\n", ":15: element 1 has 7 of 8 nodes");
   says("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8,9\n", ":15: element 1 has more nodes than a C3D8");
-  says("*ELEMENT, TYPE=C3D20R\n8, 1,2\n", ":15: element 8 is of type C3D20R; only 8-node hexes are accepted");
-  says("*ELEMENT, TYPE=C3D4\n3, 1,2,3,5\n", ":15: element 3 is of type C3D4; only 8-node hexes are accepted");
-  says("*ELEMENT, TYPE=C3D6\n3, 1,2,3,5,6,7\n", ":15: element 3 is of type C3D6; only 8-node hexes are accepted");
+  says("*ELEMENT, TYPE=C3D20R\n8, 1,2\n", ":15: element 8 has 2 of 20 nodes");
+  says("*ELEMENT, TYPE=C3D20\n8, 1,2,3,4,5,6,7,8,1,2,3,4,5,6,7,\n8,1,2,3\n", ":15: element 8 has 19 of 20 nodes");
+  says("*ELEMENT, TYPE=C3D4\n3, 1,2,3,5\n",
+       ":15: element 3 is of type C3D4; only hexes of 8, 20 or 27 nodes are accepted");
+  says("*ELEMENT, TYPE=C3D6\n3, 1,2,3,5,6,7\n",
+       ":15: element 3 is of type C3D6; only hexes of 8, 20 or 27 nodes are accepted");
   says("*ELEMENT\n1,2\n", ":14: *ELEMENT without TYPE=");
   says("", ": there is no hex in the file");
   says(hex + "*NODE\n9, 0, 1, nan\n", ":17: a coordinate of node 9 is not finite");

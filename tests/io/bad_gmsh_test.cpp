@@ -54,13 +54,12 @@ TEST(bad_gmsh_files, nodes_and_elements_of_version_4) {
   says(elements("1 1 1 1\n3 1 5 1\n1 1 2 3 4 5 6 7 9\n$EndElements\n"),
        ":27: element 1 names node 9, which is not there");
   says(elements("1 1 1 1\n3 1 4 1\n7 1 2 3 5\n$EndElements\n"),
-       ":27: element 7 is a tetrahedron; only 8-node hexes are accepted");
+       ":27: element 7 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
   says(elements("1 1 1 1\n3 1 6 1\n7 1 2 3 5 6 7\n$EndElements\n"),
-       ":27: element 7 is a wedge; only 8-node hexes are accepted");
+       ":27: element 7 is a wedge; only hexes of 8, 20 or 27 nodes are accepted");
   says(elements("1 1 1 1\n3 1 7 1\n7 1 2 3 4 5\n$EndElements\n"),
-       ":27: element 7 is a pyramid; only 8-node hexes are accepted");
-  says(elements("1 1 1 1\n3 1 12 1\n7 1 2 3 4 5\n$EndElements\n"),
-       ":27: element 7 is a 27-node hex; only 8-node hexes are accepted");
+       ":27: element 7 is a pyramid; only hexes of 8, 20 or 27 nodes are accepted");
+  says(elements("1 1 1 1\n3 1 12 1\n7 1 2 3 4 5\n$EndElements\n"), ":28: expected a node, found '$EndElements'");
   says(elements("1 1 1 1\n3 1 99 1\n7 1 2 3 4 5\n$EndElements\n"),
        ":27: element 7 has type 99, which is not a hex, quad, line or point");
   says(elements("1 2 1 2\n3 1 5 2\n1 1 2 3 4 5 6 7 8\n1 1 2 3 4 5 6 7 8\n$EndElements\n"),
@@ -77,9 +76,8 @@ TEST(bad_gmsh_files, nodes_and_elements_of_versions_1_and_2) {
   const auto elements = [](const std::string& text) { return head2 + nodes2 + "$Elements\n" + text; };
   says(elements("1\n4 5 2 1 1 1 2 3 4 5 6 7 9\n$EndElements\n"), ":17: element 4 names node 9, which is not there");
   says(elements("1\n4 4 2 1 1 1 2 3 4\n$EndElements\n"),
-       ":17: element 4 is a tetrahedron; only 8-node hexes are accepted");
-  says(elements("1\n4 17 2 1 1 1 2 3 4\n$EndElements\n"),
-       ":17: element 4 is a 20-node hex; only 8-node hexes are accepted");
+       ":17: element 4 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
+  says(elements("1\n4 17 2 1 1 1 2 3 4\n$EndElements\n"), ":18: expected a node, found '$EndElements'");
   says(elements("1\n4 5 -2 1 1 1 2 3 4\n$EndElements\n"), ":17: a broken element header");
   says(elements("2\n4 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 1 2 3 4 5 6 8 7\n$EndElements\n"),
        ":18: element id 4 occurs twice");
@@ -130,9 +128,8 @@ TEST(gmsh_files, parameters_partitions_curve_groups_and_time_steps_are_understoo
   ASSERT_EQ(read.mesh.fields.size(), 1u);
   EXPECT_EQ(read.mesh.fields[0].values[1], 20);
   EXPECT_TRUE(std::isnan(read.mesh.fields[0].values[2]));
-  EXPECT_EQ(read.notices, (std::vector<std::string>{
-                              "physical curve group 2 is node set 3: a physical point group has its id",
-                              "dropped 1 elements of type 3-node line, which are not sides or edges of a hex"}));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{"physical curve group 2 is node set 3: a physical point group has its id"}));
 }
 
 TEST(bad_gmsh_files, sections_that_a_file_has_once) {

@@ -219,9 +219,10 @@ TEST(vtk_files, what_is_wrong_is_said) {
     EXPECT_EQ(test::refusal(file), file.string() + expected);
   };
   const std::string good = legacy;
-  says(good + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n", ": cell 1 is a tetrahedron; only 8-node hexes are accepted");
-  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n25\n",
-       ": cell 1 is a quadratic hex; only 8-node hexes are accepted");
+  says(good + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n",
+       ": cell 1 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n25\n", ": cell 1 has 8 nodes instead of 20");
+  says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n29\n", ": cell 1 has 8 nodes instead of 27");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ": cell 1 names point 8 of 8 (counted from 0)");
   says(good + "CELLS 1 8\n7 0 1 2 3 4 5 6\nCELL_TYPES 1\n12\n", ": cell 1 has 7 nodes instead of 8");
   says(good + "CELLS 1 9\n9 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ":8: cell 1 does not fit in the list of cells");

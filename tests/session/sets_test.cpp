@@ -137,10 +137,7 @@ TEST(Sets, mistakes_are_pointed_at) {
   EXPECT_EQ(f.last().column, 7);
   EXPECT_EQ(f.error("nodeset 5 remove node 1"), "there is no nodeset 5");
   EXPECT_EQ(f.error("nodeset 5 node 1 name ''"), "this name is empty");
-  EXPECT_EQ(
-      f.error("block all element type tet4"),
-      "'tet4' elements are not written: files have hexes with eight nodes (hex8); leave this line out, or raise the "
-      "order afterwards");
+  EXPECT_EQ(f.error("block all element type tet4"), "'tet4' elements are not written: files have hex8, hex20 or hex27");
   EXPECT_EQ(f.error("sideset 1 surface 1 reverse"), "there is nothing for a sideset there");
   EXPECT_EQ(f.error("delete sideset 1"), "there are no sidesets");
   EXPECT_TRUE(f.session.meshed().mesh.node_sets.empty());
