@@ -389,7 +389,7 @@ void bind_session(py::module_& m) {
            "components)}; those of integers stay integers: never interpolated. What the arrays say of owners may be "
            "partial (-1, 0: unknown) and is checked against the CAD; curve_edges go with edge_curves, surface_quads "
            "with quad_surfaces. Raises ValueError or TypeError, naming the array, for a wrong shape or type, Error for "
-           "what is no mesh or does not lie on the CAD; the session is then as it was.")
+           "arrays that do not make a sound mesh on the CAD; the session is then as it was.")
       .def(
           "adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
           "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
@@ -398,8 +398,9 @@ void bind_session(py::module_& m) {
           "from call to call; sizes may then become coarser too. bias: growth of sizes from element to element, 1: not "
           "limited. concave: 'template', or 'fill' as the paper does. smooth: the new hexes and two layers around "
           "them. Returns (n_hexes now,) int32: the old hex that each new one lies in; of several the first. Raises "
-          "ValueError unless there are either flags or sizes and for another word for concave, TypeError for flags that are not integers, Error where "
-          "there is not one per hex or a size is not positive, Cancelled; the session is then as it was.")
+          "ValueError unless there are either flags or sizes and for another word for concave, TypeError for flags "
+          "that are not integers, Error for another number than one per hex or a size that is not positive, Cancelled; "
+          "the session is then as it was.")
       .def("adapt_levels", &adapt_levels, "changes"_a, py::kw_only(), "smooth"_a = false,
            "extensive"_a = std::vector<std::string>(),
            "By how many levels each hex becomes finer (> 0) or coarser (< 0), (n_hexes,) integers; 27 become one again "
@@ -407,8 +408,8 @@ void bind_session(py::module_& m) {
            "of, the old hexes[first[h]:first[h + 1]]; kind 0: the same hex, 1: in a larger one, 2: made of several. "
            "Fields of hexes are copied down and averaged by volume upwards (those named in extensive: shared out and "
            "summed), those of nodes interpolated and injected. smooth: the new hexes and two layers around them. "
-           "Raises TypeError for changes that are not integers, Error where there is not one per hex, Cancelled; the "
-           "session is then as it was.")
+           "Raises TypeError for changes that are not integers, Error for another number than one per hex, Cancelled; "
+           "the session is then as it was.")
       .def("ids", &ids, "kind"_a, "range"_a = "all",
            "(n,) int64, ascending: ids of the entities of a kind (as in commands: 'node', 'hex', 'curve', 'block', "
            "...) that a range means: ids('hex', 'in volume 2'). Raises Error for a kind or range that is wrong or "

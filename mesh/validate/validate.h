@@ -30,13 +30,15 @@ enum class ViolationKind {
 /// "hanging node" and so on.
 const char* name(ViolationKind kind);
 
+/// One thing that is wrong with a mesh.
 struct Violation {
-  ViolationKind kind;
+  ViolationKind kind;        ///< is_warning() says whether it matters
   std::vector<Index> hexes;  ///< involved, ascending
   std::vector<Index> nodes;  ///< involved, ascending
   std::string text;          ///< one line with ids as the user knows them, long lists cut short
 };
 
+/// What counts as the same place.
 struct ValidateOptions {
   /// Nodes nearer than this times the size of the box count as one place (0 .. 1e-4). 0 switches the search off.
   double relative_tolerance = 1e-10;

@@ -3,8 +3,10 @@
 import _thread
 import ast
 import gc
+import html
 import importlib
 import inspect
+import os
 import pathlib
 import re
 import subprocess
@@ -505,6 +507,27 @@ class Docstrings(unittest.TestCase):
         ):
             self.assertEqual(array.ndim, 1)
             self.assertIn(array.dtype.name, said(getattr(hextwist.Session, name)), name)
+
+    def test_make_a_page_on_which_everything_public_is(self):
+        script = pathlib.Path(__file__).resolve().parents[2] / "docs/python_reference.py"
+        with tempfile.TemporaryDirectory() as folder:
+            environment = dict(os.environ, PYTHONPATH=str(pathlib.Path(hextwist.__file__).parents[1]))
+            subprocess.run([sys.executable, script, folder], check=True, env=environment)
+            page = (pathlib.Path(folder) / "hextwist.html").read_text(encoding="utf-8")
+        shown = html.unescape(re.sub(r"<[^>]+>", "", page))
+        for module in (hextwist, importlib.import_module("hextwist._core")):
+            for name, member in public_names(module):
+                if not inspect.isclass(member) or name == "GmshLink":
+                    continue
+                self.assertIn(f'id="hextwist.{name}"', page)
+                for each, thing in public_names(member):
+                    self.assertIn(f'id="hextwist.{name}.{each}"', page)
+                    self.assertIn(said(thing), shown)
+        for name in ("refine", "take", "put", "Link.tags"):
+            self.assertIn(f'id="hextwist.gmsh.{name}"', page)
+        self.assertIn("(commands: str) -> bool", shown)
+        for nothing in ("_core", str(pathlib.Path.home()) + "/", "built-in function", "object at 0x"):
+            self.assertFalse(nothing in shown, nothing)
 
     def test_of_what_can_fail_say_what_is_raised(self):
         for of in (hextwist.Mesh, hextwist.Session):

@@ -34,7 +34,6 @@ class Link:
     then put(); model: the name of Gmsh's model."""
 
     def __init__(self, session: _core.Session, model: str, link: _core.GmshLink) -> None:
-        """For take()."""
         self.session = session
         self.model = model
         self._link = link
