@@ -26,12 +26,26 @@ struct LaneVec {
 
   HEXTWIST_LANES LaneVec operator-(const LaneVec& b) const { return {x - b.x, y - b.y, z - b.z}; }
   HEXTWIST_LANES LaneVec operator+(const LaneVec& b) const { return {x + b.x, y + b.y, z + b.z}; }
-  HEXTWIST_LANES Lanes<N> squared() const { return x * x + y * y + z * z; }
+  HEXTWIST_LANES Lanes<N> squared() const {
+    // In steps, here and below: longer expressions are calls of Eigen.
+    Lanes<N> sum = x * x;
+    sum += y * y;
+    sum += z * z;
+    return sum;
+  }
 };
 
 template <int N>
 HEXTWIST_LANES Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
-  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+  const auto cofactor = [](const Lanes<N>& p, const Lanes<N>& q, const Lanes<N>& r, const Lanes<N>& s) {
+    Lanes<N> result = p * q;
+    result -= r * s;
+    return result;
+  };
+  Lanes<N> sum = a.x * cofactor(b.y, c.z, b.z, c.y);
+  sum += a.y * cofactor(b.z, c.x, b.x, c.z);
+  sum += a.z * cofactor(b.x, c.y, b.y, c.x);
+  return sum;
 }
 
 template <int N>

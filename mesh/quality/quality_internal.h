@@ -31,7 +31,10 @@ inline constexpr double unbounded = 1e30;
 
 template <int N>
 HEXTWIST_LANES Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  Lanes<N> sum = a.x * b.x;
+  sum += a.y * b.y;
+  sum += a.z * b.z;
+  return sum;
 }
 template <int N>
 HEXTWIST_LANES LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
