@@ -29,7 +29,8 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
 constexpr std::size_t most_body = 256 * 1024, most_sessions = 8, most_command = 100000, most_line = 4000;
-constexpr auto idle_time = std::chrono::hours(2);
+// Tabs that are there ask at least every 15 s. One that was closed may be opened again, unless there are too many.
+constexpr std::chrono::seconds idle_time = std::chrono::hours(2), left_time = 60s;
 constexpr int n_threads_of_server = 4 * most_sessions;
 
 std::string random_text() {
@@ -89,7 +90,7 @@ class Server {
     std::jthread listener([this] { http_.listen_after_bind(); });
     while (!take_interrupt() && !ending_signal()) {
       std::this_thread::sleep_for(100ms);
-      end_idle_sessions();
+      end_sessions_unseen_for(idle_time);
     }
     {
       const std::lock_guard lock(mutex_);
@@ -121,11 +122,16 @@ class Server {
     return "";
   }
 
-  void end_idle_sessions() {
-    std::vector<std::shared_ptr<LiveSession>> ended;
+  std::size_t n_sessions() {
+    const std::lock_guard lock(mutex_);
+    return sessions_.size();
+  }
+
+  void end_sessions_unseen_for(std::chrono::seconds time) {
+    std::vector<std::shared_ptr<LiveSession>> ended;  // outlives the lock: ending one may take a moment
     const std::lock_guard lock(mutex_);
     std::erase_if(sessions_, [&](const auto& each) {
-      if (std::chrono::steady_clock::now() - each.second->last_seen() < idle_time) return false;
+      if (std::chrono::steady_clock::now() - each.second->last_seen() < time) return false;
       ended.push_back(each.second);
       return true;
     });
@@ -156,6 +162,7 @@ class Server {
     std::string id = body.contains("id") && body["id"].is_string() ? body["id"].get<std::string>() : "";
     const bool is_known = !id.empty() && session(id);
     if (!is_known) {
+      if (n_sessions() >= most_sessions) end_sessions_unseen_for(left_time);
       const std::lock_guard lock(mutex_);
       if (sessions_.size() >= most_sessions)
         return refuse(response, 429, "there are " + std::to_string(most_sessions) + " sessions already: close a tab");
@@ -191,8 +198,14 @@ class Server {
                                          "form-action 'none'"}})
         response.set_header(name, value);
       const std::string why = refusal(request);
-      if (why.empty()) return httplib::Server::HandlerResponse::Unhandled;
-      refuse(response, 403, why);
+      if (!why.empty())
+        refuse(response, 403, why);
+      else if (request.has_header("Transfer-Encoding"))
+        refuse(response, 411, "the length of a request must be said");  // the library limits no other ones
+      else
+        return httplib::Server::HandlerResponse::Unhandled;
+      // What follows the head was not read: it must not be taken for another request.
+      response.set_header("Connection", "close");
       return httplib::Server::HandlerResponse::Handled;
     });
     http_.set_error_handler([](const httplib::Request&, httplib::Response& response) {

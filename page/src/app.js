@@ -12,7 +12,7 @@ import { Pane, Stage } from './stage.js';
 const element = (id) => document.getElementById(id);
 const kindsToPick = [['geometry', 'auto'], ['vertex'], ['curve'], ['surface'], ['volume'], ['node'], ['edge'], ['face'], ['hex'], ['block'], ['sheet'], ['nodeset'], ['sideset']];
 const themes = {
-  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#d9480f', hint: '#2563c9', plain: [205, 211, 220], label: 'rgba(29,36,48,0.88)', labelText: '#fff', edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
+  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#d9480f', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
   dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
 };
 

@@ -84,6 +84,52 @@ export function someQuads(quads, which) {
   return out;
 }
 
+/**
+ * Fewer quads that look much the same from afar: corners are moved together in the cells of a grid, and quads that become
+ * lines, or the same as others, are left out. source: per quad the one that it comes of.
+ */
+export function coarseQuads(quads, most) {
+  const { n, corner, points, offset } = quads;
+  let low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < 4 * n; ++i)
+    for (let k = 0; k < 3; ++k) {
+      const v = points[3 * corner[i] + k] + (offset ? offset[3 * (i >> 2) + k] : 0);
+      if (v < low[k]) low[k] = v;
+      if (v > high[k]) high[k] = v;
+    }
+  const size = Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2]) || 1;
+  for (let cells = 128; cells >= 8; cells = Math.floor(cells * 0.7)) {
+    const places = new Map(), sums = [], cellOf = new Uint32Array(4 * n);
+    for (let i = 0; i < 4 * n; ++i) {
+      const p = [0, 1, 2].map((k) => points[3 * corner[i] + k] + (offset ? offset[3 * (i >> 2) + k] : 0));
+      const key = p.reduce((sum, v, k) => sum * 512 + Math.floor((cells * 0.9999 * (v - low[k])) / size), 0);
+      let at = places.get(key);
+      if (at === undefined) {
+        places.set(key, (at = sums.length / 4));
+        sums.push(0, 0, 0, 0);
+      }
+      for (let k = 0; k < 3; ++k) sums[4 * at + k] += p[k];
+      ++sums[4 * at + 3];
+      cellOf[i] = at;
+    }
+    const seen = new Set(), kept = [];
+    for (let q = 0; q < n; ++q) {
+      const c = [cellOf[4 * q], cellOf[4 * q + 1], cellOf[4 * q + 2], cellOf[4 * q + 3]], sorted = [...c].sort((a, b) => a - b);
+      if (new Set(c).size < 3) continue;
+      const key = sorted.join();
+      if (seen.has(key)) continue;
+      seen.add(key);
+      kept.push(q);
+    }
+    if (kept.length > most) continue;
+    const out = new Quads(kept.length, new Float32Array(places.size * 3));
+    for (let i = 0; i < places.size; ++i) for (let k = 0; k < 3; ++k) out.points[3 * i + k] = sums[4 * i + k] / sums[4 * i + 3];
+    kept.forEach((q, i) => { for (let k = 0; k < 4; ++k) out.corner[4 * i + k] = cellOf[4 * q + k]; });
+    return { quads: out, source: kept };
+  }
+  return null;
+}
+
 export function quadGeometry(quads) {
   const { n, corner, points, offset } = quads;
   const position = new Float32Array(12 * n), index = new Uint32Array(6 * n);

@@ -35,11 +35,15 @@ void main() {
   vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
   // Light comes from the left above the eye; both sides are alike.
   float shade = 0.70 + 0.32 * max(0.0, dot(normal, normalize(vec3(-0.25, 0.45, 0.9))));
+#ifdef PLAIN
+  float edge = 0.0;
+#else
   vec2 wide = fwidth(at);
   vec2 near = min(at, 1.0 - at) / max(wide, vec2(1e-6));
   float edge = 1.0 - smoothstep(0.4, 1.25, min(near.x, near.y));
   // Edges of small quads fade: they would cover everything.
   edge *= lines * clamp(1.35 - 4.5 * max(wide.x, wide.y), 0.0, 1.0);
+#endif
   vec3 base = colour.rgb * mix(1.0, shade, lit);
   result = vec4(mix(base, ink, edge), opacity * colour.a);
 }`;
@@ -47,9 +51,9 @@ void main() {
 export const noClip = () => new THREE.Vector4(0, 0, 0, 1);
 
 export function quadMaterial(options = {}) {
-  const { opacity = 1, lines = 0.55, lit = 1, offset = 1, onTop = false } = options;
+  const { opacity = 1, lines = 0.55, lit = 1, offset = 1, onTop = false, isPlain = false } = options;
   return new THREE.RawShaderMaterial({
-    glslVersion: THREE.GLSL3, vertexShader, fragmentShader, side: THREE.DoubleSide,
+    glslVersion: THREE.GLSL3, vertexShader, fragmentShader, side: THREE.DoubleSide, defines: isPlain ? { PLAIN: 1 } : {},
     transparent: opacity < 1, depthWrite: opacity === 1, depthTest: !onTop,
     polygonOffset: true, polygonOffsetFactor: offset, polygonOffsetUnits: offset,
     uniforms: {

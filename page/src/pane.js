@@ -1,16 +1,15 @@
 // One mesh in the picture: its quads, what the plane cuts, the CAD, and what is picked.
 import * as THREE from 'three';
-import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
-import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { MeshBVH } from 'three-mesh-bvh';
-import { hexQuads, quadGeometry, section, skinQuads, someQuads, subsetQuads, twistPlane } from './display.js';
+import { coarseQuads, hexQuads, quadGeometry, section, skinQuads, someQuads, subsetQuads, twistPlane } from './display.js';
+import { lineMesh } from './lines.js';
 import { cadMaterial, noClip, quadMaterial } from './materials.js';
 
 THREE.ColorManagement.enabled = false;  // colours are those of the screen throughout
 
 const thinLines = 20000;  // segments: beyond that lines are one pixel wide
 const mostMarked = 60000; // quads
+const mostMoving = 9000;  // quads, where there is no graphics card
 
 
 
@@ -32,6 +31,7 @@ export class Pane {
       this.root.add(object);
     }
     this.cad.visible = false;
+    this.coarse = null;       // what is drawn while the eye moves, where drawing is slow
     this.shown = null;        // per hex, null: all
     this.values = null;
     this.setQuads(skinQuads(scene));
@@ -42,7 +42,40 @@ export class Pane {
     this.faces.geometry.dispose();
     this.faces.geometry = quadGeometry(quads);
     this.bvh = null;
-    this.quadsOfHex_ = null;
+    this.dropCoarse();
+  }
+
+  dropCoarse() {
+    if (this.coarse) {
+      this.root.remove(this.coarse);
+      this.coarse.geometry.dispose();
+      this.coarse.material.dispose();
+    }
+    this.coarse = this.coarseSource = null;
+  }
+  makeCoarse() {
+    if (this.coarse || this.quads.n <= mostMoving) return;
+    const made = coarseQuads(this.quads, mostMoving);
+    if (!made) return;
+    this.coarse = new THREE.Mesh(quadGeometry(made.quads), quadMaterial({ lines: 0, isPlain: true }));
+    this.coarse.frustumCulled = false;
+    this.coarse.visible = false;
+    this.coarseSource = made.source;
+    this.root.add(this.coarse);
+    this.tintCoarse();
+  }
+  tintCoarse() {
+    if (!this.coarse) return;
+    const from = this.faces.geometry.getAttribute('tint').array, tint = this.coarse.geometry.getAttribute('tint');
+    this.coarseSource.forEach((q, i) => tint.array.set(from.subarray(16 * q, 16 * q + 16), 16 * i));
+    tint.needsUpdate = true;
+    this.coarse.material.uniforms.clip.value.copy(this.faces.material.uniforms.clip.value);
+  }
+  /** Before a frame: is it one of many? */
+  prepare(isMoving) {
+    if (!this.coarse) return;
+    this.coarse.visible = isMoving && this.faces.visible;
+    this.faces.layers.set(this.coarse.visible ? 1 : 0);
   }
 
   tree() {
@@ -134,6 +167,7 @@ export class Pane {
       }
     }
     tint.needsUpdate = true;
+    this.tintCoarse();
     if (!this.cut) return;
     const cut = this.section.geometry.getAttribute('tint'), { hexOf } = this.cut, inside = this.scene.insideNow;
     for (let i = 0; i < hexOf.length; ++i) {
@@ -154,13 +188,7 @@ export class Pane {
       geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
       return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, depthTest: !onTop, transparent: onTop }));
     }
-    const geometry = new LineSegmentsGeometry();
-    geometry.setPositions(positions);
-    const material = new LineMaterial({ color: colour, linewidth: width, depthTest: !onTop, transparent: onTop, alphaToCoverage: false });
-    material.toneMapped = false;
-    const object = new LineSegments2(geometry, material);
-    object.frustumCulled = false;
-    return object;
+    return lineMesh(positions, colour, width, onTop);
   }
   dots(positions, colour, size, onTop = true) {
     const geometry = new THREE.BufferGeometry();
@@ -217,17 +245,6 @@ export class Pane {
       mesh.frustumCulled = false;
       this.planes.add(mesh);
     });
-  }
-
-  get quadsOfHex() {
-    if (this.quadsOfHex_) return this.quadsOfHex_;
-    const map = new Map();
-    for (let q = 0; q < this.quads.n; ++q) {
-      const list = map.get(this.quads.hex[q]);
-      if (list) list.push(q);
-      else map.set(this.quads.hex[q], [q]);
-    }
-    return (this.quadsOfHex_ = map);
   }
 
   /** Places of what these entities are made of: { quads | segments | points }. positions: 0-based. */
@@ -350,6 +367,7 @@ export class Pane {
     if (shape.points?.length) group.add(this.dots(shape.points, colour, strong ? 12 : 10));
   }
   dispose() {
+    this.dropCoarse();
     for (const group of [this.curves, this.marks, this.hints, this.planes]) this.clear(group);
     for (const object of [this.faces, this.section, this.sectionLines, this.cad]) { object.geometry.dispose(); object.material.dispose(); }
   }

@@ -6,6 +6,14 @@ import { Pane } from './pane.js';
 
 const most = { labels: 400, tried: 4000 };
 
+/** Is there no graphics card? Then every pixel costs. */
+function drawsBySoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2'), info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class Stage {
   /** on: { hover(found), pick(found, add), area(kind, hexes, add), frame() } */
   constructor(canvas, over, theme, on) {
@@ -19,7 +27,8 @@ export class Stage {
     this.labelKind = null;
     this.kind = 'geometry';
     this.through = false;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.isSlow = drawsBySoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.isSlow, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;  // colours are those of the screen already
     this.renderer.autoClear = false;
     this.frames = 0;
@@ -32,12 +41,13 @@ export class Stage {
     const { clientWidth: w, clientHeight: h } = this.canvas.parentElement;
     this.width = Math.max(1, w);
     this.height = Math.max(1, h);
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const ratio = (this.ratio = Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.width, this.height, false);
     this.over.width = this.width * ratio;
     this.over.height = this.height * ratio;
-    this.over.getContext('2d').setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.pen = this.over.getContext('2d', { willReadFrequently: this.isSlow });  // then it is drawn without the card that is not there
+    this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.draw();
   }
 
@@ -57,13 +67,16 @@ export class Stage {
   render() {
     if (!this.panes.length) return;
     const { renderer } = this, w = this.paneWidth;
-    const camera = this.eye.update(w / this.height);
+    const camera = this.eye.update(w / this.height), isMoving = this.isSlow && this.moved();
+    const ratio = isMoving && this.panes.some((pane) => pane.quads.n > 2000) ? 0.6 * this.ratio : this.ratio;
+    if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
     renderer.setClearColor(this.theme.back, 1);
     renderer.setScissorTest(true);
     this.panes.forEach((pane, i) => {
       renderer.setViewport(i * w, 0, w, this.height);
       renderer.setScissor(i * w, 0, w, this.height);
       renderer.clear();
+      pane.prepare(isMoving);
       renderer.render(pane.root, camera);
     });
     ++this.frames;
@@ -71,8 +84,21 @@ export class Stage {
     this.on.frame?.();
   }
 
+  /** Has the eye moved since the frame before? Then all details come a moment after it has stopped. */
+  moved() {
+    const { eye } = this, now = [eye.azimuth, eye.elevation, eye.height, ...eye.target.toArray(), this.width, this.panes.length].join();
+    const has = this.eyeBefore !== undefined && this.eyeBefore !== now;
+    this.eyeBefore = now;
+    if (has) {
+      for (const pane of this.panes) pane.makeCoarse();
+      clearTimeout(this.settle);
+      this.settle = setTimeout(() => this.draw(), 180);
+    }
+    return has;
+  }
+
   drawOver(camera) {
-    const pen = this.over.getContext('2d'), w = this.paneWidth;
+    const { pen } = this, w = this.paneWidth;
     pen.clearRect(0, 0, this.width, this.height);
     this.drawAxes(pen, camera);
     if (this.labelPoints) this.drawLabels(pen, camera);

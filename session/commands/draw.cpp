@@ -17,7 +17,7 @@ namespace hextwist {
 namespace {
 
 constexpr Colour curve_colour = {50, 50, 60}, chosen_colour = {200, 30, 30}, plain_colour = {225, 228, 232};
-constexpr std::size_t max_legend_rows = 20;
+constexpr std::size_t max_legend_rows = 20, most_drawn = 20000;
 
 Vec3 view_of(const Command& command) {
   if (!command.has("from")) return {1, -1, 0.7};
@@ -197,7 +197,23 @@ void draw_picture(Execution& run, io::Output& out) {
   const Item* width = command.find("width");
   const int w = width ? static_cast<int>(width->number) : 1200;
   const int h = width ? static_cast<int>(command.find("height")->number) : 900;
-  out << png(render(picture, w, h), w, h);
+  const std::string& file = command.find("file")->text;
+  const std::string extension = lower_extension(file);
+  if (extension == ".svg") {
+    if (picture.facets.size() > most_drawn)
+      throw Error("a drawing of " + counted(static_cast<std::int64_t>(picture.facets.size()), EntityKind::face) +
+                  " is too large for .svg, which takes " + std::to_string(most_drawn) + ": write a .png");
+    out << svg(picture, w, h);
+  } else if (extension == ".gif") {
+    std::string before;
+    if (command.has("append") && std::filesystem::exists(file)) {
+      const io::Bytes bytes = io::read_bytes(file);
+      before.assign(bytes.data.get(), bytes.size);
+    }
+    out << gif(before, render(picture, w, h), w, h);
+  } else {
+    out << png(render(picture, w, h), w, h);
+  }
   for (std::size_t i = 0; i < std::min(picture.legend.size(), max_legend_rows) && picture.metric.empty(); ++i)
     run.say("  " + picture.legend[i].text + ": " + row_colour_name(i));
   run.say(command.find("file")->text + ": " +
@@ -229,18 +245,20 @@ void do_draw(Execution& run) {
   need_mesh(run, "to draw");
   const Item& file = *command.find("file");
   const std::string extension = lower_extension(file.text);
-  const bool is_png = extension == ".png";
-  if (!is_png && extension != ".html" && extension != ".htm")
+  const bool is_page = extension == ".html" || extension == ".htm";
+  if (!is_page && extension != ".png" && extension != ".svg" && extension != ".gif")
     throw error_at(command.statement, file.token,
-                   "pictures end in .png or .html, not in '" + printable(extension) + "'");
-  check_file(run, file, ".png .html .htm");
-  if (!is_png) page_text();  // better said before the work
+                   "pictures end in .png, .svg, .gif or .html, not in '" + printable(extension) + "'");
+  check_file(run, file, ".png .svg .gif .html .htm");
+  if (command.has("append") && extension != ".gif")
+    throw error_at(command.statement, file.token, "only a .gif takes further pictures");
+  if (is_page) page_text();  // better said before the work
   run.stage("draw");
-  io::Output out(file.text, command.has("overwrite"));
-  if (is_png)
-    draw_picture(run, out);
-  else
+  io::Output out(file.text, command.has("overwrite") || command.has("append"));
+  if (is_page)
     draw_page(run, out);
+  else
+    draw_picture(run, out);
   out.commit();
 }
 

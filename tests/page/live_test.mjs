@@ -114,7 +114,7 @@ test('the prompt completes words and ids, and remembers', async () => {
 test('a long command shows its progress and is cancelled', async () => {
   const page = await open(browser, address);
   await command(page, 'create brick x 10 interval 30');
-  await page.fill('#prompt', 'smooth volume all iterations 10000 scheme condition number');
+  await page.fill('#prompt', 'refine hex 1 to 20000 smooth');
   await page.press('#prompt', 'Enter');
   await page.waitForFunction(() => hextwist.live.running && document.getElementById('stage-now').textContent !== '');
   assert.equal(await page.isDisabled('#undo'), true);
@@ -171,8 +171,8 @@ test('a lost connection is said, and the session goes on when it is back', async
 });
 
 /** A request as no browser would send it: { status, body }. */
-function ask(path, { method = 'GET', headers = {}, body } = {}) {
-  const { hostname, port, searchParams } = new URL(address), token = searchParams.get('token');
+function ask(path, { method = 'GET', headers = {}, body } = {}, at = address) {
+  const { hostname, port, searchParams } = new URL(at), token = searchParams.get('token');
   return new Promise((resolve, reject) => {
     const sent = request({ hostname, port, path, method, headers: { 'X-Hextwist-Token': token, ...headers } }, (response) => {
       let text = '';
@@ -180,13 +180,13 @@ function ask(path, { method = 'GET', headers = {}, body } = {}) {
       response.on('end', () => resolve({ status: response.statusCode, body: text, headers: response.headers }));
     });
     sent.on('error', reject);
-    if (body !== undefined) sent.write(body);
-    sent.end();
+    sent.end(body);
   });
 }
 
 test('what does not come from the page is refused', async () => {
-  const { status: fine, body } = await ask('/session', { method: 'POST', body: '{}' });
+  const other = await serve(model('bracket')), address = other.address;
+  const { status: fine, body } = await ask('/session', { method: 'POST', body: '{}' }, address);
   assert.equal(fine, 200);
   const { id } = JSON.parse(body), port = new URL(address).port;
   const cases = [
@@ -212,15 +212,16 @@ test('what does not come from the page is refused', async () => {
     [400, '/run', { method: 'POST', body: Buffer.from([0x7b, 0x22, 0xff, 0xfe, 0x22]) }, /not a JSON object/],
     [413, '/run', { method: 'POST', body: JSON.stringify({ id, text: 'x'.repeat(150000) }) }, /at most 100000 characters/],
     [413, '/run', { method: 'POST', body: 'x'.repeat(400000) }, /larger than/],
+    [411, '/run', { method: 'POST', body: '{}', headers: { 'Transfer-Encoding': 'chunked' } }, /length of a request/],
     [400, '/complete', { method: 'POST', body: JSON.stringify({ id, line: 'x'.repeat(9000) }) }, /no line/],
   ];
   await new Promise((resolve) => setTimeout(resolve, 1500));  // until its files are read
   for (const [status, path, options, text] of cases) {
-    const answer = await ask(path, options).catch((error) => ({ status: 413, body: `larger than: ${error.code}` }));  // hung up on
+    const answer = await ask(path, options, address).catch((error) => ({ status: 413, body: `larger than: ${error.code}` }));  // hung up on
     assert.equal(answer.status, status, `${path} ${JSON.stringify(options).slice(0, 120)}: ${answer.body.slice(0, 200)}`);
     assert.match(answer.body, text, path);
   }
-  const { headers } = await ask('/', { headers: {} });
+  const { headers } = await ask('/', { headers: {} }, address);
   assert.match(headers['content-security-policy'], /default-src 'none'.*connect-src 'self'.*frame-ancestors 'none'/);
   assert.equal(headers['access-control-allow-origin'], undefined);
   // The page of another origin gets nothing, in a real browser too.
@@ -233,19 +234,22 @@ test('what does not come from the page is refused', async () => {
   const response = await wrong.goto(address.replace(/token=./, 'token=x'));
   assert.equal(response.status(), 403);
   await wrong.close();
-});
-
-test('there are no more sessions than eight', async () => {
+  // None of that has ended it or its session.
+  assert.equal((await ask(`/events?id=${id}&since=0`, {}, address)).status, 200);
+  // No more sessions than eight, while those that there are have been seen of late.
   let last;
-  for (let i = 0; i < 9; ++i) last = await ask('/session', { method: 'POST', body: '{}' });
+  for (let i = 0; i < 8; ++i) last = await ask('/session', { method: 'POST', body: '{}' }, address);
   assert.equal(last.status, 429);
   assert.match(last.body, /there are 8 sessions already/);
+  const end = ended(other.child);
+  other.child.kill('SIGINT');
+  assert.equal(await end, 0);
 });
 
 test('a command may take so long and no longer; an address that is taken is an error', async () => {
   const other = await serve(['--time-limit', '0.5']);
   const page = await open(browser, other.address);
-  await command(page, 'create brick x 10 interval 30; smooth volume all iterations 10000 scheme condition number');
+  await command(page, 'create brick x 10 interval 30; refine hex 1 to 20000 smooth');
   assert.match(await log(page), /cancelled: it took more than 0.5 s/);
   assert.equal(await hexes(page), 27000);
   await page.close();

@@ -208,11 +208,72 @@ TEST(Draw, a_page_stands_by_itself) {
   EXPECT_NE(f.all_output().find("8 hexes"), std::string::npos);
 }
 
+TEST(Draw, a_drawing_has_an_area_for_each_face) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 2 name '<&>'; block 2 hex 3");
+  const auto file = folder() / "a.svg";
+  f.session.run("draw quality shape from 0 -1 0 pixels 300 200 to '" + file.string() + "'");
+  const std::string drawing = content(file);
+  const auto n = [&](const std::string& what) {
+    int result = 0;
+    for (std::size_t at = drawing.find(what); at != std::string::npos; at = drawing.find(what, at + 1)) ++result;
+    return result;
+  };
+  EXPECT_TRUE(drawing.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"300\" height=\"200\""));
+  EXPECT_TRUE(drawing.ends_with("</svg>\n"));
+  EXPECT_EQ(n("<polygon "), 24);
+  EXPECT_EQ(n(">shape</text>"), 1);
+  // The front is drawn last: a square of 92% of the height in the middle.
+  const std::size_t last = drawing.rfind("<polygon points=\"");
+  EXPECT_NE(drawing.substr(last, 60).find("150.00,"), std::string::npos) << drawing.substr(last, 60);
+  f.session.run("draw to '" + file.string() + "' overwrite");
+  EXPECT_NE(content(file).find("block 1 '&lt;&amp;&gt;'"), std::string::npos);
+  EXPECT_NE(f.error("create brick x 2 interval 60; draw to '" + (folder() / "b.svg").string() + "'")
+                .find("a drawing of 21600 faces is too large for .svg, which takes 20000"),
+            std::string::npos);
+}
+
+TEST(Draw, a_moving_picture_gets_one_more) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2");
+  const auto file = folder() / "a.gif";
+  const std::string draw = "draw pixels 60 40 to '" + file.string() + "'";
+  if (const std::string said = f.error(draw); said != "no error") {
+    EXPECT_TRUE(said.starts_with("this program was built without giflib")) << said;
+    return;
+  }
+  EXPECT_NE(f.error(draw).find("exists already"), std::string::npos);
+  const std::string one = content(file);
+  EXPECT_EQ(one.substr(0, 3), "GIF");
+  EXPECT_EQ(one.back(), ';');
+  EXPECT_NE(one.find("NETSCAPE2.0"), std::string::npos);
+  f.session.run("refine hex 1; " + draw + " append; undo; " + draw + " append");
+  const std::string three = content(file);
+  // The first picture is there as it was, and the third is the same but for its place.
+  EXPECT_GT(three.size(), 2 * one.size());
+  // Width and height, lowest byte first.
+  EXPECT_EQ(three.substr(6, 4), std::string("\x3c\0\x28\0", 4));
+  int n = 0;
+  for (std::size_t at = three.find(std::string("\x21\xf9\x04", 3)); at != std::string::npos;
+       at = three.find(std::string("\x21\xf9\x04", 3), at + 1))
+    ++n;
+  EXPECT_EQ(n, 3) << "graphic control extensions";
+  EXPECT_EQ(f.error("draw pixels 50 40 to '" + file.string() + "' append"),
+            "the pictures in this file have 60 by 40 pixels, not 50 by 40");
+  EXPECT_EQ(content(file), three);
+  const auto no_gif = written("no.gif", "no picture at all");
+  EXPECT_EQ(f.error("draw to '" + no_gif.string() + "' append"), "this is not a GIF file to add a picture to");
+  std::ofstream(folder() / "half.gif", std::ios::binary) << three.substr(0, three.size() / 2);
+  EXPECT_EQ(f.error("draw pixels 60 40 to '" + (folder() / "half.gif").string() + "' append"),
+            "this is not a whole GIF file to add a picture to");
+  EXPECT_EQ(f.error("draw to 'a.png' append"), "only a .gif takes further pictures");
+}
+
 TEST(Draw, mistakes_leave_no_file) {
   Fixture f;
   EXPECT_TRUE(f.error("draw to 'a.png'").starts_with("there is no mesh to draw; read one"));
   f.session.run("create brick x 2 interval 2");
-  EXPECT_EQ(f.error("draw to 'a.jpg'"), "pictures end in .png or .html, not in '.jpg'");
+  EXPECT_EQ(f.error("draw to 'a.jpg'"), "pictures end in .png, .svg, .gif or .html, not in '.jpg'");
   const auto file = folder() / "a.png";
   EXPECT_EQ(f.error("draw from 0 0 0 to '" + file.string() + "'"), "this is not a direction to look from");
   EXPECT_FALSE(std::filesystem::exists(file));
