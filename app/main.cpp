@@ -55,8 +55,8 @@ std::string run(const Options& options, Session& session, Console& console) {
     return problem.empty();
   };
   if (options.threads > 0) attempt_step([&] { return session.run("set threads " + std::to_string(options.threads)); });
-  // A mesh is to be checked as it is.
-  if (options.check) attempt_step([&] { return session.run("set untangle off; set snap off"); });
+  // A mesh is to be checked, and converted, as it is.
+  if (options.check || options.convert) attempt_step([&] { return session.run("set untangle off; set snap off"); });
   // Without its input there is nothing to go on with.
   if (!options.cad.empty() && !attempt_step(once([&] { session.import_cad(options.cad); }))) return error;
   if (!options.mesh.empty() && !attempt_step(once([&] { session.import_mesh(options.mesh); }))) return error;
@@ -67,6 +67,11 @@ std::string run(const Options& options, Session& session, Console& console) {
   if (options.view) {
     attempt_step(
         once([&] { write_view(options, session, [](const std::string& line) { std::cout << line << "\n"; }); }));
+    return error;
+  }
+  if (options.convert) {
+    if (options.order > 0) attempt_step([&] { return session.run("set order " + std::to_string(options.order)); });
+    attempt_step(once([&] { session.export_mesh(options.output); }));
     return error;
   }
   if (options.safe) attempt_step([&] { return session.run("set safe on"); });

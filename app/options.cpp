@@ -18,7 +18,8 @@ constexpr const char* description =
     "the\n"
     "result to OUT when all of them succeeded. Without commands it is interactive; when standard input is not a\n"
     "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh,\n"
-    "'hextwist view MESH [--cad FILE]' makes a page that shows it, 'hextwist serve [FILES]' is a page with a prompt.\n";
+    "'hextwist view MESH [--cad FILE]' makes a page that shows it, 'hextwist serve [FILES]' is a page with a prompt,\n"
+    "'hextwist convert MESH OUT [--order 2]' writes it in another format.\n";
 
 bool is_journal(const std::string& name) {
   return lower_extension(name) == ".jou";
@@ -93,9 +94,33 @@ int read_serve(int argc, char** argv, Options& options) {
   return -1;
 }
 
+/// Better now than after an hour of work.
+int check_output(const Options& options) {
+  const std::string extension = lower_extension(options.output);
+  if (extension.empty() || (" " + writable_extensions() + " ").find(" " + extension + " ") == std::string::npos)
+    return wrong(options.output.string() + ": unknown format to write; extensions are " + writable_extensions());
+  return -1;
+}
+
+int read_convert(int argc, char** argv, Options& options) {
+  CLI::App app("Writes a mesh in another format, by the extensions of the files: " + writable_extensions() +
+                   ". What the format can't say is told.",
+               "hextwist convert");
+  app.add_option("MESH", options.mesh, "mesh to read: " + readable_extensions())->required();
+  app.add_option("OUT", options.output, "file to write")->required();
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("--order", options.order, "of the hexes: 2 with middle nodes; default: as in MESH")
+      ->check(CLI::Range(1, 2));
+  app.add_option("--json", options.json, "write a report to this file");
+  options.convert = true;
+  const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); });
+  return status >= 0 ? status : check_output(options);
+}
+
 }  // namespace
 
 int read_options(int argc, char** argv, Options& options) {
+  if (argc > 1 && std::string_view(argv[1]) == "convert") return read_convert(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "view") return read_view(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "serve") return read_serve(argc, argv, options);
@@ -132,13 +157,7 @@ int read_options(int argc, char** argv, Options& options) {
       ++file;
     }
   }
-  if (!options.output.empty()) {
-    // Better now than after an hour of work.
-    const std::string extension = lower_extension(options.output);
-    if (extension.empty() || (" " + writable_extensions() + " ").find(" " + extension + " ") == std::string::npos)
-      return wrong(options.output.string() + ": unknown format to write; extensions are " + writable_extensions());
-  }
-  return -1;
+  return options.output.empty() ? -1 : check_output(options);
 }
 
 }  // namespace hextwist::app

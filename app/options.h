@@ -18,6 +18,8 @@ struct Options {
   bool keep_going = false;
   bool safe = false;                  ///< no command touches a file outside of the working folder
   bool check = false;                 ///< hextwist check MESH
+  bool convert = false;               ///< hextwist convert MESH OUT
+  int order = 0;                      ///< of OUT; 0: as MESH
   bool view = false;                  ///< hextwist view MESH: `output` is the page
   bool serve = false;                 ///< hextwist serve
   std::string address = "127.0.0.1";  ///< that it listens on

@@ -34,6 +34,21 @@ MeshFile read_vtu(const Bytes& bytes);
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                std::vector<std::string>& notices);
 
+MeshFile read_nastran(const Bytes& bytes);
+void write_nastran(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                   std::vector<std::string>& notices);
+MeshFile read_unv(const Bytes& bytes);
+void write_unv(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+               std::vector<std::string>& notices);
+/// file: case.foam, beside constant/polyMesh.
+MeshFile read_openfoam(const std::filesystem::path& file, const Fence& fence);
+void write_openfoam(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                    std::vector<std::string>& notices);
+/// Where the library is (HEXTWIST_HAS_MED).
+MeshFile read_med(const std::filesystem::path& file, const Fence& fence);
+void write_med(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+               std::vector<std::string>& notices);
+
 MeshFile read_exodus(const std::filesystem::path& file, const Fence& fence);
 /// Of the reader of HDF5 files: it writes them as classic NetCDF.
 inline constexpr const char* fenced_hdf5 = "hdf5";

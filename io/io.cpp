@@ -25,10 +25,24 @@ void write_whole(const std::filesystem::path& file, const Mesh& mesh, const Asso
   out.commit();
 }
 
-void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Association&, const WriteOptions& options,
-                  Notices& notices) {
-  io::write_exodus(file, mesh, options, notices);
+template <void (*write)(const std::filesystem::path&, const Mesh&, const WriteOptions&, Notices&)>
+void write_file(const std::filesystem::path& file, const Mesh& mesh, const Association&, const WriteOptions& options,
+                Notices& notices) {
+  write(file, mesh, options, notices);
 }
+constexpr auto write_exodus = write_file<io::write_exodus>;
+
+#ifdef HEXTWIST_HAS_MED
+constexpr auto read_med = io::read_med;
+constexpr auto write_med = write_file<io::write_med>;
+#else
+MeshFile read_med(const std::filesystem::path& file, const Fence&) {
+  throw Error(file.string() + ": this hextwist was built without MED (libmedc-dev)");
+}
+void write_med(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&) {
+  throw Error("this hextwist was built without MED (libmedc-dev)");
+}
+#endif
 
 struct Format {
   std::string_view extension, name;
@@ -45,6 +59,11 @@ constexpr Format formats[] = {
     {".gen", "genesis", {20, 27}, io::read_exodus, write_exodus},
     {".inp", "abaqus", {20, 27}, io::read_abaqus, write_whole<io::write_abaqus>},
     {".mesh", "medit", {0, 0}, read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".med", "med", {20, 27}, read_med, write_med},
+    {".bdf", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
+    {".nas", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
+    {".unv", "unv", {20, 20}, read_whole<io::read_unv>, write_whole<io::write_unv>},
+    {".foam", "openfoam", {0, 0}, io::read_openfoam, write_file<io::write_openfoam>},
     {".vtk", "vtk", {0, 0}, read_whole<io::read_vtk>, nullptr},
     {".vtu", "vtk", {20, 27}, read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };

@@ -17,6 +17,10 @@
 //   *SURFACE;
 //               parts and instances are read, their sets are named instance.set. All other cards (sections, materials,
 //               steps, ...) are kept, with the sets that they name (FileExtras). No owners, no fields
+//   .med        MED (SALOME, code_aster): groups, fields; needs libmedc
+//   .bdf .nas   Nastran bulk data: properties are blocks, SET1 node sets, PLOAD4 side sets; other cards are left out
+//   .unv        I-deas universal: groups
+//   .foam       OpenFOAM: constant/polyMesh beside it, text; patches and zones
 //   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
 //
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
@@ -55,10 +59,10 @@ struct MeshFile {
 /// elements, which count other elements too), nodes and hexes sorted by id; a notice says where they are not.
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
-/// format: "gmsh", "exodus", "genesis", "abaqus", "medit" or "vtk", whatever the file's name is. Default: by extension,
-/// and where that is none of those below by content, which tells Exodus (out.e-s002, mesh.e.4.0).
-/// fence: where Exodus files in the form of HDF5 are read, a library that damaged files can crash. Default: in this
-/// process.
+/// format: "gmsh", "exodus", "genesis", "abaqus", "medit", "vtk", "med", "nastran", "unv" or "openfoam", whatever the
+/// file's name is. Default: by extension, and where that is none of those below by content, which tells Exodus
+/// (out.e-s002, mesh.e.4.0). fence: where Exodus files in the form of HDF5 are read, a library that damaged files can
+/// crash. Default: in this process.
 MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
 /// How a file is written; what its format does not have is ignored.

@@ -35,6 +35,10 @@ std::string_view extensions_of(std::string_view word, bool writing) {
   if (word == "vtk") return writing ? ".vtu" : ".vtk .vtu";
   if (word == "abaqus") return ".inp";
   if (word == "medit") return ".mesh";
+  if (word == "med") return ".med";
+  if (word == "nastran") return ".bdf .nas";
+  if (word == "unv") return ".unv";
+  if (word == "openfoam") return ".foam";
   if (word == "step") return ".step .stp";
   if (word == "brep") return ".brep";
   if (word == "iges") return ".iges .igs";

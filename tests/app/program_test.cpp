@@ -232,6 +232,21 @@ TEST(Program, bytes_that_are_no_text_do_not_spoil_the_report) {
   EXPECT_EQ(report("a.json")["commands"].size(), 1u);
 }
 
+TEST(Program, convert_writes_a_mesh_in_another_format) {
+  ASSERT_EQ(run("-c 'create cylinder height 2 radius 1; block 1 volume 1 name \"rod\"' -o " + path("a.msh")).status, 0);
+  const Outcome outcome = run("convert " + path("a.msh") + " " + path("a.bdf") + " --order 2 --json " + path("a.json"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_mesh(path("a.bdf")).middles.nodes_per_hex, 20);
+  EXPECT_EQ(run("convert " + path("a.bdf") + " " + path("b.unv")).status, 0);
+  const MeshFile back = read_mesh(path("b.unv"));
+  EXPECT_EQ(back.middles.nodes_per_hex, 20);
+  EXPECT_EQ(back.mesh.blocks.at(0).name, "rod");
+  EXPECT_EQ(run("convert " + path("a.msh")).status, 2);
+  EXPECT_EQ(run("convert " + path("a.msh") + " " + path("a.stl")).status, 2);
+  EXPECT_EQ(run("convert " + path("none.msh") + " " + path("c.unv")).status, 1);
+  EXPECT_FALSE(std::filesystem::exists(path("c.unv")));
+}
+
 TEST(Program, check_tells_good_meshes_from_bad_ones) {
   Mesh mesh = test::grid(2, 2, 2);
   write_mesh(path("good.msh"), mesh, nullptr);

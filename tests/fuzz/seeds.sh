@@ -3,7 +3,7 @@
 set -euo pipefail
 program=$(readlink -f "$1") source=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$2" && cd "$2"
-mkdir -p gmsh abaqus medit vtk vtu exodus cad_text grammar engine
+mkdir -p gmsh abaqus medit vtk vtu exodus nastran unv cad_text grammar engine
 
 rich='create brick x 2 interval 1 2 1; block 1 hex 1 name "a"; block 2 hex 2; nodeset 3 surface 1 name "b"; sideset 4 surface 2 name "c"'
 for brick in 'create brick x 1 interval 1; block 7 volume 1' "$rich" "$rich; refine vertex 1"; do
@@ -11,7 +11,9 @@ for brick in 'create brick x 1 interval 1; block 7 volume 1' "$rich" "$rich; ref
   "$program" -c "$brick; export gmsh 'gmsh/$name.t41.msh' text overwrite; export gmsh 'gmsh/$name.b41.msh' overwrite
     export gmsh 'gmsh/$name.t22.msh' text version 2.2 overwrite; export gmsh 'gmsh/$name.b22.msh' version 2.2 overwrite
     export vtk 'vtu/$name.b.vtu' overwrite; export vtk 'vtu/$name.t.vtu' text overwrite; export abaqus 'abaqus/$name.inp' overwrite
-    export medit 'medit/$name.mesh' overwrite; export exodus 'exodus/$name.e' overwrite" > /dev/null
+    export medit 'medit/$name.mesh' overwrite
+    export nastran 'nastran/$name.bdf' overwrite; export nastran 'nastran/$name.2.bdf' order 2 overwrite
+    export unv 'unv/$name.unv' overwrite; export unv 'unv/$name.2.unv' order 2 overwrite; export exodus 'exodus/$name.e' overwrite" > /dev/null
 done
 for form in ASCII BINARY; do
   python3 - "$form" > "vtk/$form.vtk" <<'PY'

@@ -62,10 +62,10 @@ def by_gmsh(file):
     derivatives = 2 * numpy.array(values).reshape(len(places), n, 3).transpose(0, 2, 1)
     report(coordinates[[place_of[int(t)] for t in nodes[0]]].reshape(-1, n, 3), derivatives)
     # Quads and lines are of the same order.
-    for dim, kind in ((2, {20: 16, 27: 10}[n]), (1, 8)):
+    for dim, kind in ((2, {8: 3, 20: 16, 27: 10}[n]), (1, 1 if n == 8 else 8)):
         for entity in gmsh.model.getEntities(dim):
             found = gmsh.model.mesh.getElements(*entity)[0]
-            assert list(found) in ([], [kind]), (entity, found)
+            assert list(found) in ([], [kind]), (file, entity, found)
     gmsh.finalize()
 
 

@@ -1,0 +1,231 @@
+#include "hextwist/io/listing.h"
+
+#include <limits>
+
+#include "hextwist/base/sorted.h"
+
+namespace hextwist::io {
+
+void Listing::fail(const char* at, const std::string& what) const {
+  if (!at) throw Error(std::string(cursor_.name) + ": " + what);
+  cursor_.fail_at(at, what);
+}
+
+void Listing::add_node(std::int64_t id, const Vec3& point, const char* at) {
+  if (!point.allFinite()) fail(at, "a coordinate of node " + std::to_string(id) + " is not finite");
+  node_ids_.push_back(id);
+  node_at_.push_back(at);
+  out_.mesh.points.push_back(point);
+}
+
+void Listing::add_hex(std::int64_t id, int part, std::span<const std::int64_t> nodes, const MiddleOrder& order,
+                      const char* at) {
+  hexes_.ids.push_back(id);
+  hexes_.parts.push_back(part);
+  hexes_.at.push_back(at);
+  hexes_.nodes.insert(hexes_.nodes.end(), nodes.begin(), nodes.begin() + 8);
+  if (std::ranges::all_of(nodes.subspan(8), [](std::int64_t node) { return node == 0; })) return;
+  std::vector<std::int64_t> middles(FoundMiddles::width, 0);
+  for (std::size_t i = 8; i < nodes.size(); ++i) middles[static_cast<std::size_t>(order[i - 8])] = nodes[i];
+  hex_middles_.emplace_back(hexes_.ids.size() - 1, std::move(middles));
+}
+
+void Listing::add_quad(std::int64_t id, int part, std::span<const std::int64_t> corners, const char* at) {
+  quads_.ids.push_back(id);
+  quads_.parts.push_back(part);
+  quads_.at.push_back(at);
+  quads_.nodes.insert(quads_.nodes.end(), corners.begin(), corners.begin() + 4);
+}
+
+void Listing::drop(std::int64_t id, const std::string& type) {
+  ++n_dropped_[type];
+  dropped_ids_.push_back(id);
+}
+
+void Listing::refuse(std::int64_t id, const std::string& type, const char* at) const {
+  fail(at, "element " + std::to_string(id) + " is a " + type + "; only hexes of 8, 20 or 27 nodes are accepted");
+}
+
+Index Listing::node(std::int64_t id, std::int64_t element, const char* at) const {
+  const Index index = nodes_.find(id);
+  if (index < 0)
+    fail(at, "element " + std::to_string(element) + " names node " + std::to_string(id) + ", which is not there");
+  return index;
+}
+
+MeshFile Listing::result(bool parts_count_always) {
+  if (hexes_.ids.empty()) fail(cursor_.begin == cursor_.end ? nullptr : cursor_.end, "there is no hex in the file");
+  nodes_ =
+      Ids(std::move(node_ids_), "node", [&](std::size_t item, const std::string& what) { fail(node_at_[item], what); });
+  nodes_.sort(out_.mesh.points);
+  out_.mesh.node_ids = nodes_.stored();
+  assemble_hexes();
+  assemble_quads();
+  assemble_groups(parts_count_always);
+  for (const auto& [type, n] : n_dropped_) note("dropped " + counted(n, "element") + " of type " + type);
+  if (!hex_middles_.empty()) {
+    FoundMiddles found;
+    std::vector<std::vector<Index>> in_order(hexes_.ids.size());
+    constexpr MiddleOrder as_it_is = [] {
+      MiddleOrder order{};
+      for (int i = 0; i < 19; ++i) order[i] = i;
+      return order;
+    }();
+    for (const auto& [hex, ids] : hex_middles_) {
+      std::vector<Index> nodes;
+      for (const std::int64_t id : ids) nodes.push_back(id == 0 ? -1 : node(id, hexes_.ids[hex], hexes_.at[hex]));
+      const bool faces = std::ranges::any_of(std::span(nodes).subspan(12), [](Index n) { return n >= 0; });
+      const auto place = hex_ids_.place().empty() ? hex : static_cast<std::size_t>(hex_ids_.place()[hex]);
+      found.add(place, std::span(nodes).first(faces ? 19 : 12), as_it_is);
+    }
+    found.finish(hexes_.ids.size());
+    take_middles(out_, found);
+  }
+  return std::move(out_);
+}
+
+void Listing::assemble_hexes() {
+  Mesh& mesh = out_.mesh;
+  hex_ids_ =
+      Ids(hexes_.ids, "element", [&](std::size_t item, const std::string& what) { fail(hexes_.at[item], what); });
+  mesh.hexes.resize(hexes_.ids.size());
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
+    for (std::size_t c = 0; c < 8; ++c)
+      mesh.hexes[h][file_corner[c]] = node(hexes_.nodes[8 * h + c], hexes_.ids[h], hexes_.at[h]);
+  part_of_hex_ = hexes_.parts;
+  hex_ids_.sort(mesh.hexes);
+  hex_ids_.sort(part_of_hex_);
+  mesh.hex_ids = hex_ids_.stored();
+}
+
+void Listing::assemble_quads() {
+  std::vector<Quad> cycles(quads_.ids.size());
+  for (std::size_t q = 0; q < cycles.size(); ++q) {
+    for (std::size_t c = 0; c < 4; ++c) cycles[q][c] = node(quads_.nodes[4 * q + c], quads_.ids[q], quads_.at[q]);
+    quad_of_id_.emplace_back(quads_.ids[q], static_cast<Index>(q));
+  }
+  std::ranges::sort(quad_of_id_);
+  quad_sides_ = oriented_sides(out_.mesh, cycles);
+  if (const auto lost = std::ranges::count(quad_sides_, -1, &Side::hex))
+    note("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") + " no side of a hex");
+}
+
+void Listing::assemble_groups(bool parts_count_always) {
+  Mesh& mesh = out_.mesh;
+  bool hexes_grouped = false, quads_grouped = false;
+  std::int64_t n_missing = 0, first_missing = 0;
+  const auto missing = [&](std::int64_t id) {
+    if (n_missing++ == 0) first_missing = id;
+  };
+  std::ranges::sort(dropped_ids_);
+  const auto put = [](auto& groups, const Group& from, const char* kind) -> auto& {
+    const auto taken = [&](int id) {
+      return std::ranges::find(groups, id, [](const auto& g) { return g.id; }) != groups.end();
+    };
+    const int own = generated_id(from.name, kind);
+    const bool generated = own >= 0 && !taken(own);
+    const int id = generated ? own : from.id;
+    auto& group = group_of_id(groups, taken(id) ? free_id(groups) : id);
+    if (!generated) group.name = from.name;
+    return group;
+  };
+  for (const Group& from : groups_) {
+    std::vector<Index> members, hexes;
+    std::vector<Side> sides;
+    for (const std::int64_t id : from.nodes)
+      if (const Index n = nodes_.find(id); n >= 0)
+        members.push_back(n);
+      else
+        missing(id);
+    for (const std::int64_t id : from.elements) {
+      if (const Index h = hex_ids_.find(id); h >= 0) {
+        hexes.push_back(h);
+      } else if (const auto q = std::ranges::lower_bound(quad_of_id_, std::pair(id, Index{0}));
+                 q != quad_of_id_.end() && q->first == id) {
+        if (quad_sides_[q->second].hex >= 0) sides.push_back(quad_sides_[q->second]);
+      } else if (!std::ranges::binary_search(dropped_ids_, id)) {
+        missing(id);
+      }
+    }
+    for (const auto& [id, face] : from.sides)
+      if (const Index h = hex_ids_.find(id); h >= 0)
+        sides.push_back({h, face});
+      else
+        missing(id);
+    for (const auto& [id, corners] : from.opposite) {
+      const Index h = hex_ids_.find(id);
+      if (h < 0) {
+        missing(id);
+        continue;
+      }
+      int face = -1;
+      for (int f = 0; f < n_hex_faces; ++f) {
+        const Quad q = face_nodes(mesh.hexes[h], f);
+        const Index a = nodes_.find(corners[0]), b = nodes_.find(corners[1]);
+        for (const auto& [i, j] : {std::pair(0, 3), std::pair(3, 0), std::pair(1, 2), std::pair(2, 1)})
+          if (q[i] == a && q[j] == b) face = f;
+      }
+      face < 0 ? missing(corners[0]) : sides.push_back({h, face});
+    }
+    sort_unique(members), sort_unique(hexes), sort_unique(sides);
+    hexes_grouped = hexes_grouped || !hexes.empty();
+    quads_grouped = quads_grouped || !sides.empty();
+    if (!members.empty() || from.empty_node_set) put(mesh.node_sets, from, "nodeset").nodes = std::move(members);
+    if (!hexes.empty() || from.empty_block) put(mesh.blocks, from, "block").hexes = std::move(hexes);
+    if (!sides.empty() || from.empty_side_set) put(mesh.side_sets, from, "sideset").sides = std::move(sides);
+  }
+  if (n_missing > 0)
+    note("groups name " + counted(n_missing, "node or element", "nodes or elements") +
+         " that are not there; the first is " + std::to_string(first_missing));
+  const auto name = [&](int part) {
+    const auto found = part_names_.find(part);
+    return found == part_names_.end() ? "" : found->second;
+  };
+  if (!hexes_grouped || parts_count_always) {
+    std::map<int, std::vector<Index>> of_part;
+    for (Index h = 0; h < mesh.n_hexes(); ++h)
+      if (part_of_hex_[h] > 0) of_part[part_of_hex_[h]].push_back(h);
+    for (auto& [part, hexes] : of_part) put(mesh.blocks, {part, name(part)}, "block").hexes = std::move(hexes);
+  }
+  if (!quads_grouped || parts_count_always) {
+    std::map<int, std::vector<Side>> of_part;
+    for (std::size_t q = 0; q < quad_sides_.size(); ++q)
+      if (quads_.parts[q] > 0 && quad_sides_[q].hex >= 0) of_part[quads_.parts[q]].push_back(quad_sides_[q]);
+    for (auto& [part, sides] : of_part) {
+      sort_unique(sides);
+      put(mesh.side_sets, {part, name(part)}, "sideset").sides = std::move(sides);
+    }
+  }
+}
+
+std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  std::vector<int> block(mesh.hexes.size(), -1);
+  Index n_more = 0;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (const Index h : mesh.blocks[b].hexes)
+      if (block[h] < 0)
+        block[h] = static_cast<int>(b);
+      else
+        ++n_more;
+  if (n_more > 0)
+    notices.push_back("blocks overlap, and a hex is in one only in " + std::string(format) + ": " +
+                      counted(n_more, "hex", "hexes") + (n_more == 1 ? " is" : " are") +
+                      " in the first of their blocks");
+  return block;
+}
+
+int generated_id(const std::string& name, std::string_view kind) {
+  if (!name.starts_with(kind) || name.size() < kind.size() + 2 || name[kind.size()] != '_') return -1;
+  int id = -1;
+  const auto [stop, error] = std::from_chars(name.data() + kind.size() + 1, name.data() + name.size(), id);
+  return error == std::errc{} && stop == name.data() + name.size() ? id : -1;
+}
+
+std::string plain_name(const std::string& name, std::size_t longest) {
+  std::string plain;
+  for (const char c : name.substr(0, longest))
+    plain += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
+  return plain;
+}
+
+}  // namespace hextwist::io

@@ -1,0 +1,84 @@
+// A mesh as many text formats list it: nodes and elements by ids, elements in numbered parts, groups of ids.
+//
+// A reader of such a format turns its lines into calls of this and has a mesh in the end; what the ids mean, what does
+// not fit and what is no hex is the same for all of them.
+#pragma once
+
+#include <deque>
+#include <map>
+
+#include "hextwist/io/middles.h"
+
+namespace hextwist::io {
+
+class Listing {
+ public:
+  /// Places (`at` below) are where an item stands in the file, for messages; null where that is not text.
+  explicit Listing(const Cursor& cursor) : cursor_(cursor) {}
+
+  void add_node(std::int64_t id, const Vec3& point, const char* at);
+  /// nodes: 8 corners in the order of the files and, as `order` has them, middle nodes; 0: there is none. part: the
+  /// block that it is in where no group has hexes, 0 none.
+  void add_hex(std::int64_t id, int part, std::span<const std::int64_t> nodes, const MiddleOrder& order,
+               const char* at);
+  /// The same for a quad, by its corners in cyclic order: a side of a hex, in the side set of its part.
+  void add_quad(std::int64_t id, int part, std::span<const std::int64_t> corners, const char* at);
+  /// Beams, triangles, masses, ...: counted, and told in the end.
+  void drop(std::int64_t id, const std::string& type);
+  /// Throws Error: a tetrahedron, say.
+  [[noreturn]] void refuse(std::int64_t id, const std::string& type, const char* at) const;
+
+  /// Members by id: of nodes a node set; of hexes a block; of quads, and of hexes with a face, a side set.
+  struct Group {
+    int id;
+    std::string name;
+    std::vector<std::int64_t> nodes = {}, elements = {};
+    std::vector<std::pair<std::int64_t, int>> sides = {};                             ///< hex and face (corners.h)
+    std::vector<std::pair<std::int64_t, std::array<std::int64_t, 2>>> opposite = {};  ///< hex, two opposite corners
+    bool empty_block = false, empty_node_set = false, empty_side_set = false;  ///< is one, even if without members
+  };
+  Group& add_group(int id, const std::string& name) { return groups_.emplace_back(Group{id, name}); }
+  /// Names of blocks and side sets that parts become.
+  void name_part(int part, const std::string& name) { part_names_[part] = name; }
+  void note(const std::string& line) { out_.notices.push_back(line); }
+
+  /// once: parts are blocks and side sets even where groups have hexes or quads.
+  MeshFile result(bool parts_count_always);
+
+ private:
+  struct Elements {
+    std::vector<std::int64_t> ids, nodes;
+    std::vector<int> parts;
+    std::vector<const char*> at;
+  };
+  [[noreturn]] void fail(const char* at, const std::string& what) const;
+  Index node(std::int64_t id, std::int64_t element, const char* at) const;
+  void assemble_hexes();
+  void assemble_quads();
+  void assemble_groups(bool parts_count_always);
+
+  const Cursor& cursor_;
+  MeshFile out_;
+  std::vector<std::int64_t> node_ids_;
+  std::vector<const char*> node_at_;
+  Elements hexes_, quads_;
+  std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> hex_middles_;  // as MiddleOrder counts them
+  std::map<std::string, std::int64_t> n_dropped_;
+  std::vector<std::int64_t> dropped_ids_;
+  std::deque<Group> groups_;
+  std::map<int, std::string> part_names_;
+  Ids nodes_, hex_ids_;
+  std::vector<std::pair<std::int64_t, Index>> quad_of_id_;  // ascending
+  std::vector<Side> quad_sides_;
+  std::vector<int> part_of_hex_;
+};
+
+/// For writers of formats where a hex is in one group only: per hex the position of its first block, -1 none; a notice
+/// where hexes are in several.
+std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
+/// What writers call groups without a name, "block_3": its id; -1 for all else.
+int generated_id(const std::string& name, std::string_view kind);
+/// A name on one line, of letters that every program takes.
+std::string plain_name(const std::string& name, std::size_t longest);
+
+}  // namespace hextwist::io

@@ -1,0 +1,187 @@
+// MED through its library: blocks and side sets are groups of elements, node sets groups of nodes; who is in the same
+// groups is a family.
+#include "hextwist/base/replacement.h"
+#include "hextwist/io/med/med_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+constexpr const char* mesh_name = "mesh";
+
+class Writer {
+ public:
+  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, std::vector<std::string>& notices)
+      : replacement_(file), mesh_(mesh), second_(second), notices_(notices), file_(file.temporary(), MED_ACC_CREAT) {
+    if (file_.id() < 0) fail();
+  }
+
+  void write() {
+    check(MEDmeshCr(file_.id(), mesh_name, 3, 3, MED_UNSTRUCTURED_MESH,
+                    med_text("hextwist", MED_COMMENT_SIZE + 1).c_str(), med_text("", MED_SNAME_SIZE + 1).c_str(),
+                    MED_SORT_DTIT, MED_CARTESIAN, axes("x", "y", "z").c_str(), axes("", "", "").c_str()));
+    check(MEDfamilyCr(file_.id(), mesh_name, "FAMILLE_ZERO", 0, 0, ""));
+    nodes();
+    hexes();
+    quads();
+    fields();
+    if (!file_.close()) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const { replacement_.fail("cannot be written (disk full?)"); }
+  void check(med_err status) const {
+    if (status < 0) fail();
+  }
+  static std::string axes(const char* x, const char* y, const char* z) {
+    std::string result;
+    for (const char* name : {x, y, z}) {
+      std::string text(name);
+      text.resize(MED_SNAME_SIZE, ' ');
+      result += text;
+    }
+    return result;
+  }
+
+  /// Names of groups: 80 characters.
+  template <class Groups>
+  std::vector<std::string> names(const char* kind, const Groups& groups) {
+    std::vector<std::string> result;
+    for (const auto& group : groups) {
+      std::string name = group.name.empty() ? std::string(kind) + "_" + std::to_string(group.id)
+                                            : group.name.substr(0, MED_LNAME_SIZE);
+      if (!group.name.empty())
+        say_renamed(std::string(kind) + " " + std::to_string(group.id), group.name, name, notices_);
+      result.push_back(std::move(name));
+    }
+    return result;
+  }
+
+  /// Families for the classes of items; their numbers per item. sign: 1 of nodes, -1 of elements.
+  std::vector<med_int> families(std::size_t n, const std::vector<std::span<const Index>>& members,
+                                const std::vector<std::string>& group_names, int sign) {
+    const Classes classes = classify(std::vector<int>(n, 0), members);
+    std::vector<med_int> number(classes.groups.size(), 0);
+    for (std::size_t c = 0; c < classes.groups.size(); ++c) {
+      if (classes.groups[c].empty()) continue;
+      number[c] = sign * ++n_families_;
+      std::string text;
+      for (const int group : classes.groups[c])
+        text += med_text(group_names[static_cast<std::size_t>(group)], MED_LNAME_SIZE);
+      check(MEDfamilyCr(file_.id(), mesh_name, ("FAM_" + std::to_string(number[c])).c_str(), number[c],
+                        static_cast<med_int>(classes.groups[c].size()), (text + '\0').c_str()));
+    }
+    std::vector<med_int> result(n);
+    for (std::size_t i = 0; i < n; ++i) result[i] = number[static_cast<std::size_t>(classes.of_item[i])];
+    return result;
+  }
+
+  void entities(med_entity_type entity, med_geometry_type type, const std::vector<med_int>& family,
+                const std::vector<std::int64_t>& ids) {
+    const auto n = static_cast<med_int>(family.size());
+    if (std::ranges::any_of(family, [](med_int f) { return f != 0; }))
+      check(MEDmeshEntityFamilyNumberWr(file_.id(), mesh_name, MED_NO_DT, MED_NO_IT, entity, type, n, family.data()));
+    if (ids.empty()) return;
+    if (ids.back() > std::numeric_limits<med_int>::max()) {
+      notices_.push_back("id " + std::to_string(ids.back()) +
+                         " is too large for MED: ids are counted from 1 in the file");
+      return;
+    }
+    const std::vector<med_int> numbers(ids.begin(), ids.end());
+    check(MEDmeshEntityNumberWr(file_.id(), mesh_name, MED_NO_DT, MED_NO_IT, entity, type, n, numbers.data()));
+  }
+
+  void nodes() {
+    const auto n = static_cast<med_int>(mesh_.points.size());
+    check(MEDmeshNodeCoordinateWr(file_.id(), mesh_name, MED_NO_DT, MED_NO_IT, 0, MED_FULL_INTERLACE, n,
+                                  coordinates(std::span(mesh_.points)).data()));
+    std::vector<std::span<const Index>> members;
+    for (const NodeSet& set : mesh_.node_sets) members.emplace_back(set.nodes);
+    entities(MED_NODE, MED_NONE, families(mesh_.points.size(), members, names("nodeset", mesh_.node_sets), 1),
+             mesh_.node_ids);
+  }
+
+  void elements(med_geometry_type type, std::size_t n, const std::vector<med_int>& connectivity) {
+    check(MEDmeshElementConnectivityWr(file_.id(), mesh_name, MED_NO_DT, MED_NO_IT, 0, MED_CELL, type, MED_NODAL,
+                                       MED_FULL_INTERLACE, static_cast<med_int>(n), connectivity.data()));
+  }
+
+  void hexes() {
+    type_ = !second_ ? MED_HEXA8 : second_->nodes_per_hex == 20 ? MED_HEXA20 : MED_HEXA27;
+    std::vector<med_int> connectivity;
+    for (Index h = 0; h < mesh_.n_hexes(); ++h) {
+      const FileHex hex = file_hex(mesh_, second_, h, med_middles);
+      for (int i = 0; i < hex.n; ++i)
+        connectivity.push_back(hex.nodes[i < 8 ? med_corner[i] : static_cast<std::size_t>(i)] + 1);
+    }
+    elements(type_, mesh_.hexes.size(), connectivity);
+    std::vector<std::span<const Index>> members;
+    for (const Block& block : mesh_.blocks) members.emplace_back(block.hexes);
+    entities(MED_CELL, type_, families(mesh_.hexes.size(), members, names("block", mesh_.blocks), -1), mesh_.hex_ids);
+  }
+
+  void quads() {
+    const PlannedSides plan = plan_sides(mesh_, {});
+    if (plan.sides.empty()) return;
+    const med_geometry_type type = !second_ ? MED_QUAD4 : second_->nodes_per_hex == 20 ? MED_QUAD8 : MED_QUAD9;
+    std::vector<med_int> connectivity;
+    for (const Side& side : plan.sides) {
+      const Quad q = face_node_cycle(mesh_.hexes[side.hex], side.face);
+      // Round the other way, as the hexes are.
+      const Quad turned{q[0], q[3], q[2], q[1]};
+      for (const Index node : turned) connectivity.push_back(node + 1);
+      if (!second_) continue;
+      for (std::size_t c = 0; c < 4; ++c)
+        connectivity.push_back(second_->middle_between(turned[c], turned[(c + 1) % 4]) + 1);
+      if (second_->nodes_per_hex == 27) connectivity.push_back(second_->middle_of(q) + 1);
+    }
+    elements(type, plan.sides.size(), connectivity);
+    const std::vector<std::span<const Index>> members(plan.members.begin(), plan.members.end());
+    entities(MED_CELL, type, families(plan.sides.size(), members, names("sideset", mesh_.side_sets), -1), {});
+  }
+
+  void fields() {
+    std::vector<std::string> taken;
+    for (const Field& field : mesh_.fields) {
+      std::string name = field.name.substr(0, MED_NAME_SIZE - 4);
+      if (name.empty()) name = "field";
+      for (int k = 2; std::ranges::find(taken, name) != taken.end(); ++k)
+        name = field.name.substr(0, MED_NAME_SIZE - 8) + "_" + std::to_string(k);
+      taken.push_back(name);
+      say_renamed("field", field.name, name, notices_);
+      std::string components, units;
+      for (int c = 1; c <= field.components; ++c) {
+        std::string text = std::to_string(c);
+        text.resize(MED_SNAME_SIZE, ' ');
+        components += text;
+        units += std::string(MED_SNAME_SIZE, ' ');
+      }
+      check(MEDfieldCr(file_.id(), name.c_str(), MED_FLOAT64, field.components, components.c_str(), units.c_str(),
+                       med_text("", MED_SNAME_SIZE + 1).c_str(), mesh_name));
+      const bool node = field.on == Field::On::node;
+      check(MEDfieldValueWr(file_.id(), name.c_str(), MED_NO_DT, MED_NO_IT, 0, node ? MED_NODE : MED_CELL,
+                            node ? med_geometry_type{MED_NONE} : type_, MED_FULL_INTERLACE, MED_ALL_CONSTITUENT,
+                            static_cast<med_int>(node ? mesh_.points.size() : mesh_.hexes.size()),
+                            reinterpret_cast<const unsigned char*>(field.values.data())));
+    }
+  }
+
+  const Replacement& replacement_;
+  const Mesh& mesh_;
+  const SecondOrder* second_;
+  std::vector<std::string>& notices_;
+  MedFile file_;
+  med_geometry_type type_ = MED_HEXA8;
+  med_int n_families_ = 0;
+};
+
+}  // namespace
+
+void write_med(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+               std::vector<std::string>& notices) {
+  Replacement replacement(file, options.overwrite);
+  if (replacement.direct()) replacement.fail("is not an ordinary file, as MED needs");
+  Writer(replacement, mesh, options.second, notices).write();
+  replacement.commit();
+}
+
+}  // namespace hextwist::io

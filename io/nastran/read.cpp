@@ -1,0 +1,198 @@
+// Nastran .bdf: GRID, CHEXA, CQUAD4 and its like, PLOAD4 and SET1. Properties are blocks.
+#include <limits>
+
+#include "hextwist/io/nastran/nastran_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+/// What other solids and smaller elements are called; by the beginning of the card.
+constexpr std::pair<std::string_view, const char*> refused[] = {
+    {"CTETRA", "tetrahedron"}, {"CPENTA", "wedge"}, {"CPYRAM", "pyramid"}};
+constexpr std::string_view quads[] = {"CQUAD4", "CQUAD8", "CQUADR", "CQUAD"};
+constexpr std::string_view dropped[] = {"CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",   "CONROD", "CTUBE",
+                                        "CBUSH",  "CONM1",  "CONM2",  "CELAS1", "CELAS2", "RBE2",   "RBE3",   "CGAP",
+                                        "PLOTEL", "CSHEAR", "CBEND",  "CMASS1", "CMASS2", "CDAMP1", "CDAMP2"};
+
+class Reader {
+ public:
+  explicit Reader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
+
+  MeshFile result() {
+    to_bulk_data();
+    NastranCards cards(cursor_);
+    while (!ended_) {
+      const NastranCard card = cards.next([&](std::string_view text, const char* at) { comment(text, at); });
+      if (card.name.empty()) break;
+      read(card);
+    }
+    if (!ended_ && had_bulk_) cursor_.fail_at(cursor_.end, "the file ends before ENDDATA");
+    if (!ended_) listing_.note(cursor_.where(cursor_.end) + ": there is no ENDDATA; the file may be cut short");
+    groups();
+    if (n_other_ > 0) listing_.note(counted(n_other_, "other card") + " left out (the first: " + first_other_ + ")");
+    return listing_.result(true);
+  }
+
+ private:
+  /// Behind the executive and case control sections, where the file has them.
+  void to_bulk_data() {
+    const char* start = cursor_.at;
+    while (cursor_.at < cursor_.end) {
+      const std::string line = lower_case(trimmed(cursor_.line()));
+      if (line.starts_with("begin") && line.find("bulk") != std::string::npos) {
+        had_bulk_ = true;
+        return;
+      }
+    }
+    cursor_.at = start;
+  }
+
+  std::int64_t integer(const NastranCard& card, std::size_t field, const char* what, bool may_be_blank = false) const {
+    const std::string& text = card[field];
+    if (text.empty() && may_be_blank) return 0;
+    std::int64_t value = 0;
+    const char* from = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [stop, error] = std::from_chars(from, text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size())
+      cursor_.fail_at(
+          card.at, card.name + " has " + (text.empty() ? "nothing" : shown(text)) + " where " + what + " should stand");
+    return value;
+  }
+  int id(const NastranCard& card, std::size_t field, const char* what) const {
+    const std::int64_t value = integer(card, field, what);
+    if (value < 0 || value > std::numeric_limits<int>::max())
+      cursor_.fail_at(card.at, std::string(what) + " " + std::to_string(value) + " is not between 0 and 2147483647");
+    return static_cast<int>(value);
+  }
+  /// "1.5", "1.5E-3", "1.5D-3", "1.5-3"; blank is 0.
+  double real(const NastranCard& card, std::size_t field) const {
+    std::string text = card[field];
+    if (text.empty()) return 0;
+    for (char& c : text)
+      if (c == 'd' || c == 'D' || c == 'E') c = 'e';
+    const auto sign = text.find_first_of("+-", 1);
+    if (sign != std::string::npos && text.find('e') == std::string::npos) text.insert(sign, "e");
+    double value = 0;
+    const char* from = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [stop, error] = std::from_chars(from, text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size())
+      cursor_.fail_at(card.at, card.name + " has " + shown(card[field]) + " where a number should stand");
+    return value;
+  }
+
+  void read(const NastranCard& card) {
+    if (card.name == "GRID") return grid(card);
+    if (card.name == "CHEXA") return hex(card);
+    if (std::ranges::find(quads, card.name) != std::end(quads)) return quad(card);
+    if (card.name == "PLOAD4") return pressure(card);
+    if (card.name == "SET1") return set(card);
+    if (card.name == "ENDDATA") {
+      ended_ = true;
+      return;
+    }
+    if (card.name == "INCLUDE" || card.name.starts_with("INCLUDE"))
+      cursor_.fail_at(card.at, "INCLUDE is not supported: nodes or elements would be missing");
+    for (const auto& [name, type] : refused)
+      if (card.name == name) listing_.refuse(integer(card, 0, "an element id"), type, card.at);
+    if (std::ranges::find(dropped, card.name) != std::end(dropped))
+      return listing_.drop(integer(card, 0, "an element id"), card.name);
+    if (card.name == "PSOLID" || card.name == "PSHELL") return;  // their names are comments, as all of the kind
+    if (n_other_++ == 0) first_other_ = card.name;
+  }
+
+  void grid(const NastranCard& card) {
+    const std::int64_t node = integer(card, 0, "a node id");
+    if (const std::int64_t system = integer(card, 1, "a coordinate system", true); system != 0)
+      cursor_.fail_at(card.at, "node " + std::to_string(node) + " is in coordinate system " + std::to_string(system) +
+                                   "; only the basic one (0) is read");
+    listing_.add_node(node, Vec3(real(card, 2), real(card, 3), real(card, 4)), card.at);
+  }
+
+  void hex(const NastranCard& card) {
+    const std::int64_t element = integer(card, 0, "an element id");
+    std::vector<std::int64_t> nodes;
+    for (std::size_t i = 0; i < 20; ++i) {
+      if (i < 8 && card[2 + i].empty())
+        cursor_.fail_at(card.at, "element " + std::to_string(element) + " has " + std::to_string(i) + " of 8 corners");
+      nodes.push_back(integer(card, 2 + i, "a node", i >= 8));
+    }
+    listing_.add_hex(element, card[1].empty() ? 0 : id(card, 1, "a property"), nodes, nastran_middles, card.at);
+  }
+
+  void quad(const NastranCard& card) {
+    std::array<std::int64_t, 4> nodes;
+    for (std::size_t i = 0; i < 4; ++i) nodes[i] = integer(card, 2 + i, "a node");
+    listing_.add_quad(integer(card, 0, "an element id"), card[1].empty() ? 0 : id(card, 1, "a property"), nodes,
+                      card.at);
+  }
+
+  /// On a face of a solid, which two opposite corners name. Those on shells are no side of a hex by themselves.
+  void pressure(const NastranCard& card) {
+    if (card[6].empty() || card[7].empty() || same_word(card[6], "THRU")) {
+      if (n_other_++ == 0) first_other_ = card.name;
+      return;
+    }
+    side_sets_[id(card, 0, "a set")].push_back(
+        {integer(card, 1, "an element"), {integer(card, 6, "a node"), integer(card, 7, "a node")}});
+  }
+
+  void set(const NastranCard& card) {
+    std::vector<std::int64_t>& nodes = node_sets_[id(card, 0, "a set")];
+    for (std::size_t i = 1; i < card.fields.size(); ++i) {
+      if (card[i].empty()) continue;
+      if (!same_word(card[i], "THRU")) {
+        nodes.push_back(integer(card, i, "a node"));
+        continue;
+      }
+      const std::int64_t last = integer(card, i + 1, "a node");
+      if (i == 1 || last < nodes.back() || last - nodes.back() > static_cast<std::int64_t>(cursor_.end - cursor_.begin))
+        cursor_.fail_at(card.at, "SET1 has a range that cannot be");
+      while (nodes.back() < last) nodes.push_back(nodes.back() + 1);
+      ++i;
+    }
+  }
+
+  /// Of our own: "$ hextwist block 3 name".
+  void comment(std::string_view text, const char* at) {
+    constexpr std::string_view mark = "$ hextwist ";
+    if (!text.starts_with(mark)) return;
+    text = trimmed(text.substr(mark.size()));
+    const auto word = text.substr(0, text.find(' '));
+    if (word != "block" && word != "nodeset" && word != "sideset") return;
+    std::string_view rest = text.substr(std::min(word.size() + 1, text.size()));
+    int group = 0;
+    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), group);
+    if (error != std::errc{} || group < 0)
+      cursor_.fail_at(at, std::string(word) + " without an id between 0 and 2147483647");
+    rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
+    names_[{std::string(word), group}] = std::string(trimmed(rest));
+    if (word == "block") listing_.name_part(group, std::string(trimmed(rest)));
+  }
+
+  void groups() {
+    const auto name = [&](const char* kind, int group) {
+      const auto found = names_.find({kind, group});
+      return found == names_.end() ? "" : found->second;
+    };
+    for (auto& [group, nodes] : node_sets_) listing_.add_group(group, name("nodeset", group)).nodes = std::move(nodes);
+    for (auto& [group, sides] : side_sets_)
+      listing_.add_group(group, name("sideset", group)).opposite = std::move(sides);
+  }
+
+  Cursor cursor_;
+  Listing listing_;
+  std::map<int, std::vector<std::int64_t>> node_sets_;
+  std::map<int, std::vector<std::pair<std::int64_t, std::array<std::int64_t, 2>>>> side_sets_;
+  std::map<std::pair<std::string, int>, std::string> names_;
+  std::int64_t n_other_ = 0;
+  std::string first_other_;
+  bool ended_ = false, had_bulk_ = false;
+};
+
+}  // namespace
+
+MeshFile read_nastran(const Bytes& bytes) {
+  return Reader(bytes).result();
+}
+
+}  // namespace hextwist::io

@@ -1,0 +1,228 @@
+// OpenFOAM's polyMesh, text. Faces inside come first, by owner and then by neighbour, as the solvers want them; then
+// those of each patch. A boundary face is in one patch: that of the first side set that has it.
+#include "hextwist/io/openfoam/openfoam_internal.h"
+#include "hextwist/mesh/topology.h"
+
+namespace hextwist::io {
+namespace {
+
+struct Face {
+  Quad cycle;  ///< turns out of its owner
+  Index owner, neighbour = -1;
+  Side side;
+};
+
+struct Patch {
+  std::string name, entries;
+  std::vector<Face> faces;
+};
+
+class Writer {
+ public:
+  Writer(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+         std::vector<std::string>& notices)
+      : file_(file), folder_(poly_mesh_of(file)), mesh_(mesh), options_(options), notices_(notices) {}
+
+  void write() {
+    say_no_fields(mesh_, "OpenFOAM's mesh", notices_);
+    if (!mesh_.node_ids.empty() || !mesh_.hex_ids.empty())
+      notices_.emplace_back("OpenFOAM has no ids: points and cells are counted from 0 in the files");
+    divide();
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) throw Error(folder_.string() + ": cannot be made (" + error.message() + ")");
+    points(), faces(), boundary(), zones();
+    open(file_);  // empty: ParaView's name for the case
+    // All are complete by now; what is left is to give them their names.
+    for (const auto& out : outputs_) out->commit();
+  }
+
+ private:
+  Output& open(const std::filesystem::path& path) {
+    return *outputs_.emplace_back(std::make_unique<Output>(path, options_.overwrite));
+  }
+  Output& open(const char* name, const char* kind, const std::string& note = "") {
+    Output& out = open(folder_ / name);
+    out << "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " << kind << ";\n";
+    if (!note.empty()) out << "    note        \"" << note << "\";\n";
+    out << "    location    \"constant/polyMesh\";\n    object      " << name << ";\n}\n\n";
+    return out;
+  }
+
+  /// Names are words there, unique.
+  std::string word(const char* kind, int id, const std::string& name) {
+    std::string result = plain_name(name, 100);
+    if (result.empty()) result = std::string(kind) + "_" + std::to_string(id);
+    if (!name.empty()) say_renamed(std::string(kind) + " " + std::to_string(id), name, result, notices_);
+    while (std::ranges::find(words_, std::pair(std::string(kind), result)) != words_.end())
+      result += "_" + std::to_string(id);
+    words_.emplace_back(kind, result);
+    return result;
+  }
+
+  void divide() {
+    const Faces all = hextwist::faces(mesh_);
+    std::vector<int> patch_of(all.nodes.size(), -1);
+    std::vector<std::uint8_t> counted_in(all.nodes.size(), 0);
+    std::int64_t n_twice = 0;
+    std::vector<const SideSet*> inner;
+    for (const SideSet& set : mesh_.side_sets) {
+      std::int64_t n_inside = 0;
+      for (const Side& side : set.sides) n_inside += all.sides[all.of_hex[side.hex][side.face]][1].hex >= 0;
+      const bool zone = n_inside > 0;
+      if (zone) {
+        inner.push_back(&set);
+        continue;
+      }
+      Patch patch{word("sideset", set.id, set.name), "type patch;", {}};
+      if (options_.extras)
+        if (const auto found = options_.extras->patches.find(set.id); found != options_.extras->patches.end())
+          patch.entries = found->second;
+      for (const Side& side : set.sides) {
+        const Index f = all.of_hex[side.hex][side.face];
+        if (patch_of[f] >= 0) {
+          ++n_twice;
+          continue;
+        }
+        patch_of[f] = static_cast<int>(patches_.size());
+        patch.faces.push_back({face_node_cycle(mesh_.hexes[side.hex], side.face), side.hex, -1, side});
+      }
+      patches_.push_back(std::move(patch));
+    }
+    if (n_twice > 0)
+      notices_.push_back("side sets overlap, and a face is in one patch only: " + counted(n_twice, "face") +
+                         (n_twice == 1 ? " is" : " are") + " in the first of its sets");
+    Patch rest{default_patch, "type patch;", {}};
+    for (std::size_t f = 0; f < all.nodes.size(); ++f) {
+      const auto& [first, second] = all.sides[f];
+      const Face face{face_node_cycle(mesh_.hexes[first.hex], first.face), first.hex, second.hex, first};
+      if (second.hex >= 0)
+        inside_.push_back(face);
+      else if (patch_of[f] < 0)
+        rest.faces.push_back(face);
+    }
+    if (!rest.faces.empty()) patches_.push_back(std::move(rest));
+    std::ranges::sort(inside_, {}, [](const Face& face) { return std::pair(face.owner, face.neighbour); });
+    for (Patch& patch : patches_) std::ranges::sort(patch.faces, {}, &Face::side);
+    // Where each side is in the files, for zones.
+    std::size_t number = 0;
+    const auto count = [&](const Face& face) {
+      number_of_face_.emplace_back(all.of_hex[face.side.hex][face.side.face], static_cast<Index>(number++));
+    };
+    for (const Face& face : inside_) count(face);
+    for (const Patch& patch : patches_)
+      for (const Face& face : patch.faces) count(face);
+    std::ranges::sort(number_of_face_);
+    for (const SideSet* set : inner) {
+      Zone zone{word("sideset", set->id, set->name), {}, {}};
+      for (const Side& side : set->sides) {
+        const Index f = all.of_hex[side.hex][side.face];
+        zone.members.push_back(std::ranges::lower_bound(number_of_face_, std::pair(f, Index{0}))->second);
+        zone.flips.push_back(all.sides[f][0] != side);
+      }
+      face_zones_.push_back(std::move(zone));
+    }
+  }
+
+  void points() {
+    Output& out = open("points", "vectorField");
+    out << mesh_.points.size() << "\n(\n";
+    for (const Vec3& p : mesh_.points) out << '(' << p.x() << ' ' << p.y() << ' ' << p.z() << ")\n";
+    out << ")\n";
+  }
+
+  void faces() {
+    std::size_t n = inside_.size();
+    for (const Patch& patch : patches_) n += patch.faces.size();
+    const std::string note = "nPoints:" + std::to_string(mesh_.points.size()) +
+                             "  nCells:" + std::to_string(mesh_.hexes.size()) + "  nFaces:" + std::to_string(n) +
+                             "  nInternalFaces:" + std::to_string(inside_.size());
+    Output& list = open("faces", "faceList");
+    Output& owner = open("owner", "labelList", note);
+    Output& neighbour = open("neighbour", "labelList", note);
+    list << n << "\n(\n", owner << n << "\n(\n", neighbour << inside_.size() << "\n(\n";
+    const auto put = [&](const Face& face) {
+      const Quad& q = face.cycle;
+      list << "4(" << q[0] << ' ' << q[1] << ' ' << q[2] << ' ' << q[3] << ")\n";
+      owner << face.owner << '\n';
+      if (face.neighbour >= 0) neighbour << face.neighbour << '\n';
+    };
+    for (const Face& face : inside_) put(face);
+    for (const Patch& patch : patches_)
+      for (const Face& face : patch.faces) put(face);
+    list << ")\n", owner << ")\n", neighbour << ")\n";
+  }
+
+  void boundary() {
+    Output& out = open("boundary", "polyBoundaryMesh");
+    out << patches_.size() << "\n(\n";
+    std::size_t first = inside_.size();
+    for (const Patch& patch : patches_) {
+      out << "    " << patch.name << "\n    {\n";
+      std::string_view rest = patch.entries;
+      while (!rest.empty()) {
+        const auto end = std::min(rest.find(';') + 1, rest.size());
+        out << "        " << trimmed(rest.substr(0, end)) << '\n';
+        rest.remove_prefix(end);
+      }
+      out << "        nFaces          " << patch.faces.size() << ";\n        startFace       " << first << ";\n    }\n";
+      first += patch.faces.size();
+    }
+    out << ")\n";
+  }
+
+  struct Zone {
+    std::string name;
+    std::vector<Index> members;
+    std::vector<bool> flips;
+  };
+  void write_zones(const char* file, const char* kind, const char* list, const std::vector<Zone>& zones) {
+    Output& out = open(file, "regIOobject");
+    out << zones.size() << "\n(\n";
+    for (const Zone& zone : zones) {
+      out << zone.name << "\n{\n    type " << kind << ";\n    " << list << " List<label> " << zone.members.size()
+          << "\n(\n";
+      for (const Index member : zone.members) out << member << '\n';
+      out << ");\n";
+      if (std::string_view(kind) == "faceZone") {
+        out << "    flipMap List<bool> " << zone.flips.size() << "\n(\n";
+        for (const bool flip : zone.flips) out << (flip ? "1\n" : "0\n");
+        out << ");\n";
+      }
+      out << "}\n";
+    }
+    out << ")\n";
+  }
+
+  void zones() {
+    const std::vector<int> block_of_hex = first_block_of_hexes(mesh_, "OpenFOAM", notices_);
+    std::vector<Zone> cells, points;
+    for (const Block& block : mesh_.blocks) cells.push_back({word("block", block.id, block.name), {}, {}});
+    for (Index h = 0; h < mesh_.n_hexes(); ++h)
+      if (block_of_hex[h] >= 0) cells[static_cast<std::size_t>(block_of_hex[h])].members.push_back(h);
+    for (const NodeSet& set : mesh_.node_sets) points.push_back({word("nodeset", set.id, set.name), set.nodes, {}});
+    write_zones("cellZones", "cellZone", "cellLabels", cells);
+    write_zones("faceZones", "faceZone", "faceLabels", face_zones_);
+    write_zones("pointZones", "pointZone", "pointLabels", points);
+  }
+
+  const std::filesystem::path file_, folder_;
+  const Mesh& mesh_;
+  const WriteOptions& options_;
+  std::vector<std::string>& notices_;
+  std::vector<Face> inside_;
+  std::vector<Patch> patches_;
+  std::vector<Zone> face_zones_;
+  std::vector<std::pair<Index, Index>> number_of_face_;
+  std::vector<std::pair<std::string, std::string>> words_;
+  std::vector<std::unique_ptr<Output>> outputs_;
+};
+
+}  // namespace
+
+void write_openfoam(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                    std::vector<std::string>& notices) {
+  Writer(file, mesh, options, notices).write();
+}
+
+}  // namespace hextwist::io

@@ -1,0 +1,149 @@
+// I-deas universal files, .unv: datasets 2411 (nodes; 781 and 15 before it), 2412 (elements) and 2467 (groups; 2477,
+// 2452 and 2435 are alike). Source: the descriptions of the datasets by the University of Cincinnati's SDRL.
+#include <limits>
+
+#include "hextwist/io/listing.h"
+#include "hextwist/io/unv/unv_internal.h"
+
+namespace hextwist::io {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
+
+  MeshFile result() {
+    while (cursor_.more()) {
+      const char* at = cursor_.at;
+      if (cursor_.integer("the mark of a dataset, -1,") != -1)
+        cursor_.fail_at(at, "expected -1, the mark of a dataset");
+      cursor_.line();
+      const int dataset = cursor_.small("the number of a dataset");
+      cursor_.line();
+      if (dataset == 2411 || dataset == 781)
+        nodes();
+      else if (dataset == 2412)
+        elements();
+      else if (dataset == 2467 || dataset == 2477 || dataset == 2452 || dataset == 2435)
+        groups(dataset);
+      else
+        skip(dataset);
+    }
+    if (!skipped_.empty()) listing_.note("left out datasets " + joined(skipped_, ", "));
+    return listing_.result(false);
+  }
+
+ private:
+  /// At the line that ends a dataset, which is taken.
+  bool ends() {
+    cursor_.skip_blanks();
+    const std::string_view rest(cursor_.at, cursor_.left());
+    if (rest.empty()) cursor_.fail("the file ends inside of a dataset");
+    if (!rest.starts_with("-1")) return false;
+    if (rest.size() > 2 && !Cursor::blank(rest[2])) return false;
+    // A line of its own: nothing of a dataset begins with -1 and ends there.
+    const auto line = rest.substr(0, rest.find('\n'));
+    if (trimmed(line) != "-1") return false;
+    cursor_.line();
+    return true;
+  }
+
+  void skip(int dataset) {
+    if (dataset != 151 && dataset != 164 && dataset != 2420) skipped_.push_back(dataset);
+    while (!ends()) cursor_.line();
+  }
+
+  void nodes() {
+    while (!ends()) {
+      const char* at = cursor_.at;
+      const std::int64_t id = cursor_.integer("a node id");
+      cursor_.line();
+      Vec3 point;
+      for (double& x : point) x = cursor_.real("a coordinate");
+      cursor_.line();
+      listing_.add_node(id, point, at);
+    }
+  }
+
+  void elements() {
+    while (!ends()) {
+      const char* at = cursor_.at;
+      const std::int64_t id = cursor_.integer("an element id");
+      const int kind = cursor_.small("an element's descriptor"), part = cursor_.small("a physical property");
+      cursor_.small("a material"), cursor_.small("a colour");
+      const std::size_t n =
+          cursor_.check_count(cursor_.integer("the number of nodes"), 2, "nodes of element " + std::to_string(id));
+      cursor_.line();
+      if (kind == 11 || (kind >= 21 && kind <= 24)) cursor_.line();  // beams have a line of their own
+      std::vector<std::int64_t> nodes(n);
+      for (std::int64_t& node : nodes) node = cursor_.integer("a node");
+      cursor_.line();
+      element(id, kind, std::max(part, 0), nodes, at);
+    }
+  }
+
+  void element(std::int64_t id, int kind, int part, std::vector<std::int64_t>& nodes, const char* at) {
+    const auto expect = [&](std::size_t n) {
+      if (nodes.size() != n)
+        cursor_.fail_at(at, "element " + std::to_string(id) + " has " + std::to_string(nodes.size()) +
+                                " nodes instead of " + std::to_string(n));
+    };
+    if (kind == unv_hex) {
+      expect(8);
+      return listing_.add_hex(id, part, nodes, vtk_middles, at);
+    }
+    if (kind == unv_hex_20) {
+      expect(20);
+      std::vector<std::int64_t> sorted(20);
+      for (std::size_t i = 0; i < 20; ++i) sorted[unv_place[i]] = nodes[i];
+      return listing_.add_hex(id, part, sorted, vtk_middles, at);
+    }
+    for (const auto& [other, name] : unv_refused)
+      if (kind == other) listing_.refuse(id, name, at);
+    const bool quad = std::ranges::find(unv_quads, kind) != std::end(unv_quads);
+    const bool quad_8 = std::ranges::find(unv_quads_8, kind) != std::end(unv_quads_8);
+    if (!quad && !quad_8) return listing_.drop(id, std::to_string(kind));
+    expect(quad ? 4 : 8);
+    if (quad_8)
+      for (std::size_t c = 0; c < 4; ++c) nodes[c] = nodes[2 * c];
+    listing_.add_quad(id, part, std::span(nodes).first(4), at);
+  }
+
+  void groups(int dataset) {
+    while (!ends()) {
+      const char* at = cursor_.at;
+      const std::int64_t id = cursor_.integer("a group");
+      if (id < 0 || id > std::numeric_limits<int>::max())
+        cursor_.fail_at(at, "group " + std::to_string(id) + " is not between 0 and 2147483647");
+      for (int i = 0; i < 6; ++i) cursor_.integer("a number of the group");
+      const std::size_t n =
+          cursor_.check_count(cursor_.integer("the number of members"), 4, "members of group " + std::to_string(id));
+      cursor_.line();
+      Listing::Group& group = listing_.add_group(static_cast<int>(id), std::string(trimmed(cursor_.line())));
+      for (std::size_t i = 0; i < n; ++i) {
+        const int type = cursor_.small("the type of a member");
+        const std::int64_t tag = cursor_.integer("a member");
+        for (int k = 0; k < (dataset == 2435 ? 0 : 2); ++k) cursor_.integer("a number of the member");
+        if (type == 7) group.nodes.push_back(tag);
+        if (type == 8) group.elements.push_back(tag);
+        if (type != 7 && type != 8 && n_strange_++ == 0)
+          listing_.note("group " + std::to_string(id) + " has members of type " + std::to_string(type) +
+                        ", which are neither nodes nor elements: left out");
+      }
+      if (n > 0) cursor_.line();
+    }
+  }
+
+  Cursor cursor_;
+  Listing listing_;
+  std::vector<int> skipped_;
+  int n_strange_ = 0;
+};
+
+}  // namespace
+
+MeshFile read_unv(const Bytes& bytes) {
+  return Reader(bytes).result();
+}
+
+}  // namespace hextwist::io
