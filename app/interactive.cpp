@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/command/flow.h"
 #include "hextwist/command/syntax.h"
 
@@ -143,6 +144,7 @@ bool expand_history(std::string& text) {
 bool read_command(std::string& text) {
   text.clear();
   do {
+    return_freed_memory();
     const std::unique_ptr<char, decltype(&std::free)> line(readline(text.empty() ? "hextwist> " : "        > "),
                                                            &std::free);
     if (!line) return !text.empty();

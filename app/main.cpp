@@ -12,6 +12,8 @@
 #include "interactive.h"
 #include "options.h"
 #include "report.h"
+#include "serve/server.h"
+#include "view.h"
 
 namespace hextwist::app {
 namespace {
@@ -62,6 +64,11 @@ std::string run(const Options& options, Session& session, Console& console) {
     attempt_step([&] { return session.run("check"); });
     return error;
   }
+  if (options.view) {
+    attempt_step(
+        once([&] { write_view(options, session, [](const std::string& line) { std::cout << line << "\n"; }); }));
+    return error;
+  }
   if (options.convert) {
     if (options.order > 0) attempt_step([&] { return session.run("set order " + std::to_string(options.order)); });
     attempt_step(once([&] { session.export_mesh(options.output); }));
@@ -86,12 +93,30 @@ std::string run(const Options& options, Session& session, Console& console) {
   return error;
 }
 
+int run_server(const Options& options) {
+  std::string error;
+#ifdef HEXTWIST_SERVE
+  try {
+    return serve(options);
+  } catch (const std::exception& problem) {
+    error = problem.what();
+  }
+#else
+  error = "this program was built without 'serve', which needs cpp-httplib (Debian: libcpp-httplib-dev)";
+  static_cast<void>(options);
+#endif
+  std::cerr << "error: " << error << "\n";
+  return command_failed;
+}
+
 int main(int argc, char** argv) {
   open_standard_streams();
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   catch_interrupts();
+  keep_freed_memory();
   limit_memory(available_memory());
+  if (options.serve) return run_server(options);
   Session session;
   Console console;
   session.set_callbacks(console.callbacks());

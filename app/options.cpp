@@ -18,6 +18,7 @@ constexpr const char* description =
     "the\n"
     "result to OUT when all of them succeeded. Without commands it is interactive; when standard input is not a\n"
     "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh,\n"
+    "'hextwist view MESH [--cad FILE]' makes a page that shows it, 'hextwist serve [FILES]' is a page with a prompt,\n"
     "'hextwist convert MESH OUT [--order 2]' writes it in another format.\n";
 
 bool is_journal(const std::string& name) {
@@ -52,6 +53,47 @@ int read_check(int argc, char** argv, Options& options) {
   return parsed(app, [&] { app.parse(argc - 1, argv + 1); });
 }
 
+int read_view(int argc, char** argv, Options& options) {
+  CLI::App app("Writes a page of HTML that shows a mesh, for any browser.", "hextwist view");
+  app.add_option("MESH", options.mesh, "mesh to look at")->required();
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("--before", options.before, "another mesh, on the same CAD, to show beside it");
+  app.add_option("-o,--output", options.output, "the page; default: MESH with .html, in this folder");
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  options.view = true;
+  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  if (options.output.empty()) options.output = options.mesh.filename().replace_extension(".html");
+  const std::string extension = lower_extension(options.output);
+  if (extension != ".html" && extension != ".htm") return wrong(options.output.string() + ": a page ends in .html");
+  return -1;
+}
+
+int read_serve(int argc, char** argv, Options& options) {
+  CLI::App app(
+      "Serves pages for browsers on this machine: the mesh, and a prompt. Every tab has a session of its own, which "
+      "touches\nonly files below this folder. Prints the address to open; Ctrl-C ends.",
+      "hextwist serve");
+  std::vector<std::string> files;
+  app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("--address", options.address, "address of this machine to listen on; default: itself alone");
+  app.add_option("--port", options.port, "port to listen on; default: any")->check(CLI::Range(0, 65535));
+  app.add_option("--time-limit", options.most_seconds, "seconds that a command may take; 0: no limit; default: 3600")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  options.serve = true;
+  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  for (const std::string& file : files) {
+    if (is_journal(file))
+      options.steps.push_back({true, file});
+    else if (options.mesh.empty())
+      options.mesh = file;
+    else
+      return wrong("two meshes: " + options.mesh.string() + " and " + file + " (journals end in .jou)");
+  }
+  return -1;
+}
+
 /// Better now than after an hour of work.
 int check_output(const Options& options) {
   const std::string extension = lower_extension(options.output);
@@ -80,6 +122,8 @@ int read_convert(int argc, char** argv, Options& options) {
 int read_options(int argc, char** argv, Options& options) {
   if (argc > 1 && std::string_view(argv[1]) == "convert") return read_convert(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
+  if (argc > 1 && std::string_view(argv[1]) == "view") return read_view(argc, argv, options);
+  if (argc > 1 && std::string_view(argv[1]) == "serve") return read_serve(argc, argv, options);
   CLI::App app(description, "hextwist");
   std::vector<std::string> files, commands;
   CLI::Option* file_option = app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");

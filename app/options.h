@@ -13,14 +13,19 @@ struct Step {
 };
 
 struct Options {
-  std::filesystem::path cad, mesh, output, json;  ///< empty: not given
-  std::vector<Step> steps;                        ///< -c and journals, as they came
+  std::filesystem::path cad, mesh, output, json, before;  ///< empty: not given
+  std::vector<Step> steps;                                ///< -c and journals, as they came
   bool keep_going = false;
-  bool safe = false;     ///< no command touches a file outside of the working folder
-  bool check = false;    ///< hextwist check MESH
-  bool convert = false;  ///< hextwist convert MESH OUT
-  int order = 0;         ///< of OUT; 0: as MESH
-  int threads = 0;       ///< 0: all
+  bool safe = false;                  ///< no command touches a file outside of the working folder
+  bool check = false;                 ///< hextwist check MESH
+  bool convert = false;               ///< hextwist convert MESH OUT
+  int order = 0;                      ///< of OUT; 0: as MESH
+  bool view = false;                  ///< hextwist view MESH: `output` is the page
+  bool serve = false;                 ///< hextwist serve
+  std::string address = "127.0.0.1";  ///< that it listens on
+  int port = 0;                       ///< 0: any that is free
+  double most_seconds = 3600;         ///< that a command may take there, 0: no limit
+  int threads = 0;                    ///< 0: all
 };
 
 /// Status to end with at once (help, version, wrong usage: the text has been printed), or -1 to go on.

@@ -11,6 +11,7 @@
 
 namespace HEXTWIST_API hextwist {
 
+/// Where files are read that a library of others could stumble over, and within which limits. The default is no fence.
 struct Fence {
   /// The folder of these programs. Empty: files are read in this process, which a damaged file can then end, stop or
   /// fill.
@@ -24,6 +25,7 @@ struct Fence {
   /// Files that a file names itself (*INCLUDE) may lie only below this folder; empty: anywhere.
   std::filesystem::path folder = {};
 
+  /// False: files are read in this process, without limits.
   bool is_there() const { return required || !readers.empty(); }
 };
 

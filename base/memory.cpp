@@ -2,6 +2,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -55,6 +58,7 @@ double bytes_of(double n_hexes, double n_nodes) {
   return n_hexes * per_hex + n_nodes * per_node;
 }
 
+std::atomic<bool> keeps_freed = false;
 std::atomic<std::size_t> memory_limit = 0;
 std::atomic<double> hex_limit = 0;
 
@@ -67,7 +71,32 @@ std::size_t data_size() {
              : 0;
 }
 
+/// Bytes that this process has from the system and does not use.
+std::size_t freed_and_kept() {
+#ifdef __GLIBC__
+  if (keeps_freed) return mallinfo2().fordblks;
+#endif
+  return 0;
+}
+
 }  // namespace
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  if (is_sanitized) return;
+  constexpr int at_once = 64 << 20, alone = 1 << 30;  // larger arrays are mappings of their own
+  mallopt(M_MMAP_THRESHOLD, alone);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, at_once);
+  keeps_freed = true;
+#endif
+}
+
+void return_freed_memory() {
+#ifdef __GLIBC__
+  if (keeps_freed) malloc_trim(0);
+#endif
+}
 
 std::size_t available_memory() {
   std::size_t available = available_to_all();
@@ -76,7 +105,7 @@ std::size_t available_memory() {
     available = std::min(available, number_in(limit));
   if (const std::size_t limit = memory_limit; limit > 0)
     available = std::min(available, limit - std::min(limit, data_size()));
-  return available;
+  return available == unknown ? available : available + freed_and_kept();
 }
 
 void limit_memory(std::size_t bytes) {

@@ -26,6 +26,12 @@ std::size_t available_memory();
 /// Largest memory of this process so far, in bytes; not that of the program which started it.
 std::size_t peak_memory();
 
+/// For a program that is alone in its process: what is freed is kept for the next array, and counts as available. The
+/// system clears every page that it hands out, which was a third of the time of a large refinement.
+void keep_freed_memory();
+/// Gives back what is kept. When nothing is to be done for a while.
+void return_freed_memory();
+
 /// From now on the process may have no more data than this (0: as much as the machine has): what asks for more gets
 /// std::bad_alloc, which ends a command with an error, where else the system would end the process.
 void limit_memory(std::size_t bytes);

@@ -25,14 +25,19 @@ class Error : public std::runtime_error {
 
 /// Axis-aligned box; empty until a point is added.
 struct Box {
+  /// Lowest corner, model units; infinity while the box is empty.
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
+  /// Highest corner, model units; -infinity while the box is empty.
   Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
 
+  /// Is there no point in it? A box of one point is not empty.
   bool empty() const { return !(min.x() <= max.x()); }
+  /// Grows by as little as it takes to hold the point.
   void add(const Vec3& p) {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
+  /// Grows to hold another box; an empty one changes nothing.
   void add(const Box& other) {
     min = min.cwiseMin(other.min);
     max = max.cwiseMax(other.max);

@@ -33,7 +33,7 @@ constexpr std::string_view cub =
     ".cub and .cub5 files are not known here: 'export mesh \"part.e\"' writes the mesh, 'record' a journal";
 
 // The first row that fits counts. No text: a command of ours, whose own error is the better one.
-constexpr Row table[] = {
+constexpr Row foreign_words[] = {
     {"draw * to", refused, {}},
     {"volume|surface|curve|vertex|body * smooth", refused, {}},
     {"block * element|name", refused, {}},
@@ -189,7 +189,7 @@ std::optional<std::string> fits(const Statement& statement, std::string_view pat
 }  // namespace
 
 std::optional<Foreign> foreign_line(const Statement& statement) {
-  for (const Row& row : table)
+  for (const Row& row : foreign_words)
     if (std::optional<std::string> said = fits(statement, row.pattern)) {
       if (!row.is_skipped && row.text.empty()) return std::nullopt;
       return Foreign{row.is_skipped, std::move(*said), row.text};

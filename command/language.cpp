@@ -108,19 +108,19 @@ const std::vector<CommandSpec> table = {
      {"coarsen hex all", "coarsen hex in field \"error\" bottom 20 %", "coarsen surface 3 levels 2"}},
     {"draw",
      "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
-     " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [overwrite]",
+     " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [{overwrite|append}]",
      "draw the mesh into a picture or a page",
-     "A .png is a picture; a .html is a page of its own that turns with the mouse and tells which hex was clicked. Hexes "
-     "(of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side sets) alone; edges and nodes (of curves, "
-     "vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or sheets apart, or with 'quality' good "
-     "from bad. 'from' is the direction to look from.",
+     "A .html is the viewer with the whole mesh inside: what the command is about is picked there, and hexes and faces are "
+     "shown alone. All others are pictures, .svg is made of lines, and a .gif gets one more with 'append': hexes (of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side "
+     "sets) alone; edges and nodes (of curves, vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or "
+     "sheets apart, or with 'quality' good from bad. 'from' is the direction to look from.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"x", Kind::number, -1e100, 1e100, false, "from the mesh to the eye; default 1 -1 0.7, z is up"},
       {"y", Kind::number, -1e100, 1e100, false, ""},
       {"z", Kind::number, -1e100, 1e100, false, ""},
-      {"width", Kind::integer, 16, 8000, false, "of a .png; default 1200 900"},
+      {"width", Kind::integer, 16, 8000, false, "of a picture; default 1200 900"},
       {"height", Kind::integer, 16, 8000, false, ""},
-      {"file", Kind::file, 0, 0, false, "file name that ends in .png or .html"}},
+      {"file", Kind::file, 0, 0, false, "file name that ends in .png, .svg, .gif or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
     {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|med|nastran|unv|openfoam|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",

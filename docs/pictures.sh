@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/pass.md with the program itself: docs/pictures.sh PROGRAM
+# Draws the pictures of the README and of docs/pass.md with the program itself: docs/pictures.sh PROGRAM
 # (Those of the front in the README: examples/python/moving_front.py 2 3 docs/pictures/front.png)
 set -euo pipefail
 program=$(realpath "${1:?usage: docs/pictures.sh PROGRAM}")
@@ -88,3 +88,17 @@ enclose a 'face 4'
 # A patch: the hexes at a target and the rings around.
 rings='reset block; block 1 hex in vertex 1; block 2 hex in node in hex in block 1; block 3 hex in node in hex in block 2; block 4 hex in node in hex in block 3'
 hextwist --cad "$models/plate_hole.brep" "$models/plate_hole.msh" -c "$rings; draw pixels 480 340 to 'patch.png' overwrite"
+
+# The README: the bracket before and after, and a front that moves through a pipe.
+bracket=(--cad "$models/bracket.brep" "$models/bracket.msh")
+hextwist "${bracket[@]}" -c "draw pixels 420 400 to 'bracket_before.png' overwrite"
+hextwist "${bracket[@]}" -c "refine surface 6 depth 1; refine curve 22 depth 1; refine vertex 9 depth 1; draw pixels 420 400 to 'bracket_after.png' overwrite"
+rm -f front.gif
+front=''
+for x in -40 -34 -28 -22 -16 -10 -4 2 8 14 20 26 32 38; do
+  front+="refine hex with x_coord > $((x - 5)) and x_coord < $((x + 5)) graded
+    reset block; block 1 hex all; block 1 remove hex in field 'level' above 0.5; block 2 hex in field 'level' above 0.5
+    draw from 0.5 -1 0.6 pixels 420 320 to 'front.gif' append; undo 5
+    "
+done
+hextwist --cad "$models/pipe_tee.brep" "$models/pipe_tee.msh" -c "$front"

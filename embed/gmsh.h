@@ -24,9 +24,9 @@ namespace HEXTWIST_API hextwist {
 /// Gmsh's model is then as it was.
 void refine_gmsh(std::string_view commands, SessionCallbacks callbacks = {});
 
-/// The two halves, for those who want to do more in between. The first throws with the session as it was, the second
-/// with Gmsh's model as it was.
+/// The first half, for those who want to do more in between. Throws Error with the session as it was.
 GmshLink take_from_gmsh(Session& session);
+/// The second half, into the model that was current then. Throws Error with Gmsh's model as it was.
 void put_into_gmsh(const Session& session, const GmshLink& link);
 
 }  // namespace hextwist

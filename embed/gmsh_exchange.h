@@ -14,35 +14,42 @@ namespace HEXTWIST_API hextwist {
 /// One entity with the part of the mesh that is classified on it, as gmsh::model::mesh::getNodes() (boundary left out,
 /// parametric coordinates asked for) and getElements() give them and addNodes() and addElements() take them.
 struct GmshEntity {
-  int dim = 0, tag = 0;
-  std::vector<std::size_t> node_tags;
-  std::vector<double> coord;       ///< 3 per node
-  std::vector<double> parametric;  ///< dim per node, or none
-  std::vector<int> element_types;  ///< Gmsh's numbers: 15 point, 1 line, 3 quad, 5 hex
-  std::vector<std::vector<std::size_t>> element_tags, element_nodes;  ///< per type
+  int dim = 0;                                          ///< 0 point, 1 curve, 2 surface, 3 volume
+  int tag = 0;                                          ///< in Gmsh
+  std::vector<std::size_t> node_tags;                   ///< of the nodes inside of it, not on its boundary
+  std::vector<double> coord;                            ///< 3 per node
+  std::vector<double> parametric;                       ///< dim per node, or none
+  std::vector<int> element_types;                       ///< Gmsh's numbers: 15 point, 1 line, 3 quad, 5 hex
+  std::vector<std::vector<std::size_t>> element_tags;   ///< per type: one per element
+  std::vector<std::vector<std::size_t>> element_nodes;  ///< per type: 1, 2, 4, 8 node tags per element, in Gmsh's order
 };
 
 /// A physical group.
 struct GmshGroup {
-  int dim = 0, tag = 0;
-  std::string name;
-  std::vector<int> entities;  ///< tags
+  int dim = 0;                ///< of its entities
+  int tag = 0;                ///< in Gmsh, positive; becomes the id of the block or set where that is free
+  std::string name;           ///< "": none
+  std::vector<int> entities;  ///< their tags in Gmsh
 };
 
+/// A model of Gmsh as plain arrays.
 struct GmshModel {
-  std::vector<GmshEntity> entities;
-  std::vector<GmshGroup> groups;
+  std::vector<GmshEntity> entities;  ///< all of the model, those without mesh too
+  std::vector<GmshGroup> groups;     ///< all physical groups of the model
 };
 
-/// What has to be known to bring the mesh back.
+/// What has to be known to bring the mesh back: made by take_gmsh(), read by put_gmsh(), of use to nobody else but for
+/// tag_of and on_cad.
 struct GmshLink {
-  std::shared_ptr<const Model> model;      ///< of the session
-  std::array<std::vector<int>, 4> tag_of;  ///< per dimension, at id - 1: tag of the entity in Gmsh, 0: of none
-  bool on_cad = false;                     ///< false: on the skin of the mesh
-  std::vector<std::size_t> other_nodes;    ///< tags of nodes that have nothing to do with hexes, ascending
-  std::size_t last_node = 0, last_element = 0, last_hex = 0;  ///< highest tags in the model; of hexes
-  std::int64_t last_own_node = 0;                             ///< of nodes of hexes
-  std::vector<std::array<int, 2>> entities;                   ///< (dim, tag) of those that are replaced
+  std::shared_ptr<const Model> model;        ///< of the session
+  std::array<std::vector<int>, 4> tag_of;    ///< per dimension, at id - 1: tag of the entity in Gmsh, 0: of none
+  bool on_cad = false;                       ///< false: on the skin of the mesh
+  std::vector<std::size_t> other_nodes;      ///< tags of nodes that have nothing to do with hexes, ascending
+  std::size_t last_node = 0;                 ///< highest tag of a node in the model
+  std::size_t last_element = 0;              ///< highest tag of an element in the model
+  std::size_t last_hex = 0;                  ///< highest tag of a hex
+  std::int64_t last_own_node = 0;            ///< highest tag of a node of a hex
+  std::vector<std::array<int, 2>> entities;  ///< (dim, tag) of those that are replaced
   /// Elements as they were, to keep their tags: nodes (ids, sorted, 0 where there are fewer than four) and tag,
   /// ascending.
   std::array<std::vector<std::pair<std::array<std::int64_t, 4>, std::size_t>>, 3> elements;

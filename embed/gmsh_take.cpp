@@ -349,7 +349,7 @@ GmshLink take_gmsh(Session& session, const GmshModel& gmsh, const std::filesyste
   meshed.mesh = reading.file.mesh;
   if (link.on_cad) {
     meshed.model = read_cad(brep).model;
-    AssociateResult found = associate(meshed.mesh, *meshed.model, nullptr);
+    AssociateResult found = associate(meshed.mesh, *meshed.model);
     meshed.association = std::move(found.association);
     notices = std::move(found.notices);
   } else {

@@ -21,11 +21,13 @@ namespace HEXTWIST_API hextwist {
 
 /// Parameter interval of a curve; period 0 means not closed. For a closed curve last - first == period.
 struct CurveRange {
-  double first = 0;
-  double last = 1;
-  double period = 0;
+  double first = 0;   ///< t where the curve begins
+  double last = 1;    ///< t where it ends, above first
+  double period = 0;  ///< above 0: t and t + period are the same point
 };
 
+/// A geometry: read from CAD (read_cad()), the skin of a mesh (associate_with_own_skin()), or a class of your own.
+/// Immutable, and shared by all meshes on it. Entities that do not exist must not be asked about: count() tells.
 class Model {
  public:
   virtual ~Model() = default;

@@ -14,21 +14,32 @@ namespace HEXTWIST_API hextwist {
 /// A card of an Abaqus file that is no mesh (a section, a material, a step, a boundary condition), with the lines that
 /// belong to it, and what of the mesh it names. Its text stays as it was but for those names.
 struct AbaqusCard {
+  /// A name or number in the text that means a part of the mesh; it is written as that part is then called.
   struct Reference {
-    enum Kind { block, node_set, side_set, node, hex } kind;
-    std::int64_t id;
-    std::size_t begin, end;  ///< in the text
-    bool by_keyword;         ///< named in the keyword's line: the whole card is about it, else the line is
+    /// What it means.
+    enum Kind {
+      block,     ///< by name, an element set
+      node_set,  ///< by name
+      side_set,  ///< by name, a surface
+      node,      ///< by number
+      hex        ///< by number
+    };
+    Kind kind;          ///< what `id` is an id of
+    std::int64_t id;    ///< as the mesh has it
+    std::size_t begin;  ///< where it stands in the text, 0-based
+    std::size_t end;    ///< behind its last character
+    bool by_keyword;    ///< named in the keyword's line: the whole card is about it, else the line is
   };
-  std::string text;
+  std::string text;                   ///< all its lines, with their line ends
   std::vector<Reference> references;  ///< ascending
   std::string where;                  ///< file and line
 };
 
 /// Nodes of one entity of a Gmsh file, each with its image on another: a periodic boundary.
 struct PeriodicPairs {
-  int dim = 0;
-  int entity = 0, of = 0;                          ///< tags in the file: the entity and the one that it repeats
+  int dim = 0;                                     ///< of both entities: 0 point, 1 curve, 2 surface
+  int entity = 0;                                  ///< its tag in the file
+  int of = 0;                                      ///< tag of the entity that it repeats
   std::vector<double> affine;                      ///< 4 x 4, row by row: takes `of` to `entity`; may be empty
   std::vector<std::array<std::int64_t, 2>> nodes;  ///< ids, on the entity and on `of`
 };
@@ -40,14 +51,15 @@ struct FileExtras {
   std::map<int, std::string> element_types;
   /// Nodes of the hexes of a block, by its id: 8, 20 or 27; at 0 those of all others, 8 where there is none.
   std::map<int, int> nodes_per_hex;
-  std::map<int, std::string> patches;  ///< OpenFOAM: entries of a patch ("type wall;"), by its side set
-  std::string heading;                 ///< Abaqus: lines below *HEADING
-  std::vector<AbaqusCard> cards;
-  std::vector<int> node_surfaces;  ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
-  std::vector<PeriodicPairs> periodic;
+  std::map<int, std::string> patches;   ///< OpenFOAM: entries of a patch ("type wall;"), by its side set
+  std::string heading;                  ///< Abaqus: lines below *HEADING
+  std::vector<AbaqusCard> cards;        ///< Abaqus: those that are no mesh, in the order of the file
+  std::vector<int> node_surfaces;       ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
+  std::vector<PeriodicPairs> periodic;  ///< Gmsh: boundaries that repeat others
   /// Gmsh: node sets that are physical groups of curves, and their tags there.
   std::map<int, int> curve_groups;
 
+  /// Does the file say nothing beyond its mesh?
   bool empty() const {
     return element_types.empty() && nodes_per_hex.empty() && patches.empty() && heading.empty() && cards.empty() &&
            node_surfaces.empty() && periodic.empty() && curve_groups.empty();

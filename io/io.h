@@ -47,10 +47,10 @@ namespace HEXTWIST_API hextwist {
 /// What a mesh file says: the mesh, which entities its tags name as owners (partial, unchecked; empty() when the
 /// format has none), and remarks, one line each ("dropped 40 quads that are no side of a hex", ...).
 struct MeshFile {
-  Mesh mesh;
-  Association tags;
-  std::vector<std::string> notices;
-  FileExtras extras;
+  Mesh mesh;                         ///< as the file has it, but sorted by id
+  Association tags;                  ///< ids are those of the file: associate() checks them against a model
+  std::vector<std::string> notices;  ///< empty: there is nothing to remark
+  FileExtras extras;                 ///< for WriteOptions::extras
   /// Of a file of second order: the mesh has the corners only, and this says where the other nodes were.
   MiddleNodes middles;
 };
@@ -65,6 +65,7 @@ struct MeshFile {
 /// crash. Default: in this process.
 MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
+/// How a file is written; what its format does not have is ignored.
 struct WriteOptions {
   bool binary = true;                  ///< where the format has both
   int gmsh_version = 41;               ///< 22 or 41
@@ -88,8 +89,9 @@ struct WriteOptions {
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
                                     const WriteOptions& options = {});
 
-/// Extensions that can be read or written, for messages: ".msh .e ...".
+/// Extensions that can be read, for messages: ".msh .e ...".
 std::string readable_extensions();
+/// Extensions that can be written, likewise.
 std::string writable_extensions();
 
 }  // namespace hextwist

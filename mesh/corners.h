@@ -12,9 +12,9 @@
 
 namespace HEXTWIST_API hextwist {
 
-inline constexpr int n_hex_corners = 8;
-inline constexpr int n_hex_edges = 12;
-inline constexpr int n_hex_faces = 6;
+inline constexpr int n_hex_corners = 8;  ///< numbered 0 .. 7 by their bits
+inline constexpr int n_hex_edges = 12;   ///< numbered 0 .. 11, four along x, four along y, four along z
+inline constexpr int n_hex_faces = 6;    ///< numbered 0 .. 5: x = 0, x = 1, y = 0, y = 1, z = 0, z = 1
 
 /// Spreads the two bits of k over the axes other than `axis`.
 constexpr int spread_bits(int axis, int k) {
@@ -60,10 +60,11 @@ constexpr std::array<int, 4> face_cycle(int face) {
 /// its own inverse.
 inline constexpr std::array<int, 8> file_corner = {0, 1, 3, 2, 4, 5, 7, 6};
 
-/// Nodes of one side, in the bit frame or as an outward cycle.
+/// Nodes of one side, in the bit frame.
 constexpr std::array<Index, 4> face_nodes(const Hex& hex, int face) {
   return {hex[face_corner(face, 0)], hex[face_corner(face, 1)], hex[face_corner(face, 2)], hex[face_corner(face, 3)]};
 }
+/// Nodes of one side as a cycle, counter-clockwise seen from outside of a positively oriented hex.
 constexpr std::array<Index, 4> face_node_cycle(const Hex& hex, int face) {
   const auto cycle = face_cycle(face);
   return {hex[cycle[0]], hex[cycle[1]], hex[cycle[2]], hex[cycle[3]]};

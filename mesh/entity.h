@@ -8,8 +8,23 @@
 
 namespace HEXTWIST_API hextwist {
 
-enum class EntityKind { node, edge, face, hex, vertex, curve, surface, volume, block, nodeset, sideset, sheet, group };
-inline constexpr int n_entity_kinds = 13;
+/// In this order: what follows relies on it.
+enum class EntityKind {
+  node,     ///< of the mesh, by its id
+  edge,     ///< of the mesh, by its number in edges() + 1
+  face,     ///< of the mesh, by its number in faces() + 1
+  hex,      ///< of the mesh, by its id
+  vertex,   ///< of the CAD, or of the skin of the mesh
+  curve,    ///< likewise
+  surface,  ///< likewise
+  volume,   ///< likewise
+  block,    ///< named hexes
+  nodeset,  ///< named nodes
+  sideset,  ///< named sides of hexes
+  sheet,    ///< of hexes: the edges that it cuts (AcrossSheets)
+  group,    ///< named entities of several kinds
+};
+inline constexpr int n_entity_kinds = 13;  ///< values of EntityKind are 0 .. 12
 
 /// "node", "edge", ...: the word of the language.
 constexpr std::string_view name(EntityKind kind) {
@@ -36,9 +51,11 @@ constexpr std::string_view plural(EntityKind kind) {
 constexpr bool has_names(EntityKind kind) {
   return (kind >= EntityKind::vertex && kind <= EntityKind::sideset) || kind == EntityKind::group;
 }
+/// Is it part of the mesh itself: node, edge, face or hex?
 constexpr bool is_mesh(EntityKind kind) {
   return kind <= EntityKind::hex;
 }
+/// Is it part of the model: vertex, curve, surface or volume?
 constexpr bool is_cad(EntityKind kind) {
   return kind >= EntityKind::vertex && kind <= EntityKind::volume;
 }

@@ -10,6 +10,13 @@
 
 namespace hextwist {
 
+/// What works on lanes is a few instructions where it is inlined, and many where it is called.
+#if defined(__GNUC__)
+#define HEXTWIST_LANES [[gnu::always_inline]] inline
+#else
+#define HEXTWIST_LANES inline
+#endif
+
 template <int N>
 using Lanes = Eigen::Array<double, N, 1>;
 
@@ -17,14 +24,28 @@ template <int N>
 struct LaneVec {
   Lanes<N> x, y, z;
 
-  LaneVec operator-(const LaneVec& b) const { return {x - b.x, y - b.y, z - b.z}; }
-  LaneVec operator+(const LaneVec& b) const { return {x + b.x, y + b.y, z + b.z}; }
-  Lanes<N> squared() const { return x * x + y * y + z * z; }
+  HEXTWIST_LANES LaneVec operator-(const LaneVec& b) const { return {x - b.x, y - b.y, z - b.z}; }
+  HEXTWIST_LANES LaneVec operator+(const LaneVec& b) const { return {x + b.x, y + b.y, z + b.z}; }
+  HEXTWIST_LANES Lanes<N> squared() const {
+    // In steps, here and below: longer expressions are calls of Eigen.
+    Lanes<N> sum = x * x;
+    sum += y * y;
+    sum += z * z;
+    return sum;
+  }
 };
 
 template <int N>
-Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
-  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+HEXTWIST_LANES Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
+  const auto cofactor = [](const Lanes<N>& p, const Lanes<N>& q, const Lanes<N>& r, const Lanes<N>& s) {
+    Lanes<N> result = p * q;
+    result -= r * s;
+    return result;
+  };
+  Lanes<N> sum = a.x * cofactor(b.y, c.z, b.z, c.y);
+  sum += a.y * cofactor(b.z, c.x, b.x, c.z);
+  sum += a.z * cofactor(b.x, c.y, b.y, c.x);
+  return sum;
 }
 
 template <int N>
@@ -39,18 +60,25 @@ inline LaneHex<1> load(std::span<const Vec3, 8> corners) {
   }
   return lanes;
 }
-/// Hexes `first` to first + N - 1.
-template <int N>
-LaneHex<N> load(const Mesh& mesh, Index first) {
+/// Hexes hex_of(0) to hex_of(N - 1).
+template <int N, class HexOf>
+HEXTWIST_LANES LaneHex<N> load(const Mesh& mesh, const HexOf& hex_of) {
   LaneHex<N> lanes;
-  for (int lane = 0; lane < N; ++lane)
+  for (int lane = 0; lane < N; ++lane) {
+    const Hex& hex = mesh.hexes[hex_of(lane)];
     for (int c = 0; c < 8; ++c) {
-      const Vec3& p = mesh.points[mesh.hexes[first + lane][c]];
+      const Vec3& p = mesh.points[hex[c]];
       lanes[c].x[lane] = p.x();
       lanes[c].y[lane] = p.y();
       lanes[c].z[lane] = p.z();
     }
+  }
   return lanes;
+}
+/// Hexes `first` to first + N - 1.
+template <int N>
+HEXTWIST_LANES LaneHex<N> load(const Mesh& mesh, Index first) {
+  return load<N>(mesh, [&](int lane) { return first + lane; });
 }
 
 /// The edges of a hex by direction, all pointing up; edge k of an axis as in corners.h.
@@ -58,7 +86,7 @@ template <int N>
 struct LaneEdges {
   std::array<std::array<LaneVec<N>, 4>, 3> along;
 
-  explicit LaneEdges(const LaneHex<N>& x) {
+  HEXTWIST_LANES explicit LaneEdges(const LaneHex<N>& x) {
     for (int axis = 0; axis < 3; ++axis)
       for (int k = 0; k < 4; ++k) along[axis][k] = x[edge_corner(4 * axis + k, 1)] - x[edge_corner(4 * axis + k, 0)];
   }

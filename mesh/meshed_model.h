@@ -11,9 +11,9 @@ namespace HEXTWIST_API hextwist {
 
 /// A mesh, the model it lies on, and who owns what. model may be null only when the association is empty.
 struct MeshedModel {
-  Mesh mesh;
-  std::shared_ptr<const Model> model;
-  Association association;
+  Mesh mesh;                           ///< without hexes: a model alone
+  std::shared_ptr<const Model> model;  ///< shared by all meshes on it
+  Association association;             ///< of that mesh with that model; empty: nobody owns anything
 };
 
 }  // namespace hextwist

@@ -73,13 +73,15 @@ void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index
   for (const Index corner : corners) {
     const Hex& hex = hexes[corner >> 3];
     const int c = corner & 7;
+    // A node that a face names twice keeps the face where it stands first.
+    unsigned above = 0;  // corners whose nodes come after this one
+    for (int d = 0; d < 8; ++d) above |= static_cast<unsigned>(hex[d] > node || (hex[d] == node && d > c)) << d;
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
-      const std::array<int, 3> at = {c ^ u, c ^ v, c ^ u ^ v};
-      // A node that the face names twice keeps the face where it stands first.
-      if (!std::ranges::all_of(at, [&](int d) { return hex[d] > node || (hex[d] == node && d > c); })) continue;
-      const auto [low, high] = std::minmax(hex[at[0]], hex[at[1]]);
-      uses.push_back({hex[at[2]], low, high, corner, axis});
+      const unsigned others = 1U << (c ^ u) | 1U << (c ^ v) | 1U << (c ^ u ^ v);
+      if ((above & others) != others) continue;
+      const auto [low, high] = std::minmax(hex[c ^ u], hex[c ^ v]);
+      uses.push_back({hex[c ^ u ^ v], low, high, corner, axis});
     }
   }
   std::ranges::sort(uses);

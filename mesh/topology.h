@@ -21,18 +21,22 @@ using Quad = std::array<Index, 4>;  ///< nodes; bit frame or cycle, as the conte
 /// Lists of varying length in two arrays.
 struct CompressedRows {
   std::vector<Index> first;  ///< n + 1
-  std::vector<Index> items;
+  std::vector<Index> items;  ///< of all lists, one after the other
+  /// List i of 0 .. size() - 1; valid while the arrays are left alone.
   std::span<const Index> operator[](Index i) const {
     return {items.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
   }
+  /// Number of lists.
   Index size() const { return static_cast<Index>(first.size()) - 1; }
 };
 
+/// All edges of a mesh, each once.
 struct Edges {
   std::vector<Edge> nodes;                    ///< per edge, sorted
   std::vector<std::array<Index, 12>> of_hex;  ///< per hex: edges in the order of corners.h
   std::vector<Index> first_of_node;           ///< n_nodes + 1: edges whose lower node is i
 };
+/// All faces of a mesh, each once.
 struct Faces {
   std::vector<Quad> nodes;                   ///< per face, bit frame of sides[face][0]
   std::vector<std::array<Side, 2>> sides;    ///< per face: its one or two hexes (hex -1: none)
@@ -40,18 +44,20 @@ struct Faces {
   std::vector<Index> first_of_node;          ///< n_nodes + 1: faces whose lowest node is i
 };
 
-/// All of these throw Error naming the first hex that names a node that does not exist. Hexes may otherwise be as bad
-/// as they like (a node named twice, ...): what such a mesh gives is deterministic.
+/// The edges of a mesh. Throws Error naming the first hex that names a node that does not exist. Hexes may otherwise be
+/// as bad as they like (a node named twice, ...): what such a mesh gives is deterministic.
 Edges edges(const Mesh& mesh);
-/// Throws Error naming three hexes when they share one face.
+/// The faces of a mesh. Throws as edges(), and Error naming three hexes when they share one face.
 Faces faces(const Mesh& mesh);
 
-/// Edge between two nodes, face with four nodes (any order), -1 when there is none. Any integers may be asked for.
+/// Edge between two nodes, in any order; -1 when there is none. Any integers may be asked for.
 Index find_edge(const Edges& edges, Index a, Index b);
+/// Face with four nodes, in any order; -1 when there is none. Any integers may be asked for.
 Index find_face(const Faces& faces, const Quad& nodes);
 
-/// Hexes around each node; hexes around each edge; both ascending (a hex that names a node twice stands twice).
+/// Hexes around each node, ascending (a hex that names a node twice stands twice). Throws as edges().
 CompressedRows node_hexes(const Mesh& mesh);
+/// Hexes around each edge, ascending (a hex that names a node twice may stand twice).
 CompressedRows edge_hexes(const Edges& edges, Index n_hexes);
 
 /// Sides with no hex behind them, ascending by (hex, face).

@@ -13,17 +13,17 @@ commands='
   quality volume all shape
   export vtk "hextwist-demo.vtu" overwrite
   export gmsh "hextwist-demo.msh" overwrite
-  draw to "hextwist-demo.html" overwrite
   draw to "hextwist-demo.png" overwrite
 '
 echo "hextwist --cad models/bracket.brep models/bracket.msh -c '$commands' --json hextwist-demo.json"
 echo
 "$program" --cad "$here/bracket.brep" "$here/bracket.msh" -c "$commands" --json hextwist-demo.json
+"$program" view hextwist-demo.msh --cad "$here/bracket.brep" --before "$here/bracket.msh" -o hextwist-demo.html || true  # it says what is missing
 
 cat <<DONE
 
 The refined bracket is in
-  hextwist-demo.html   for any browser: turns with the mouse, tells which hex was clicked
+  hextwist-demo.html   the viewer, for any browser: pick, cut, colour; click 'Before' for the mesh as it was
   hextwist-demo.png    a picture
   hextwist-demo.vtu    for ParaView:  paraview hextwist-demo.vtu   (show "Surface With Edges", colour by shape)
   hextwist-demo.msh    for Gmsh:      gmsh hextwist-demo.msh

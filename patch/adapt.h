@@ -20,15 +20,16 @@ namespace HEXTWIST_API hextwist {
 /// A levelling in which nothing is cut yet.
 std::shared_ptr<const Levelling> levelling_of(std::shared_ptr<const MeshedModel> base);
 
+/// How adapt() goes about it.
 struct AdaptOptions {
   /// Levels (Transition::regular): pieces of a transition are never cut again, and what was cut can become coarser.
   /// False: exactly the flagged hexes are cut, whatever they are.
   bool keep_gradation = true;
   /// Of wished sizes: limits their growth from element to element (Sizes::bias).
   double bias = 1;
-  Concave concave = Concave::templates;
-  bool smooth = false;
-  std::vector<Index> fixed = {};  ///< nodes (0-based) that are not moved (Finish::fixed)
+  Concave concave = Concave::templates;  ///< whether more than the flagged hexes may be cut
+  bool smooth = false;                   ///< smooth the new hexes and two layers around them (Finish::smooth)
+  std::vector<Index> fixed = {};         ///< nodes (0-based) that are not moved (Finish::fixed)
   /// Keep the hex field "level": how often the cell that a hex is, or is a piece of, was cut out of others.
   bool level_field = true;
   /// Fields of hexes whose sum stays; others are copied, and averaged where hexes become coarser.
@@ -41,19 +42,21 @@ struct AdaptOptions {
   std::shared_ptr<const Levelling> levelling = nullptr;
 };
 
+/// What adapt() returns.
 struct AdaptResult {
-  MeshedModel refined;
+  MeshedModel refined;          ///< with the fields of the input, carried over
   std::vector<Index> origin;    ///< per hex: the hex of the input that it lies in; where several became one, the first
   LevelOrigin came_from;        ///< per hex in full: the same, in a coarser one, or made of several
   std::vector<Index> old_node;  ///< per node: the same of the input, -1; empty: those of the input come first
-  Report report;
+  Report report;                ///< with violations: the mesh is not to be kept
   std::shared_ptr<const Levelling> levelling;  ///< null without gradation
 };
 
 /// Flags and wishes of a solver as requests like any other.
 /// flags: one per hex, 0 or not. Throws Error when there is not one flag per hex.
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options = {});
-/// changes: one per hex, by how many levels it is to become finer (> 0) or coarser (< 0): LevelChanges.
+/// changes: one per hex, by how many levels it is to become finer (> 0) or coarser (< 0): LevelChanges. Throws Error
+/// when there is not one per hex.
 Request adapt_request(const Mesh& mesh, std::span<const std::int8_t> changes, const AdaptOptions& options = {});
 /// sizes: one per hex, infinity where there is no wish. Throws Error when there is not one size per hex.
 Request adapt_request(const Mesh& mesh, std::span<const double> sizes, const AdaptOptions& options = {});
@@ -64,7 +67,7 @@ LevelOrigin came_from(const Mesh& input, const RefineResult& result);
 /// Cuts the flagged hexes into 27 each. No flag at all: the mesh as it was. Throws as adapt_request(); Cancelled.
 AdaptResult adapt(const MeshedModel& input, std::span<const std::uint8_t> flags, const AdaptOptions& options = {},
                   const Progress& progress = {});
-/// Finer and coarser.
+/// Makes hexes finer (> 0) and coarser (< 0) by levels (LevelChanges). Throws as adapt_request(); Cancelled.
 AdaptResult adapt(const MeshedModel& input, std::span<const std::int8_t> changes, const AdaptOptions& options = {},
                   const Progress& progress = {});
 

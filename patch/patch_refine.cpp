@@ -9,6 +9,8 @@
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/levelling.h"
+#include "hextwist/sizing/sizes_met.h"
+#include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -85,6 +87,23 @@ bool is_complete(const MeshedModel& input, const Request& request) {
          std::ranges::all_of(request.finish.fixed, [&](Index n) { return n >= 0 && n < mesh.n_nodes(); });
 }
 
+/// Of a request that changes nothing: a patch without hexes.
+PatchResult nothing_done(const MeshedModel& input, const Measured& known, const Request& request, Report report) {
+  PatchResult made;
+  made.patch = make_patch(input, {});
+  made.result.refined = made.patch.meshed;
+  made.result.levelling = request.levelling;
+  const PatchNumbers numbers(made.patch, input, made.result.refined.mesh);
+  made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
+  verify_unchanged(known, report);
+  report.hexes_before = report.hexes_after = input.mesh.n_hexes();
+  report.nodes_before = report.nodes_after = input.mesh.n_nodes();
+  report.peak_memory_bytes = peak_memory();
+  made.is_verified = true;
+  made.result.report = std::move(report);
+  return made;
+}
+
 }  // namespace
 
 bool is_by_places(const Request& request) {
@@ -97,6 +116,15 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
   if (request.finish.dry_run && is_by_places(request)) return std::nullopt;
   const Plan plan = hextwist::plan(input, request);
   if (mesh.n_hexes() < patch_rule.least_mesh || !is_complete(input, request)) return std::nullopt;
+  {
+    Report report;
+    report.scaled_jacobian_before = known.scaled_jacobian;
+    Stages stages(report, progress);
+    stages.begin("sizes", 0);
+    report.sizes = sizes_met(input, request, report.notices);
+    stages.close();
+    if (report.sizes) return nothing_done(input, known, request, std::move(report));
+  }
   if (is_by_levels(request, plan)) return refine_levels_patch(input, known, request, progress, rings_of);
   if (!plan.reach) return std::nullopt;
   const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);

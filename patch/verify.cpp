@@ -13,6 +13,7 @@
 #include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/quality/measure.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 #include "hextwist/patch/verify_internal.h"
@@ -306,18 +307,24 @@ void add_broken(const Mesh& refined, Report& report) {
                                      " off ('allow off_cad' would leave it there)"});
 }
 
-Measured measured_without_cad(const Mesh& mesh) {
+Measured measured_without_cad(const Mesh& mesh, const Measures& of_hexes) {
   Measured result;
   auto lists = std::make_shared<Extremes>();
-  const auto summary = [&](Metric metric, std::array<ExtremeList, 2>& of) {
-    const std::vector<double> values = quality(metric, mesh);
+  const auto summary = [&](const std::vector<double>& values, std::array<ExtremeList, 2>& of) {
     of = {extremes(mesh, values, false), extremes(mesh, values, true)};
     return summarize(values);
   };
-  result.shape = summary(Metric::shape, lists->shape);
-  result.scaled_jacobian = summary(Metric::scaled_jacobian, lists->scaled_jacobian);
-  result.volume = volume(mesh);
+  result.shape = summary(of_hexes.shape, lists->shape);
+  result.scaled_jacobian = summary(of_hexes.scaled_jacobian, lists->scaled_jacobian);
+  for (const double of_hex : of_hexes.volume) result.volume += of_hex;
   result.extremes = std::move(lists);
+  return result;
+}
+
+Measured measured(const MeshedModel& meshed, const Measures& of_hexes) {
+  Measured result = measured_without_cad(meshed.mesh, of_hexes);
+  if (meshed.model && !meshed.association.empty())
+    result.off_cad = off_model(meshed.mesh, meshed.association, *meshed.model);
   return result;
 }
 
@@ -344,10 +351,7 @@ void set_after(const Measured& of, Report& report) {
 }  // namespace
 
 Measured measured(const MeshedModel& meshed) {
-  Measured result = measured_without_cad(meshed.mesh);
-  if (meshed.model && !meshed.association.empty())
-    result.off_cad = off_model(meshed.mesh, meshed.association, *meshed.model);
-  return result;
+  return measured(meshed, measure(meshed.mesh));
 }
 
 Measured measured_after(const Report& report) {
@@ -440,9 +444,14 @@ void verify_unchanged(const Measured& known, Report& report) {
 
 void verify_all(const MeshedModel& refined, const Measured& before, Report& report) {
   set_before(before, report);
-  set_after(measured(refined), report);
+  bool all_valid = false;
+  {
+    const Measures of_hexes = measure(refined.mesh);
+    all_valid = of_hexes.all_valid;
+    set_after(measured(refined, of_hexes), report);
+  }
   add_broken(refined.mesh, report);
-  if (has_only_warnings(refined.mesh)) return;
+  if (all_valid && has_only_warnings(refined.mesh, true)) return;
   for (Violation& violation : validate(refined.mesh))
     if (!is_warning(violation.kind)) report.violations.push_back(std::move(violation));
 }
@@ -484,7 +493,7 @@ void verify(const MeshedModel& input, const Measured* known, const MeshedModel& 
   if (known && is_unchanged(input, refined)) return verify_unchanged(*known, report);
   if (known && !old && verify_change(find_change(input, refined), *known, report)) return;
   if (known && old && !old->node.empty() && verify_renumbered(input, *known, refined, *old, report)) return;
-  verify_all(refined, known ? *known : measured_without_cad(input.mesh), report);
+  verify_all(refined, known ? *known : measured_without_cad(input.mesh, measure(input.mesh)), report);
 }
 
 }  // namespace hextwist

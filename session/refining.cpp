@@ -53,6 +53,10 @@ LevelOrigin came_from(const Refining& refining, const MeshedModel& before) {
 void accept_refining(Transaction& run, Refining refining) {
   if (!refining.patch) return accept_refined(run, std::move(refining.whole));
   PatchResult& patch = *refining.patch;
+  if (patch.splice->hexes().come.empty() && patch.splice->hexes().gone.empty()) {
+    run.leave_mesh();
+    return take_measured(run, patch.result.report);
+  }
   const Report report = std::move(patch.result.report);
   const Reindexing nodes = patch.splice->nodes();
   run.stage("splice");

@@ -84,8 +84,13 @@ void Transaction::splice(const SpliceChange& change) {
   }
 }
 
+void Transaction::leave_mesh() {
+  if (!back && !mesh_before_) back = SameMesh();
+}
+
 void Transaction::end_levels() {
   if (is_playback || is_history || !(back || mesh_before_)) return;
+  if (back && std::holds_alternative<SameMesh>(*back)) return;
   if (!state.levelling || state.levelling != state_before_.levelling) return;
   // Changed by a command that knows nothing of levels.
   state.levelling = nullptr;

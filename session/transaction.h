@@ -41,6 +41,8 @@ class Transaction {
   void replace(MeshedModel meshed);
   /// Gives the mesh these blocks and sets, in place: no other array is copied.
   void change_sets(Mesh lists);
+  /// The mesh stays, by a command that would have changed it: a step that can be undone like any other.
+  void leave_mesh();
   /// Changes the mesh in place.
   void splice(const SpliceChange& change);
   /// How to undo the last change in place.

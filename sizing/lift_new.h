@@ -7,6 +7,9 @@
 
 namespace hextwist {
 
+/// Scaled Jacobian below which a new hex is one that may be lifted.
+inline constexpr double lift_below = 0.3;
+
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
 /// nodes on curves and those of cubes stay. In the end, once: passes to come cut hexes as
 /// the templates made them. Returns the nodes that moved, ascending.

@@ -175,9 +175,10 @@ void State::smooth_between_passes() {
 void State::close() {
   begin("improve");
   const Index first_new = n_kept(mesh());
-  std::vector<Index> low;
+  std::vector<Index> low, may_be_lifted;
   const auto look = [&] {
-    low = hexes_below(mesh(), poor_quality, first_new);
+    may_be_lifted = hexes_below(mesh(), std::max(poor_quality, lift_below), first_new);
+    low = hexes_below(mesh(), poor_quality, may_be_lifted);
     report.flat_hexes = flattened_hexes(input.mesh, mesh(), result_.origin, low);
   };
   look();
@@ -190,7 +191,8 @@ void State::close() {
     look();
   }
   // Layers are as thin as they were asked for.
-  if (!std::holds_alternative<Layers>(request.how)) {
+  const bool only_new_hexes = result_.old_node.empty();  // else nodes of others may lie elsewhere, too
+  if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty())) {
     const std::vector<Index> moved = lift_new_hexes(result_.refined, new_nodes(), request.finish);
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();

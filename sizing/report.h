@@ -20,15 +20,15 @@ struct Levelling;
 
 /// Seconds per stage of a refinement, in the order run.
 struct StageTime {
-  std::string stage;
-  double seconds = 0;
+  std::string stage;   ///< "targets", "split", "place", ..., as Progress has them
+  double seconds = 0;  ///< wall clock, all passes together
 };
 
 /// How well a request for sizes was met. The zone: the hexes at which it was wished for (with a bias: the hexes that it
 /// made and those at the target). The actual size of a hex is the cube root of its volume; the wished one that at its
 /// centroid.
 struct SizeReport {
-  int n_passes = 0;
+  int n_passes = 0;           ///< run, of those that Sizes::max_passes allows
   std::vector<Index> hexes;   ///< of the zone, ascending
   std::vector<double> ratio;  ///< per hex of the zone: actual size / wished size
   Index n_coarser = 0;        ///< ratio above sqrt(3)
@@ -50,46 +50,56 @@ struct PoorHexes {
   std::vector<Index> worst = {};  ///< at most five of them, the worst first
 };
 
+/// What a refinement has done. Of a dry run the counts are those of the real one, and nothing of the result is
+/// measured.
 struct Report {
-  std::int64_t hexes_before = 0, hexes_after = 0;
-  std::int64_t nodes_before = 0, nodes_after = 0;
-  std::int64_t graded_cells = 0;  ///< cells that are cut for the sake of those around them alone (Transition::regular)
-  std::int64_t filled_hexes = 0;  ///< hexes that joined the region because of Concave::fill
-  Summary shape_before, shape_after;
-  Summary scaled_jacobian_before, scaled_jacobian_after;
-  OffModel off_cad;
+  std::int64_t hexes_before = 0;   ///< of the input
+  std::int64_t hexes_after = 0;    ///< of the result; of a dry run what it would have
+  std::int64_t nodes_before = 0;   ///< of the input
+  std::int64_t nodes_after = 0;    ///< of the result; of a dry run what it would have
+  std::int64_t graded_cells = 0;   ///< cells that are cut for the sake of those around them alone (Transition::regular)
+  std::int64_t filled_hexes = 0;   ///< hexes that joined the region because of Concave::fill
+  Summary shape_before;            ///< over all hexes of the input; count 0: not measured
+  Summary shape_after;             ///< over all hexes of the result
+  Summary scaled_jacobian_before;  ///< over all hexes of the input
+  Summary scaled_jacobian_after;   ///< over all hexes of the result
+  OffModel off_cad;                ///< of the result
   std::shared_ptr<const Extremes> extremes;  ///< of the result (extremes.h), for who refines it again
-  double volume_before = 0, volume_after = 0;
-  std::vector<OffOwner> off_nodes;  ///< nodes that were left off their owner
-  bool off_nodes_allowed = false;   ///< the request said so; else each is a violation
-  std::vector<Index> flat_hexes;    ///< flat compared with the input (outcome.h): each is a violation
-  PoorHexes poor;
+  double volume_before = 0;                  ///< sum over the hexes of the input, model units cubed
+  double volume_after = 0;            ///< sum over the hexes of the result; it changes where new nodes follow the CAD
+  std::vector<OffOwner> off_nodes;    ///< nodes that were left off their owner
+  bool off_nodes_allowed = false;     ///< the request said so; else each is a violation
+  std::vector<Index> flat_hexes;      ///< flat compared with the input (outcome.h): each is a violation
+  PoorHexes poor;                     ///< count 0: there are none
   std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
   std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
   std::vector<std::string> notices;   ///< decisions taken, one line each
-  std::vector<StageTime> seconds;
-  double total_seconds = 0;
+  std::vector<StageTime> seconds;     ///< in the order run
+  double total_seconds = 0;           ///< their sum
   std::size_t peak_memory_bytes = 0;  ///< of the process so far
 };
 
 /// Called now and then with a stage name and its progress 0..1; returns false to cancel (the call then throws
 /// Cancelled and nothing has changed).
 using Progress = std::function<bool(const char* stage, double fraction)>;
+/// Thrown when a progress callback has returned false. what() is "cancelled".
 struct Cancelled : Error {
   Cancelled() : Error("cancelled") {}
 };
 
+/// What refine() returns.
 struct RefineResult {
-  MeshedModel refined;
+  MeshedModel refined;  ///< on the model of the input; empty for a dry run
   /// Per hex, the hex of the input that it lies in; of those that it came from (`came_from`), the first. Empty for a
   /// dry run.
   std::vector<Index> origin;
-  Report report;
+  Report report;  ///< with violations: the mesh is not to be kept
   /// Of a result by levels: for Request::levelling of the next request. Null: the result is a new base.
   std::shared_ptr<const Levelling> levelling = nullptr;
-  /// Of a result by levels, but for the first one of a base: that of each hex in full, and per node the node of the
-  /// input that it is, -1.
+  /// Of a result by levels, but for the first one of a base: where each hex comes from in full. Else empty: came_from()
+  /// of patch/adapt.h answers in any case.
   LevelOrigin came_from = {};
+  /// Likewise: per node the node of the input that it is, -1: a new one. Empty: those of the input come first.
   std::vector<Index> old_node = {};
   std::vector<Index> smoothed = {};  ///< nodes that smoothing or lifting moved in the end, ascending
 };

@@ -18,7 +18,7 @@ struct Levelling;
 
 /// What is to be refined.
 struct Target {
-  EntityKind kind = EntityKind::hex;  ///< node .. volume
+  EntityKind kind = EntityKind::hex;  ///< one of those from node to volume
   /// Mesh entities by index (0-based; edges and faces as numbered by edges() and faces()), CAD entities by id.
   /// Ascending, each once.
   std::vector<Index> ids = {};
@@ -39,15 +39,16 @@ constexpr bool is_solid(EntityKind kind) {
 /// Cuts::numsplit is at most this where not all volumes of the model are refined together: 3^8 pieces per edge.
 inline constexpr int max_numsplit = 8;
 
-/// Each target edge is cut in three, so often: 1 .. max_numsplit. All volumes of the model together are refined
-/// uniformly instead: every edge in numsplit + 1 pieces, 1 .. 29.
+/// Each target edge is cut in three, so often. All volumes of the model together are refined uniformly instead: every
+/// edge in numsplit + 1 pieces.
 struct Cuts {
-  int numsplit = 1;
+  int numsplit = 1;  ///< 1 to max_numsplit; of all volumes 1 to 29
 };
 
 /// Until elements have about a wished size: edges are cut while they are longer than sqrt(3) times the wish, so that
 /// they end within a factor sqrt(3) of it. A size or a field or both; then the smaller one counts.
 struct Sizes {
+  /// Wished length of edges, model units, above 0; none: `field` alone.
   std::optional<double> size = std::nullopt;
   /// 1: the size is wished for at the target only (the hexes that depth or radius choose; by default those that touch
   /// it). Above 1: everywhere, growing by bias - 1 per unit of distance from the target entity, so that neighbours grow
@@ -66,7 +67,7 @@ struct Sizes {
 /// In one direction only: edges that leave the target (surfaces or faces) are cut in three, numsplit times, and so on
 /// from hex to hex to the other side of the mesh.
 struct Thickness {
-  int numsplit = 1;
+  int numsplit = 1;  ///< 1 .. max_numsplit
 };
 
 /// Layers along the target in the hexes that touch it: boundary layers. Of anything but hexes and volumes.
@@ -95,6 +96,7 @@ struct LevelChanges {
   std::vector<std::int8_t> by = {};  ///< per hex
 };
 
+/// What is done at the target: one of these.
 using How = std::variant<Cuts, Sizes, Thickness, Layers, AcrossSheets, LevelChanges>;
 
 /// Which technique of the paper (table 1).
@@ -109,7 +111,10 @@ enum class Method {
 const char* name(Method method);
 
 /// What to do where a region is concave: templates of their own, or filling it up as the paper does (section 4.3).
-enum class Concave { templates, fill };
+enum class Concave {
+  templates,  ///< no hex joins the region: it stays as small as asked for
+  fill,       ///< hexes join the region until it is convex
+};
 
 /// What becomes of the transition around hexes that are cut as a whole, when what is in it or next to it is cut again.
 enum class Transition {
@@ -139,16 +144,17 @@ struct Finish {
   bool allow_off_cad = false;
 };
 
+/// All that refine() wants to know beside the mesh. What does not go together is refused by name.
 struct Request {
-  Target target = {};
-  How how = Cuts{};
-  Method method = Method::automatic;
-  Concave concave = Concave::templates;
-  Transition transition = Transition::automatic;
+  Target target = {};                             ///< where; not looked at by AcrossSheets and LevelChanges
+  How how = Cuts{};                               ///< how fine, or in which direction
+  Method method = Method::automatic;              ///< by which technique
+  Concave concave = Concave::templates;           ///< whether the region may grow
+  Transition transition = Transition::automatic;  ///< what becomes of transitions that are cut again
   /// How the input came out of its base (RefineResult::levelling). Null: it is a base, and nobody asks for more than
   /// the result.
   std::shared_ptr<const Levelling> levelling = nullptr;
-  Finish finish = {};
+  Finish finish = {};  ///< what else is done
 };
 
 }  // namespace hextwist

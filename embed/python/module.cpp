@@ -107,36 +107,45 @@ py::custom_type_setup without_new() {
 }
 
 void bind_mesh(py::module_& m) {
-  py::class_<PyGroup>(m, "Group", without_new(), "A block, node set or side set.")
-      .def_readonly("id", &PyGroup::id)
-      .def_readonly("name", &PyGroup::name)
-      .def_readonly("members", &PyGroup::members,
-                    "Positions from 0: hexes of a block, (n,); nodes of a node set, (n,); nodes of the sides of a "
-                    "side set, (n, 4), counter-clockwise seen from outside.")
+  py::class_<PyGroup>(m, "Group", without_new(),
+                      "A block, node set or side set of a Mesh, out of Mesh.blocks, Mesh.node_sets or Mesh.side_sets. "
+                      "It keeps the mesh alive.")
+      .def_readonly("id", &PyGroup::id, "int: the number by which commands know it; each once per kind of group.")
+      .def_readonly("name", &PyGroup::name, "str: '' where it has none. Names need not be unique.")
+      .def_readonly(
+          "members", &PyGroup::members,
+          "Positions from 0, read-only int32: hexes of a block, (n,), ascending; nodes of a node set, (n,), ascending; "
+          "nodes of the sides of a side set, (n, 4), counter-clockwise seen from outside of the hex.")
       .def("__repr__", [](const PyGroup& group) {
         return "<hextwist.Group " + std::to_string(group.id) + ", " + std::to_string(py::len(group.members)) +
                " members>";
       });
 
-  py::class_<MeshView, View> mesh(m, "Mesh", without_new(),
-                                  "The mesh of a session at one moment, as read-only numpy arrays. It stays as it is "
-                                  "whatever the session does; arrays keep it alive.");
+  py::class_<MeshView, View> mesh(
+      m, "Mesh", without_new(),
+      "The mesh of a session at one moment, as read-only numpy arrays. It stays as it is whatever the session does; "
+      "arrays keep it alive. Positions in arrays count from 0, ids are those of commands. Lengths are in the units of "
+      "the CAD (STEP and IGES: millimetres).");
   // Arrays as the mesh has them, by their names in arrays.h.
   for (const auto& [name, doc] :
        {std::pair{"points", "(n_nodes, 3) float64, model units."},
-        std::pair{"bit_hexes",
-                  "(n_hexes, 8) int32: the same, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1) of the unit cube."},
         std::pair{
-            "node_owners",
-            "(n_nodes, 2) int32: dimension (0 vertex .. 3 volume, -1 nobody) and id of the CAD entity of each node."},
-        std::pair{"node_parameters", "(n_nodes, 2) float64: (u, v) on a surface, (t, nan) on a curve, else nan."},
-        std::pair{"hex_volumes", "(n_hexes,) int32: id of the volume of each hex."},
-        std::pair{"curve_edges", "(n, 2) int32: nodes of the mesh edges that lie on curves."},
-        std::pair{"edge_curves", "(n,) int32: curve of each row of curve_edges."},
+            "bit_hexes",
+            "(n_hexes, 8) int32: nodes of each hex as in hexes, but corner c at (c & 1, c >> 1 & 1, c >> 2 & 1) of the "
+            "unit cube."},
+        std::pair{"node_owners",
+                  "(n_nodes, 2) int32: dimension (0 vertex .. 3 volume; -1 nobody: the node is in no hex) and id of "
+                  "the entity of the CAD, or of the skin of the mesh, that each node lies on."},
+        std::pair{"node_parameters",
+                  "(n_nodes, 2) float64: where each node lies on its owner: (u, v) on a surface, (t, nan) on a curve, "
+                  "else nan."},
+        std::pair{"hex_volumes", "(n_hexes,) int32: id of the volume that each hex is in."},
+        std::pair{"curve_edges", "(n, 2) int32: nodes of the mesh edges that lie on curves, the lower first."},
+        std::pair{"edge_curves", "(n,) int32: id of the curve of each row of curve_edges."},
         std::pair{"surface_sides",
                   "(n, 2) int32: the hex of each row of surface_quads, and which face of it (2 * axis + side, in "
                   "bit_hexes)."},
-        std::pair{"quad_surfaces", "(n,) int32: surface of each row of surface_quads."}}) {
+        std::pair{"quad_surfaces", "(n,) int32: id of the surface of each row of surface_quads."}}) {
     mesh.def_property_readonly(
         name,
         [name = name](const py::object& self) {
@@ -154,7 +163,8 @@ void bind_mesh(py::module_& m) {
   };
   array(
       "hexes", [](const MeshView& v, const py::object& self) { return rows<Index>(v.file_hexes(), self); },
-      "(n_hexes, 8) int32: nodes, in the order of VTK, Exodus, Abaqus and Gmsh. Made when first asked for.");
+      "(n_hexes, 8) int32: nodes of each hex, in the order of VTK, Exodus, Abaqus and Gmsh. Made when first asked "
+      "for.");
   array(
       "node_ids", [](const MeshView& v, const py::object& self) { return rows<std::int64_t>(v.node_ids(), self); },
       "(n_nodes,) int64: ids as commands know them, ascending.");
@@ -163,41 +173,45 @@ void bind_mesh(py::module_& m) {
       "(n_hexes,) int64: ids as commands know them, ascending.");
   array(
       "surface_quads", [](const MeshView& v, const py::object& self) { return rows<Index>(v.surface_quads(), self); },
-      "(n, 4) int32: nodes of the sides that lie on surfaces, counter-clockwise seen from outside of their hex; a "
-      "side between two volumes once. Made when first asked for.");
-  mesh.def_property_readonly("n_nodes", [](const MeshView& v) { return v.mesh().n_nodes(); })
-      .def_property_readonly("n_hexes", [](const MeshView& v) { return v.mesh().n_hexes(); })
+      "(n, 4) int32: nodes of the sides that lie on surfaces, counter-clockwise seen from outside of their hex; a side "
+      "between two volumes once. Made when first asked for.");
+  mesh.def_property_readonly(
+          "n_nodes", [](const MeshView& v) { return v.mesh().n_nodes(); },
+          "int: how many nodes there are, those of no hex too.")
+      .def_property_readonly(
+          "n_hexes", [](const MeshView& v) { return v.mesh().n_hexes(); },
+          "int: how many hexes there are; 0: the session has no mesh.")
       .def_property_readonly(
           "blocks",
           [](const py::object& self) {
             const auto& list = of(self).mesh().blocks;
             return groups(list, [&](std::size_t i) { return rows<Index>(list[i].hexes, self); });
           },
-          "{id: Group} of hexes.")
+          "{id: Group} of hexes, ascending by id. A hex may be in several blocks or in none.")
       .def_property_readonly(
           "node_sets",
           [](const py::object& self) {
             const auto& list = of(self).mesh().node_sets;
             return groups(list, [&](std::size_t i) { return rows<Index>(list[i].nodes, self); });
           },
-          "{id: Group} of nodes.")
+          "{id: Group} of nodes, ascending by id. A node may be in several sets or in none.")
       .def_property_readonly(
           "side_sets",
           [](const py::object& self) {
             const auto& list = of(self).mesh().side_sets;
             return groups(list, [&](std::size_t i) { return rows<Index>(of(self).set_quads(i), self); });
           },
-          "{id: Group} of sides, as quads.")
+          "{id: Group} of sides of hexes, as quads, ascending by id.")
       .def_property_readonly("arrays", &arrays,
                              "{name: array} of all arrays as the mesh has them: those above that are not made when "
                              "first asked for (ids are empty where they are 1, 2, ...), members as 'blocks/3', fields "
                              "as 'node_fields/temperature'. np.savez(file, **mesh.arrays) keeps them.")
       .def_property_readonly(
           "node_fields", [](const py::object& self) { return fields(self, "node_fields"); },
-          "{name: (n_nodes,) or (n_nodes, components) float64}.")
+          "{name: (n_nodes,) or (n_nodes, components) float64}: values at the nodes.")
       .def_property_readonly(
           "hex_fields", [](const py::object& self) { return fields(self, "hex_fields"); },
-          "{name: (n_hexes,) or (n_hexes, components) float64}.")
+          "{name: (n_hexes,) or (n_hexes, components) float64}: values of the hexes.")
       .def(
           "quality",
           [](const MeshView& v, const std::string& name) {
@@ -209,19 +223,28 @@ void bind_mesh(py::module_& m) {
             }
             return array_of(std::move(values));
           },
-          "metric"_a = "shape", "(n_hexes,) float64: a quality metric by its usual name.")
+          "metric"_a = "shape",
+          "(n_hexes,) float64: a quality metric by its usual name: 'shape', 'scaled jacobian', 'volume' (model units, "
+          "cubed), ...; docs/commands.md has all. Raises Error, listing them, for another name.")
       .def(
           "n_entities",
           [](const MeshView& v, const std::string& kind) {
             const int dim = dimension_of(kind);
             return v.meshed().model ? v.meshed().model->count(dim) : 0;
           },
-          "kind"_a, "How many vertices, curves, surfaces or volumes the CAD (or the skin of the mesh) has.")
-      .def("entity", &entity, "kind"_a, "id"_a,
-           "A CAD entity: kind, id, name, type, measure (length, area, volume), box, adjacent ({kind: ids}).")
+          "kind"_a,
+          "How many entities of a kind ('vertex', 'curve', 'surface', 'volume') the CAD, or the skin of the mesh, has; "
+          "0 where there is neither. Their ids are 1 .. n. Raises ValueError for another kind.")
+      .def(
+          "entity", &entity, "kind"_a, "id"_a,
+          "An entity of the CAD, or of the skin of the mesh, as a dictionary: kind, id, name ('': none), type ('line', "
+          "'circle', 'plane', 'cylinder', ...), measure (length, area or volume in model units, 0 of a vertex), box "
+          "(lowest and highest corner), adjacent ({kind: ids of what it bounds and what bounds it}). Raises ValueError "
+          "for a kind that is not 'vertex', 'curve', 'surface' or 'volume', Error where it does not exist.")
       .def("closest", &closest, "kind"_a, "id"_a, "points"_a,
-           "Closest points on a vertex, curve or surface to (n, 3) points: (n, 3) points, (n, 2) parameters, (n,) "
-           "distances.")
+           "Closest points on a vertex, curve or surface to (n, 3) points, in model units: (n, 3) points, (n, 2) "
+           "parameters (as in node_parameters), (n,) distances, all float64. Raises ValueError for a volume, another "
+           "shape or a coordinate that is not finite, Error where the entity does not exist.")
       .def("__repr__",
            [](const MeshView& v) { return "<hextwist.Mesh of " + std::to_string(v.mesh().n_hexes()) + " hexes>"; });
 }
@@ -302,12 +325,16 @@ void bind_session(py::module_& m) {
     heap->ht_type.tp_traverse = visit_session;
     heap->ht_type.tp_clear = clear_session;
   });
-  py::class_<PySession>(m, "Session", collected,
-                        "A mesh on its model, changed by commands. Callbacks (any may be None): output(line) what "
-                        "commands print, notice(line) remarks, progress(stage, fraction) now and then; returning "
-                        "False cancels. Ctrl-C cancels too. One call at a time; other Python threads run meanwhile.")
+  py::class_<PySession>(
+      m, "Session", collected,
+      "A mesh on its model, changed by commands. Callbacks (any may be None): output(line) what commands print, "
+      "notice(line) remarks, progress(stage, fraction) now and then, fraction 0 .. 1; returning False cancels, and the "
+      "call raises Cancelled. Ctrl-C cancels too. What a callback raises comes out of the call. One call at a time: "
+      "another one meanwhile, from a callback or a thread, raises Error; other Python threads run. A call that raises "
+      "leaves the session as it was, but for what commands before the one that failed have done.")
       .def(py::init<py::object, py::object, py::object>(), "output"_a = py::none(), "notice"_a = py::none(),
-           "progress"_a = py::none())
+           "progress"_a = py::none(),
+           "An empty session, without CAD and mesh. Lines come without their line end; None: nobody is told.")
       .def(
           "cmd",
           [](PySession& session, const std::string& commands) {
@@ -315,73 +342,99 @@ void bind_session(py::module_& m) {
           },
           "commands"_a,
           "Runs commands (docs/commands.md), one per line or separated by ';', up to the first that fails. True, or "
-          "raises Error; a command that fails leaves the session as it was.")
+          "raises Error with the place of the wrong word, Cancelled where progress stopped it, KeyboardInterrupt at "
+          "Ctrl-C; a command that fails leaves the session as it was, those before it stay done.")
       .def(
           "import_cad",
           [](PySession& session, const std::filesystem::path& file) {
             return session.run([&](Session& s) { return s.import_cad(file), true; });
           },
-          "file"_a)
+          "file"_a,
+          "Reads CAD (.step .stp .brep .iges .igs, a name or a Path), as 'import geometry' does. A mesh that is there "
+          "is put on it. True, or raises Error, the session as it was.")
       .def(
           "import_mesh",
           [](PySession& session, const std::filesystem::path& file) {
             return session.run([&](Session& s) { return s.import_mesh(file), true; });
           },
-          "file"_a)
+          "file"_a,
+          "Reads a mesh (.msh .e .exo .g .gen .vtk .vtu .inp .mesh, a name or a Path), as 'import mesh' does, in place "
+          "of the one that is there: on the CAD of the session, or on its own skin where there is none. True, or "
+          "raises Error, the session as it was: not hexes only, inverted beyond repair, not on the CAD, ...")
       .def(
           "export_mesh",
           [](PySession& session, const std::filesystem::path& file) {
             return session.run([&](Session& s) { return s.export_mesh(file), true; });
           },
-          "file"_a, "Overwrites.")
+          "file"_a,
+          "Writes the mesh in the format of the extension (those that import_mesh() reads, but for .vtk), over a file "
+          "that is there; the file is whole or as it was. True, or raises Error. Notices say what the format cannot "
+          "keep.")
       .def(
           "playback",
           [](PySession& session, const std::filesystem::path& file) {
             return session.run([&](Session& s) { return s.playback(file) == 0; });
           },
-          "file"_a, "Runs the commands of a journal.")
+          "file"_a,
+          "Runs the commands of a journal up to the first that fails. True, or raises as cmd() does; what was done "
+          "before that stays done.")
       .def("take", &take, "points"_a, "hexes"_a, py::kw_only(), "node_ids"_a = py::none(), "hex_ids"_a = py::none(),
            "blocks"_a = py::dict(), "node_sets"_a = py::dict(), "side_sets"_a = py::dict(),
            "node_fields"_a = py::dict(), "hex_fields"_a = py::dict(), "node_owners"_a = py::none(),
            "hex_volumes"_a = py::none(), "curve_edges"_a = py::none(), "edge_curves"_a = py::none(),
            "surface_quads"_a = py::none(), "quad_surfaces"_a = py::none(),
-           "Makes copies of these arrays (shapes as in Mesh) the mesh of the session, on its CAD if it has some. "
-           "Groups: {id: members}, {id: (name, members)} or {id: Group}. What the arrays say of owners is checked "
-           "against the CAD.")
-      .def("adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
-           "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
-           "Cuts the hexes with a flag, (n_hexes,), into 27 each, or all until they have their sizes, (n_hexes,) in "
-           "model units, inf: no wish. gradation: by levels, so that shapes do not get worse from "
-           "call to call; sizes may then become coarser too. Returns per "
-           "new hex the old one that it lies in.")
+           "Makes copies of these arrays (shapes as in Mesh) the mesh of the session, on its CAD if it has some, else "
+           "on its own skin. hexes: corners in the order of VTK. node_ids, hex_ids: positive, ascending; None: 1, 2, "
+           "... Groups: {id: members}, {id: (name, members)} or {id: Group}, ids from 1. Fields: {name: (n,) or (n, "
+           "components)}; those of integers stay integers: never interpolated. What the arrays say of owners may be "
+           "partial (-1, 0: unknown) and is checked against the CAD; curve_edges go with edge_curves, surface_quads "
+           "with quad_surfaces. Raises ValueError or TypeError, naming the array, for a wrong shape or type, Error for "
+           "arrays that do not make a sound mesh on the CAD; the session is then as it was.")
       .def(
-          "adapt_levels", &adapt_levels, "changes"_a, py::kw_only(), "smooth"_a = false,
-          "extensive"_a = std::vector<std::string>(),
-          "By how many levels each hex becomes finer (> 0) or coarser (< 0), (n_hexes,) integers; 27 become one again "
-          "where none of them stays. Returns (kind, first, hexes): new hex h lies in, or was made of, the old "
-          "hexes[first[h]:first[h + 1]]; kind 0: the same hex, 1: in a larger one, 2: made of several. Fields of hexes "
-          "are copied down and averaged by volume upwards (those named in extensive: shared out and summed), those of "
-          "nodes interpolated and injected.")
+          "adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
+          "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
+          "Cuts the hexes with a flag, (n_hexes,) bools or integers, into 27 each, or all until they have their sizes, "
+          "(n_hexes,) positive, in model units, inf: no wish. gradation: by levels, so that shapes do not get worse "
+          "from call to call; sizes may then become coarser too. bias: growth of sizes from element to element, 1: not "
+          "limited. concave: 'template', or 'fill' as the paper does. smooth: the new hexes and two layers around "
+          "them. Returns (n_hexes now,) int32: the old hex that each new one lies in; of several the first. Raises "
+          "ValueError unless there are either flags or sizes and for another word for concave, TypeError for flags "
+          "that are not integers, Error for another number than one per hex or a size that is not positive, Cancelled; "
+          "the session is then as it was.")
+      .def("adapt_levels", &adapt_levels, "changes"_a, py::kw_only(), "smooth"_a = false,
+           "extensive"_a = std::vector<std::string>(),
+           "By how many levels each hex becomes finer (> 0) or coarser (< 0), (n_hexes,) integers; 27 become one again "
+           "where none of them stays. Returns (kind, first, hexes), int8, int32, int32: new hex h lies in, or was made "
+           "of, the old hexes[first[h]:first[h + 1]]; kind 0: the same hex, 1: in a larger one, 2: made of several. "
+           "Fields of hexes are copied down and averaged by volume upwards (those named in extensive: shared out and "
+           "summed), those of nodes interpolated and injected. smooth: the new hexes and two layers around them. "
+           "Raises TypeError for changes that are not integers, Error for another number than one per hex, Cancelled; "
+           "the session is then as it was.")
       .def("ids", &ids, "kind"_a, "range"_a = "all",
-           "(n,) int64: ids of the entities that a range means: ids('hex', 'in volume 2').")
+           "(n,) int64, ascending: ids of the entities of a kind (as in commands: 'node', 'hex', 'curve', 'block', "
+           "...) that a range means: ids('hex', 'in volume 2'). Raises Error for a kind or range that is wrong or "
+           "names what does not exist.")
       .def(
           "nodes_of",
           [](PySession& session, const std::string& kind, std::int64_t id) {
             return ids(session, "node", "in " + kind + " " + std::to_string(id));
           },
-          "kind"_a, "id"_a, "(n,) int64: ids of the nodes of an entity, those on its rim too.")
+          "kind"_a, "id"_a,
+          "(n,) int64, ascending: ids of the nodes of an entity of any kind that 'in' takes, those on its rim too. "
+          "Raises Error where it does not exist.")
       .def_property_readonly(
           "mesh",
           [](PySession& session) {
             return session.look([](Session& s) { return std::make_shared<MeshView>(s.share()); });
           },
-          "The mesh as it is now. Costs nothing; it stays as it is whatever the session does.")
+          "Mesh: the mesh as it is now, empty where there is none. Costs nothing; it stays as it is whatever the "
+          "session does.")
       .def_property_readonly(
           "has_cad", [](PySession& session) { return session.look([](Session& s) { return s.has_cad(); }); },
-          "False: the model is the skin of the mesh, or there is none.")
+          "bool: the mesh lies on CAD. False: the model is the skin of the mesh, or there is none.")
       .def_property_readonly(
           "finished", [](PySession& session) { return session.look([](Session& s) { return s.finished(); }); },
-          "Was 'quit' run?")
+          "bool: was 'quit' run? Commands behind it are not.")
       .def_property_readonly(
           "records",
           [](PySession& session) {
@@ -391,35 +444,47 @@ void bind_session(py::module_& m) {
               return result;
             });
           },
-          "What each command did, as dictionaries by the names of the program's JSON report.")
+          "list: what each command did, the failed ones too, in order, as dictionaries by the names of the program's "
+          "JSON report (docs/commands.md). Made anew at each look.")
       .def_property_readonly(
           "record",
           [](PySession& session) {
             return session.look(
                 [](Session& s) { return s.records().empty() ? py::none() : record_dict(s.records().back()); });
           },
-          "What the last command did; None before the first.");
+          "dict: what the last command did, as in records; None before the first.");
 }
 
 void bind_gmsh(py::module_& m) {
-  py::class_<GmshLink>(m, "GmshLink", without_new(), "What hextwist.gmsh has to know to bring a mesh back.")
-      .def_readonly("on_cad", &GmshLink::on_cad)
-      .def_property_readonly("tags", [](const GmshLink& link) {
-        py::dict result;
-        for (int dim = 0; dim < 4; ++dim) result[dimension_name(dim)] = link.tag_of[dim];
+  py::class_<GmshLink>(m, "GmshLink", without_new(), "What hextwist.gmsh has to know to bring a mesh back. Opaque.")
+      .def_readonly("on_cad", &GmshLink::on_cad, "bool: False: the session is on the skin of the mesh.")
+      .def_property_readonly(
+          "tags",
+          [](const GmshLink& link) {
+            py::dict result;
+            for (int dim = 0; dim < 4; ++dim) result[dimension_name(dim)] = link.tag_of[dim];
+            return result;
+          },
+          "{kind: list}: the tag in Gmsh of the entity of each id, from id 1; 0: Gmsh has none.");
+  m.def(
+      "take_gmsh",
+      [](PySession& session, const py::list& entities, const py::list& physical, const std::filesystem::path& brep) {
+        const GmshModel model = gmsh_model_of(entities, physical);
+        return session.run([&](Session& s) { return take_gmsh(s, model, brep); });
+      },
+      "session"_a, "entities"_a, "groups"_a, "brep"_a,
+      "Inside of hextwist.gmsh.take(): entities as (dim, tag, node tags, coordinates, parameters, element types, "
+      "[tags], [nodes]), groups as (dim, tag, name, [tags of entities]), brep: a file with the CAD, '' for none.");
+  m.def(
+      "put_gmsh",
+      [](PySession& session, const GmshLink& link) {
+        py::list result;
+        for (GmshEntity& entity : session.run([&](Session& s) { return put_gmsh(s, link); }))
+          result.append(tuple_of_entity(std::move(entity)));
         return result;
-      });
-  m.def("take_gmsh",
-        [](PySession& session, const py::list& entities, const py::list& physical, const std::filesystem::path& brep) {
-          const GmshModel model = gmsh_model_of(entities, physical);
-          return session.run([&](Session& s) { return take_gmsh(s, model, brep); });
-        });
-  m.def("put_gmsh", [](PySession& session, const GmshLink& link) {
-    py::list result;
-    for (GmshEntity& entity : session.run([&](Session& s) { return put_gmsh(s, link); }))
-      result.append(tuple_of_entity(std::move(entity)));
-    return result;
-  });
+      },
+      "session"_a, "link"_a,
+      "Inside of hextwist.gmsh.put(): entities as take_gmsh() takes them, with the mesh of the session.");
 }
 
 /// hextwist.Error, and hextwist.Cancelled of it.
@@ -432,10 +497,11 @@ void bind_errors(py::module_& m) {
     m.add_object(name, type);
     return py::handle(type);
   };
-  error = made("Error", PyExc_Exception,
-               "What is wrong, as the program prints it. message: one line, without the place; line, column: of the "
-               "wrong word in the commands, from 1, 0: none.");
-  cancelled = made("Cancelled", error, "The progress callback returned False.");
+  error =
+      made("Error", PyExc_Exception,
+           "What is wrong, as the program prints it. message (str): one line, without the place; line, column (int): "
+           "of the wrong word in the commands, from 1, 0: none.");
+  cancelled = made("Cancelled", error, "The progress callback returned False; the session is as it was.");
   py::register_exception_translator([](std::exception_ptr pointer) {
     const auto raise = [](py::handle type, const std::string& whole, const std::string& message, int line, int column) {
       const py::object value = type(text(whole));
@@ -459,6 +525,7 @@ void bind_errors(py::module_& m) {
 }  // namespace hextwist::python
 
 PYBIND11_MODULE(_core, m) {
+  m.doc() = "The compiled half of hextwist: use it through hextwist and hextwist.gmsh.";
   m.attr("__version__") = HEXTWIST_VERSION;
   hextwist::python::bind_errors(m);
   hextwist::python::bind_mesh(m);

@@ -16,10 +16,6 @@ constexpr std::array<double, 4> weight4 = {0.17392742256872692, 0.32607257743127
                                            0.17392742256872692};
 constexpr std::array<double, 2> gauss2 = {0.21132486540518712, 0.78867513459481288};
 
-void improve(PatchFoot& best, double s, double t, double distance2) {
-  if (distance2 < best.distance2) best = {s, t, distance2};
-}
-
 double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -54,7 +50,7 @@ double cone_volume(const BilinearPatch& patch, const Vec3& apex) {
 
 PatchFoot closest(const BilinearPatch& x, const Vec3& p) {
   PatchFoot best;
-  const auto try_point = [&](double s, double t) { improve(best, s, t, (point(x, s, t) - p).squaredNorm()); };
+  const auto try_point = [&](double s, double t) { best.offer(s, t, (point(x, s, t) - p).squaredNorm()); };
   try_point(closest_fraction(x[0], x[1], p), 0);
   try_point(closest_fraction(x[3], x[2], p), 1);
   try_point(0, closest_fraction(x[0], x[3], p));
@@ -94,7 +90,7 @@ PatchFoot closest(const BilinearPatch& x, const Vec3& p) {
     const double moved = std::max(std::abs(new_s - s), std::abs(new_t - t));
     s = new_s;
     t = new_t;
-    improve(best, s, t, r.squaredNorm());
+    best.offer(s, t, r.squaredNorm());
     if (moved < 1e-14) break;
   }
   return best;

@@ -28,6 +28,11 @@ struct PatchFoot {
   double s = 0;
   double t = 0;
   double distance2 = std::numeric_limits<double>::infinity();
+
+  /// Becomes that place where it is nearer.
+  void offer(double other_s, double other_t, double other_distance2) {
+    if (other_distance2 < distance2) *this = {other_s, other_t, other_distance2};
+  }
 };
 /// Closest point: the rim in closed form, the inside by Newton's method from the centre; never farther than the rim.
 /// Strictly the closest while the patch is less bent than the point is near (its curvature radius above the distance).

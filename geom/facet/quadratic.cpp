@@ -28,10 +28,6 @@ Vec3 sum(const QuadraticPatch& x, const std::array<double, 3>& a, const std::arr
   return result;
 }
 
-void improve(PatchFoot& best, double s, double t, double distance2) {
-  if (distance2 < best.distance2) best = {s, t, distance2};
-}
-
 /// Newton's method for the closest point of a patch, from a place in it, kept in the square.
 void improve_from(const QuadraticPatch& x, const Vec3& p, double s, double t, PatchFoot& best) {
   Vec3 r = point(x, s, t) - p;
@@ -66,7 +62,7 @@ void improve_from(const QuadraticPatch& x, const Vec3& p, double s, double t, Pa
     }
     const double moved = std::max(std::abs(new_s - s), std::abs(new_t - t));
     s = new_s, t = new_t;
-    improve(best, s, t, r.squaredNorm());
+    best.offer(s, t, r.squaredNorm());
     if (moved < 1e-14) break;
   }
 }
@@ -141,8 +137,8 @@ double length(const QuadraticSegment& x) {
 
 PatchFoot closest(const QuadraticSegment& x, const Vec3& p) {
   PatchFoot best;
-  improve(best, 0, 0, (x[0] - p).squaredNorm());
-  improve(best, 1, 0, (x[2] - p).squaredNorm());
+  best.offer(0, 0, (x[0] - p).squaredNorm());
+  best.offer(1, 0, (x[2] - p).squaredNorm());
   const Vec3 bend = 2 * (x[0] - 2 * x[1] + x[2]);
   for (const double start : {0.15, 0.5, 0.85}) {
     double s = start;
@@ -156,7 +152,7 @@ PatchFoot closest(const QuadraticSegment& x, const Vec3& p) {
       s = next;
       if (moved < 1e-15) break;
     }
-    improve(best, s, 0, (point(x, s) - p).squaredNorm());
+    best.offer(s, 0, (point(x, s) - p).squaredNorm());
   }
   return best;
 }
@@ -212,7 +208,7 @@ PatchFoot closest(const QuadraticPatch& x, const Vec3& p) {
   PatchFoot best;
   const auto rim = [&](int a, int b, int c, double s, double t, bool along_s) {
     const PatchFoot foot = closest(QuadraticSegment{x[a], x[b], x[c]}, p);
-    improve(best, along_s ? foot.s : s, along_s ? t : foot.s, foot.distance2);
+    best.offer(along_s ? foot.s : s, along_s ? t : foot.s, foot.distance2);
   };
   rim(0, 1, 2, 0, 0, true);
   rim(6, 7, 8, 0, 1, true);
@@ -221,7 +217,7 @@ PatchFoot closest(const QuadraticPatch& x, const Vec3& p) {
   // From the nearest of nine places.
   PatchFoot start;
   for (const double t : {0.15, 0.5, 0.85})
-    for (const double s : {0.15, 0.5, 0.85}) improve(start, s, t, (point(x, s, t) - p).squaredNorm());
+    for (const double s : {0.15, 0.5, 0.85}) start.offer(s, t, (point(x, s, t) - p).squaredNorm());
   improve_from(x, p, start.s, start.t, best);
   return best;
 }

@@ -13,6 +13,7 @@ class TopoDS_Shape;  // OpenCASCADE's; no header of its is reached from here
 
 namespace HEXTWIST_API hextwist {
 
+/// How CAD is read.
 struct CadOptions {
   /// Make touching solids of an assembly share their common faces, edges and vertices (a STEP file with several
   /// solids keeps them apart). What was merged is reported in `notices`.
@@ -26,8 +27,8 @@ struct CadOptions {
 
 /// A model and notices about its making (units, merged faces, healed edges), one line each.
 struct CadImport {
-  std::shared_ptr<const Model> model;
-  std::vector<std::string> notices;
+  std::shared_ptr<const Model> model;  ///< never null
+  std::vector<std::string> notices;    ///< empty: there is nothing to say
 };
 
 /// Reads .step/.stp, .brep, .iges/.igs (by extension, case ignored; by content where it is missing).

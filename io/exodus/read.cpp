@@ -19,10 +19,10 @@ namespace {
 using Int64s = std::vector<std::int64_t>;
 using Ints = std::vector<int>;
 
-class Reader {
+class ExodusReader {
  public:
   /// path: where the bytes of the file are.
-  Reader(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
+  ExodusReader(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
     Bytes bytes = read_bytes(path);
     bytes.name = name_;
     const bool classic = is_classic_netcdf(bytes);
@@ -415,10 +415,10 @@ class Reader {
 }  // namespace
 
 MeshFile read_exodus(const std::filesystem::path& file, const Fence& fence) {
-  if (!fence.is_there() || is_classic_netcdf(read_bytes(file))) return Reader(file, file.string()).result();
+  if (!fence.is_there() || is_classic_netcdf(read_bytes(file))) return ExodusReader(file, file.string()).result();
   const Handover plain;
   read_fenced(fence, fenced_hdf5, file, {}, plain);
-  return Reader(plain.path(), file.string()).result();
+  return ExodusReader(plain.path(), file.string()).result();
 }
 
 }  // namespace hextwist::io

@@ -16,10 +16,10 @@ std::string of_library(const std::string& text) {
 }
 
 /// Texts that a call of the library fills in.
-struct Texts {
+struct TextsRead {
   std::vector<std::string> texts;
   std::vector<char*> pointers;
-  Texts(std::size_t n, std::size_t length) : texts(n, std::string(length + 1, '\0')) {
+  TextsRead(std::size_t n, std::size_t length) : texts(n, std::string(length + 1, '\0')) {
     for (std::string& text : texts) pointers.push_back(text.data());
   }
   std::vector<std::string> trimmed_ones() const {
@@ -75,13 +75,13 @@ class ExtrasReader {
   void records() {
     out_.title = of_library(in_.init.title);
     if (out_.title == "hextwist") out_.title.clear();
-    Texts names(3, in_.name_length);
+    TextsRead names(3, in_.name_length);
     if (ex_get_coord_names(in_.file, names.pointers.data()) >= 0) out_.coordinate_names = names.trimmed_ones();
     if (const auto plain = std::vector<std::string>{"x", "y", "z"};
         out_.coordinate_names == plain || out_.coordinate_names == std::vector<std::string>(3))
       out_.coordinate_names.clear();
     const std::size_t n_qa = count(EX_INQ_QA, "QA records"), n_info = count(EX_INQ_INFO, "info records");
-    Texts qa(4 * n_qa, MAX_STR_LENGTH), info(n_info, MAX_LINE_LENGTH);
+    TextsRead qa(4 * n_qa, MAX_STR_LENGTH), info(n_info, MAX_LINE_LENGTH);
     if (n_qa > 0) check(ex_get_qa(in_.file, reinterpret_cast<char*(*)[4]>(qa.pointers.data())), "QA records");
     if (n_info > 0) check(ex_get_info(in_.file, info.pointers.data()), "info records");
     const std::vector<std::string> words = qa.trimmed_ones();
@@ -94,7 +94,7 @@ class ExtrasReader {
     const auto read = [&](ex_entity_type type, Of of, ex_inquiry inquiry, std::int64_t n_groups) {
       const std::size_t n = count(inquiry, "properties");
       if (n == 0 || n_groups == 0) return;
-      Texts names(n, std::max<std::size_t>(in_.name_length, MAX_STR_LENGTH));
+      TextsRead names(n, std::max<std::size_t>(in_.name_length, MAX_STR_LENGTH));
       check(ex_get_prop_names(in_.file, type, names.pointers.data()), "names of properties");
       const std::vector<std::int64_t> of_groups = ids(type, n_groups);
       for (const std::string& name : names.trimmed_ones()) {
@@ -115,7 +115,7 @@ class ExtrasReader {
   std::vector<std::string> variables(ex_entity_type type) const {
     int n = 0;
     check(ex_get_variable_param(in_.file, type, &n), "variables");
-    Texts names(possible(n, 1 << 20, "variables"), in_.name_length);
+    TextsRead names(possible(n, 1 << 20, "variables"), in_.name_length);
     if (n > 0) check(ex_get_variable_names(in_.file, type, n, names.pointers.data()), "names of variables");
     return names.trimmed_ones();
   }
@@ -196,7 +196,7 @@ class ExtrasReader {
       int n = 0;
       if (!block.hexes || block.n == 0 || ex_get_attr_param(in_.file, EX_ELEM_BLOCK, block.id, &n) < 0 || n <= 0)
         continue;
-      Texts texts(static_cast<std::size_t>(n), std::max<std::size_t>(in_.name_length, MAX_STR_LENGTH));
+      TextsRead texts(static_cast<std::size_t>(n), std::max<std::size_t>(in_.name_length, MAX_STR_LENGTH));
       check(ex_get_attr_names(in_.file, EX_ELEM_BLOCK, block.id, texts.pointers.data()), "names of attributes");
       std::vector<std::string> names = texts.trimmed_ones();
       for (std::size_t a = 0; a < names.size(); ++a) {

@@ -12,10 +12,10 @@ namespace {
 using Of = FileResults::Of;
 
 /// As the library takes texts; of names it writes what stands behind them too.
-struct Texts {
+struct TextsWritten {
   std::vector<std::string> padded;
   std::vector<char*> pointers;
-  explicit Texts(std::vector<std::string> texts) : padded(std::move(texts)) {
+  explicit TextsWritten(std::vector<std::string> texts) : padded(std::move(texts)) {
     for (std::string& text : padded) {
       text.resize(std::max<std::size_t>(text.size(), 256) + 1);
       pointers.push_back(text.data());
@@ -118,12 +118,12 @@ void ExodusValues::write_records(const ExodusTarget& to) const {
   if (!extras_.qa.empty()) {
     std::vector<std::string> words;
     for (const auto& record : extras_.qa) words.insert(words.end(), record.begin(), record.end());
-    Texts texts(std::move(words));
+    TextsWritten texts(std::move(words));
     to.check(
         ex_put_qa(to.file, static_cast<int>(extras_.qa.size()), reinterpret_cast<char*(*)[4]>(texts.pointers.data())));
   }
   if (!extras_.info.empty()) {
-    to.check(ex_put_info(to.file, static_cast<int>(extras_.info.size()), Texts(extras_.info).pointers.data()));
+    to.check(ex_put_info(to.file, static_cast<int>(extras_.info.size()), TextsWritten(extras_.info).pointers.data()));
   }
 }
 
@@ -133,7 +133,7 @@ void ExodusValues::write_properties(const ExodusTarget& to) const {
     for (const FileResults::Property& property : extras_.properties)
       if (property.of == of) names.push_back(property.name);
     if (names.empty() || groups.empty()) return;
-    to.check(ex_put_prop_names(to.file, type, static_cast<int>(names.size()), Texts(names).pointers.data()));
+    to.check(ex_put_prop_names(to.file, type, static_cast<int>(names.size()), TextsWritten(names).pointers.data()));
     for (const FileResults::Property& property : extras_.properties)
       for (const auto& [id, value] : property.values)
         if (property.of == of &&
@@ -150,7 +150,7 @@ void ExodusValues::write_results(const ExodusTarget& to) {
   const auto declare = [&](ex_entity_type type, std::vector<std::string> names) {
     if (names.empty()) return;
     to.check(ex_put_variable_param(to.file, type, static_cast<int>(names.size())));
-    to.check(ex_put_variable_names(to.file, type, static_cast<int>(names.size()), Texts(names).pointers.data()));
+    to.check(ex_put_variable_names(to.file, type, static_cast<int>(names.size()), TextsWritten(names).pointers.data()));
   };
   const auto names_of = [](const auto& variables) {
     std::vector<std::string> names;
@@ -220,7 +220,7 @@ void ExodusValues::write_sets(const ExodusTarget& to, ex_entity_type type, const
   if (names.empty()) return;
   const std::size_t n = names.size();
   to.check(ex_put_variable_param(to.file, type, static_cast<int>(n)));
-  to.check(ex_put_variable_names(to.file, type, static_cast<int>(n), Texts(names).pointers.data()));
+  to.check(ex_put_variable_names(to.file, type, static_cast<int>(n), TextsWritten(names).pointers.data()));
   std::vector<const TimedValues*> values(groups.size() * n, nullptr);
   std::vector<int> is_on(values.size(), 0);
   for (std::size_t g = 0; g < groups.size(); ++g)

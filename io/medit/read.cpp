@@ -32,9 +32,9 @@ constexpr Skipped skipped[] = {{"Normals", 3},
                                {"RequiredTriangles", 1},
                                {"Triangles", 4}};
 
-class Reader {
+class MeditReader {
  public:
-  explicit Reader(const Bytes& bytes) : cursor_(bytes) {}
+  explicit MeditReader(const Bytes& bytes) : cursor_(bytes) {}
 
   MeshFile result() {
     header();
@@ -329,7 +329,7 @@ class Reader {
 }  // namespace
 
 MeshFile read_medit(const Bytes& bytes) {
-  return Reader(bytes).result();
+  return MeditReader(bytes).result();
 }
 
 }  // namespace hextwist::io

@@ -6,9 +6,9 @@
 namespace hextwist::io {
 namespace {
 
-class Reader {
+class LegacyReader {
  public:
-  explicit Reader(const Bytes& bytes) : cursor_(bytes) {}
+  explicit LegacyReader(const Bytes& bytes) : cursor_(bytes) {}
 
   MeshFile result() {
     header();
@@ -239,7 +239,7 @@ class Reader {
 }  // namespace
 
 MeshFile read_vtk(const Bytes& bytes) {
-  return Reader(bytes).result();
+  return LegacyReader(bytes).result();
 }
 
 }  // namespace hextwist::io

@@ -63,9 +63,9 @@ std::string decoded(const char*& at, const char* end, std::size_t n = std::strin
   return bytes;
 }
 
-class Reader {
+class VtuReader {
  public:
-  explicit Reader(const Bytes& bytes) : cursor_(bytes) {}
+  explicit VtuReader(const Bytes& bytes) : cursor_(bytes) {}
 
   MeshFile result() {
     find_appended();
@@ -359,7 +359,7 @@ class Reader {
 }  // namespace
 
 MeshFile read_vtu(const Bytes& bytes) {
-  return Reader(bytes).result();
+  return VtuReader(bytes).result();
 }
 
 }  // namespace hextwist::io

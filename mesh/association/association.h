@@ -14,7 +14,7 @@
 
 namespace HEXTWIST_API hextwist {
 
-/// Guarantees of a complete association (one made by associate() or carried through a refinement):
+/// Who owns what. Guarantees of a complete association (one made by associate() or carried through a refinement):
 ///  1. every node of a hex has an owner; nodes inside a volume are owned by it; nodes of no hex have no owner;
 ///  2. curve_edges are exactly the mesh edges that lie on curves; every node of one is owned by the curve or by a
 ///     vertex of it;
@@ -33,9 +33,11 @@ struct Association {
   std::vector<int> face_surface;            ///< per surface face: surface id
   std::vector<int> hex_volume;              ///< per hex: volume id, 0 unknown
 
+  /// Is nothing known of any node?
   bool empty() const { return node_owner.empty(); }
 };
 
+/// How associate() looks for owners.
 struct AssociateOptions {
   /// A boundary node may lie this far from its entity, relative to the model size; farther where the CAD's own pieces
   /// do (Model::tolerance). Elements may be smaller than that.
@@ -48,10 +50,10 @@ struct AssociateOptions {
 /// geometry contradicts and that were replaced (count and first), entities that got no part of the mesh, volumes that
 /// differ by more than a tenth from those of their hexes.
 struct AssociateResult {
-  Association association;
-  std::vector<std::string> notices;
-  double max_distance = 0;  ///< largest distance of a boundary node from its owner, model units
-  Index worst_node = -1;
+  Association association;           ///< complete
+  std::vector<std::string> notices;  ///< empty: there was nothing to notice
+  double max_distance = 0;           ///< largest distance of a boundary node from its owner, model units
+  Index worst_node = -1;             ///< the node that far away; -1: there is no boundary node
 };
 
 /// Builds a complete association of a valid mesh with a model, from tags that are checked against the geometry, or
@@ -73,28 +75,35 @@ struct AssociateResult {
 ///    that share no surface (STEP) it asks for the CAD to be glued.
 AssociateResult associate(const Mesh& mesh, const Model& model, const Association* tags,
                           const AssociateOptions& options = {});
+/// From geometry alone.
+inline AssociateResult associate(const Mesh& mesh, const Model& model, const AssociateOptions& options = {}) {
+  return associate(mesh, model, nullptr, options);
+}
 
-/// A facet model of the mesh's own skin, and the association with it. Volumes: the blocks where they partition the
-/// mesh, in the blocks' order, else one. With tags the skin is divided as they say instead of by angle and blocks: by
-/// the tags of hexes, of faces (0 where there is none), of edges and of nodes on vertices; ids are those of the facet
-/// model, volumes in ascending order of their tags. Throws Error for a mesh without hexes.
+/// A facet model of a mesh's own skin, and the association with it.
 struct FacetResult {
-  std::shared_ptr<const Model> model;
-  Association association;
+  std::shared_ptr<const Model> model;  ///< never null; it keeps copies of what it needs of the mesh
+  Association association;             ///< complete
 };
+/// How the skin is divided into surfaces, curves and vertices.
 struct SkinOptions {
-  double feature_angle = 35;          ///< degrees
-  const Association* tags = nullptr;  ///< lists ascending, as in a complete association
+  double feature_angle = 35;          ///< degrees, 0..180: an edge at which faces turn by more is on a curve
+  const Association* tags = nullptr;  ///< lists ascending, as in a complete association; null: by angle and blocks
   /// The skin is curved: through these. Null, or where all lie halfway: straight.
   const MiddleNodes* middles = nullptr;
 };
+/// The mesh's skin as its model. Volumes: the blocks where they partition the mesh, in the blocks' order, else one.
+/// With tags the skin is divided as they say instead of by angle and blocks: by the tags of hexes, of faces (0 where
+/// there is none), of edges and of nodes on vertices; ids are those of the facet model, volumes in ascending order of
+/// their tags. Throws Error for a mesh without hexes and an angle out of range.
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options = {});
 
-/// Owner queries both ways. No owner where the association has none.
+/// Owner of a node; no owner where the association has none.
 Owner owner_of_node(const Association& association, Index node);
 /// Curve if the edge lies on one, else the surface of its boundary faces, else the volume. Linear in the boundary.
 Owner owner_of_edge(const Association& association, const Mesh& mesh, const Edges& edges, const Faces& faces,
                     Index edge);
+/// Surface if the face lies on one, else the volume of its hexes. Logarithmic.
 Owner owner_of_face(const Association& association, const Faces& faces, Index face);
 /// Nodes whose owner is the entity. Ascending.
 std::vector<Index> nodes_owned_by(const Association& association, Owner entity);
@@ -106,14 +115,15 @@ struct OffModel {
   double max = 0;           ///< model units
   double max_relative = 0;  ///< divided by the model size
   Index node = -1;          ///< the worst, -1 when no node is on the boundary
-  Owner owner;
+  Owner owner;              ///< of the worst
 };
+/// Looks at all nodes that a vertex, curve or surface owns. Entities have to exist in the model.
 OffModel off_model(const Mesh& mesh, const Association& association, const Model& model);
 
 /// A node that is not where its owner is.
 struct OffOwner {
-  Index node = -1;
-  Owner owner;
+  Index node = -1;      ///< 0-based
+  Owner owner;          ///< where it should be
   double distance = 0;  ///< from the owner, model units
 };
 

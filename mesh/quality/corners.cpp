@@ -2,25 +2,14 @@
 
 #include <cmath>
 
-#include "hextwist/mesh/quality/quality_internal.h"
+#include "hextwist/mesh/quality/kernels_internal.h"
 
 namespace hextwist {
 namespace {
 
 template <int N>
 Lanes<N> shape(const LaneHex<N>& x, double) {
-  const LaneEdges<N> edges(x);
-  const auto square = squares(edges);
-  Lanes<N> worst = Lanes<N>::Ones();  // (shape / 3)^3, with the sign of the determinant; nothing is better than 1/27
-  for (int c = 0; c < 8; ++c) {
-    const Lanes<N> det = determinant_at(edges, c);
-    const Lanes<N> frobenius =
-        square[0][gather_bits(0, c)] + square[1][gather_bits(1, c)] + square[2][gather_bits(2, c)];
-    const Lanes<N> power = det * det.abs() / (frobenius * frobenius * frobenius);
-    worst = worst.min((frobenius > 0).select(power, Lanes<N>::Zero()));
-  }
-  for (int lane = 0; lane < N; ++lane) worst[lane] = worst[lane] > 0 ? 3 * std::cbrt(worst[lane]) : 0;
-  return worst;
+  return shape_of(HexCorners<N>(x));
 }
 
 template <int N>
@@ -61,36 +50,14 @@ Lanes<N> condition_number(const LaneHex<N>& x, double) {
   return (worst.sqrt() / 3).min(unbounded);
 }
 
-/// Square of det(A) / product of the lengths, with its sign; 0 where a length is 0.
-template <int N>
-Lanes<N> signed_square(const Lanes<N>& det, const Lanes<N>& product) {
-  return (product > 0).select(det * det.abs() / product, Lanes<N>::Zero());
-}
-template <int N>
-Lanes<N> worst_scaled_corner(const LaneEdges<N>& edges, Lanes<N> worst) {
-  const auto square = squares(edges);
-  for (int c = 0; c < 8; ++c)
-    worst = worst.min(
-        signed_square<N>(determinant_at(edges, c),
-                         square[0][gather_bits(0, c)] * square[1][gather_bits(1, c)] * square[2][gather_bits(2, c)]));
-  return worst;
-}
-
 template <int N>
 Lanes<N> scaled_jacobian(const LaneHex<N>& x, double) {
-  const LaneEdges<N> edges(x);
-  const auto centre = principal_axes(edges);
-  Lanes<N> worst =
-      worst_scaled_corner<N>(edges, signed_square<N>(determinant(centre[0], centre[1], centre[2]),
-                                                     centre[0].squared() * centre[1].squared() * centre[2].squared()));
-  for (int lane = 0; lane < N; ++lane)
-    worst[lane] = std::copysign(std::sqrt(std::abs(worst[lane])), worst[lane]) + 0.0;  // no -0
-  return worst;
+  return scaled_jacobian_of(HexCorners<N>(x));
 }
 
 template <int N>
 Lanes<N> shear(const LaneHex<N>& x, double) {
-  return worst_scaled_corner<N>(LaneEdges<N>(x), Lanes<N>::Ones()).max(0).sqrt();
+  return worst_scaled_corner<N>(HexCorners<N>(x), Lanes<N>::Ones()).max(0).sqrt();
 }
 
 template <int N>

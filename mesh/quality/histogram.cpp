@@ -29,7 +29,7 @@ std::string histogram(std::span<const double> values, int bins) {
     const double t = static_cast<double>(bin) / bins;
     return bin == bins ? max : (1 - t) * min + t * max;
   };
-  if (least == most) bins = 1;
+  if (short_number(least) == short_number(most)) bins = 1;  // what differs is rounding
 
   std::vector<double> bounds;
   for (int bin = 0; bin <= bins; ++bin) bounds.push_back(bound(bin));

@@ -182,9 +182,14 @@ std::vector<double> quality(Metric metric, const Mesh& mesh) {
 }
 std::vector<double> quality(Metric metric, const Mesh& mesh, std::span<const Index> hexes) {
   const double average = metric == Metric::relative_size ? average_volume(mesh, hexes) : 1;
+  const Kernel& kernel = *entry(metric).kernel;
   std::vector<double> values(hexes.size());
   parallel_ranges(static_cast<Index>(hexes.size()), [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) values[i] = quality(metric, mesh, hexes[i], average);
+    Index i = begin;
+    for (; i + n_lanes <= end; i += n_lanes)
+      Eigen::Map<Lanes<n_lanes>>(values.data() + i) =
+          kernel.some(load<n_lanes>(mesh, [&](int lane) { return hexes[i + lane]; }), average);
+    for (; i < end; ++i) values[i] = quality(metric, mesh, hexes[i], average);
   });
   return values;
 }

@@ -54,24 +54,25 @@
 
 namespace HEXTWIST_API hextwist {
 
+/// The metrics of the table above, by what they look at.
 enum class Metric {
-  shape,
-  scaled_jacobian,
-  mean_ratio,
-  condition_number,
-  skew,
-  stretch,
-  taper,
-  aspect_ratio,
-  edge_ratio,
-  diagonal,
-  relative_size,
-  shear,
-  oddy,
-  distortion,
-  volume,
-  jacobian,
-  dimension,
+  shape,             ///< worst corner, whatever its size; 0..1
+  scaled_jacobian,   ///< worst angle between edges; -1..1
+  mean_ratio,        ///< shape averaged over the corners; 0..1
+  condition_number,  ///< worst corner; from 1
+  skew,              ///< angle between the principal axes; 0..1
+  stretch,           ///< shortest edge and longest diagonal; 0..1
+  taper,             ///< difference of opposite sides; from 0
+  aspect_ratio,      ///< lengths of the principal axes; from 1
+  edge_ratio,        ///< lengths of the edges; from 1
+  diagonal,          ///< lengths of the diagonals; 0..1
+  relative_size,     ///< volume and the average of the mesh; 0..1
+  shear,             ///< worst angle, 0 where inverted; 0..1
+  oddy,              ///< deviation from a cube; from 0
+  distortion,        ///< smallest determinant and volume; 1 for any parallelepiped
+  volume,            ///< model units cubed
+  jacobian,          ///< smallest determinant, model units cubed
+  dimension,         ///< a length, model units
 };
 
 /// "shape", "scaled Jacobian", ...
@@ -86,36 +87,41 @@ bool small_is_better(Metric metric);
 /// The value of a cube; infinity for the metrics that have a unit (volume, Jacobian, dimension).
 double ideal(Metric metric);
 
-/// `average`: the volume that relative size compares with, average_volume() as a rule; no other metric looks at it.
+/// Of eight corners in the order of corners.h. `average`: the volume that relative size compares with, average_volume()
+/// as a rule; no other metric looks at it.
 double quality(Metric metric, std::span<const Vec3, 8> corners, double average = 1);
+/// The same of a hex of a mesh.
 double quality(Metric metric, const Mesh& mesh, Index hex, double average = 1);
-/// One value per hex; relative size compares with the average of the mesh, or with the one given.
+/// One value per hex; relative size compares with the average of the mesh.
 std::vector<double> quality(Metric metric, const Mesh& mesh);
+/// One value per hex; relative size compares with the average given.
 std::vector<double> quality(Metric metric, const Mesh& mesh, double average);
 /// One value per hex of a selection, in its order; relative size compares with the average of the selection.
 std::vector<double> quality(Metric metric, const Mesh& mesh, std::span<const Index> hexes);
 
-/// Average volume of the hexes of a mesh or selection; 0 when there are none.
+/// Average volume of the hexes of a mesh, model units cubed; 0 when there are none.
 double average_volume(const Mesh& mesh);
+/// The same of some of its hexes, in any order.
 double average_volume(const Mesh& mesh, std::span<const Index> hexes);
 
-/// Count 0: everything else 0 or -1.
+/// Values of hexes in a few numbers, in the unit of the values. Count 0: everything else 0 or -1.
 struct Summary {
-  Index count = 0;
-  double average = 0;
+  Index count = 0;     ///< how many hexes were looked at
+  double average = 0;  ///< every hex counts the same, whatever its volume
   double std_dev = 0;  ///< of the population (divided by n)
-  double min = 0;
-  double max = 0;
+  double min = 0;      ///< the smallest value, be it the best or the worst
+  double max = 0;      ///< the largest value
   Index min_hex = -1;  ///< index of the hex; the lowest among equals
-  Index max_hex = -1;
+  Index max_hex = -1;  ///< likewise
 };
-/// Summary over all values (one per hex), or over a selection of hexes (in any order). The sum's order is fixed: same
-/// result for any threads.
+/// Summary over all values, one per hex. The sum's order is fixed: same result for any threads.
 Summary summarize(std::span<const double> values);
+/// The same over a selection of hexes, in any order; values: one per hex of the mesh.
 Summary summarize(std::span<const double> values, std::span<const Index> hexes);
 
-/// Smallest corner Jacobian determinant of a hex (8 corners). Whether it is valid: validity.h.
+/// Smallest Jacobian determinant at the 8 corners of a hex, model units cubed. Whether it is valid: validity.h.
 double min_corner_jacobian(std::span<const Vec3, 8> corners);
+/// The same of a hex of a mesh.
 double min_corner_jacobian(const Mesh& mesh, Index hex);
 /// One value per hex.
 std::vector<double> min_corner_jacobian(const Mesh& mesh);

@@ -23,37 +23,43 @@ extern const Kernel skew_kernel, taper_kernel, aspect_ratio_kernel;             
 extern const Kernel edge_ratio_kernel, stretch_kernel, diagonal_kernel;                        // lengths
 extern const Kernel volume_kernel, relative_size_kernel, dimension_kernel, distortion_kernel;  // sizes
 
+/// all_valid() of validity.h for the hexes begin .. end - 1.
+bool all_valid(const Mesh& mesh, Index begin, Index end);
+
 /// The worst value of a metric that has no largest one, as in Verdict: finite, so that sums stay finite.
 inline constexpr double unbounded = 1e30;
 
 template <int N>
-Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+HEXTWIST_LANES Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
+  Lanes<N> sum = a.x * b.x;
+  sum += a.y * b.y;
+  sum += a.z * b.z;
+  return sum;
 }
 template <int N>
-LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
+HEXTWIST_LANES LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <int N>
-LaneVec<N> scaled(double factor, const LaneVec<N>& a) {
+HEXTWIST_LANES LaneVec<N> scaled(double factor, const LaneVec<N>& a) {
   return {factor * a.x, factor * a.y, factor * a.z};
 }
 
 /// Squared lengths of the edges.
 template <int N>
-std::array<std::array<Lanes<N>, 4>, 3> squares(const LaneEdges<N>& edges) {
+HEXTWIST_LANES std::array<std::array<Lanes<N>, 4>, 3> squares(const LaneEdges<N>& edges) {
   std::array<std::array<Lanes<N>, 4>, 3> result;
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 0; k < 4; ++k) result[axis][k] = edges.along[axis][k].squared();
   return result;
 }
 template <int N>
-Lanes<N> determinant_at(const LaneEdges<N>& edges, int c) {
+HEXTWIST_LANES Lanes<N> determinant_at(const LaneEdges<N>& edges, int c) {
   return determinant(edges.at(0, c), edges.at(1, c), edges.at(2, c));
 }
 /// Principal axes: the sum of the four edges of each direction, four times the Jacobian matrix at the centre.
 template <int N>
-std::array<LaneVec<N>, 3> principal_axes(const LaneEdges<N>& edges) {
+HEXTWIST_LANES std::array<LaneVec<N>, 3> principal_axes(const LaneEdges<N>& edges) {
   std::array<LaneVec<N>, 3> axes;
   for (int axis = 0; axis < 3; ++axis) {
     const auto& e = edges.along[axis];

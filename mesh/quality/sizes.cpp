@@ -1,33 +1,15 @@
 // Metrics from the volume and its derivatives.
-//
-// A face that is a bilinear patch with corners p0 p1 p2 p3 (in a cycle seen from outside) adds s . (d x e) / 24 to the
-// volume, where s is the sum of the corners, d = p2 - p0 and e = p3 - p1 the diagonals: exact for the trilinear map.
 
 #include <array>
 
-#include "hextwist/mesh/quality/quality_internal.h"
+#include "hextwist/mesh/quality/kernels_internal.h"
 
 namespace hextwist {
 namespace {
 
-/// The corners seen from corner 0, so that hexes far from the origin lose no digits.
-template <int N>
-LaneHex<N> from_corner(const LaneHex<N>& x) {
-  LaneHex<N> local;
-  for (int c = 0; c < 8; ++c) local[c] = x[c] - x[0];
-  return local;
-}
-
 template <int N>
 Lanes<N> volume(const LaneHex<N>& x, double) {
-  const LaneHex<N> local = from_corner<N>(x);
-  Lanes<N> sum = Lanes<N>::Zero();
-  for (int face = 0; face < 6; ++face) {
-    const auto cycle = face_cycle(face);
-    const LaneVec<N>&p = local[cycle[0]], &q = local[cycle[1]], &r = local[cycle[2]], &s = local[cycle[3]];
-    sum += determinant((p + q) + (r + s), r - p, s - q);
-  }
-  return sum / 24;
+  return volume_of<N>(x);
 }
 
 template <int N>

@@ -7,7 +7,8 @@
 #include <limits>
 
 #include "hextwist/base/parallel.h"
-#include "hextwist/mesh/quality/quality_internal.h"
+#include "hextwist/mesh/quality/kernels_internal.h"
+#include "hextwist/mesh/quality/quality.h"
 
 namespace hextwist {
 namespace {
@@ -50,8 +51,7 @@ Lanes<N> longest_product(const LaneEdges<N>& edges) {
 /// Positive: surely valid, as no scaled Jacobian is below this times least_scaled_jacobian either. Nearly all hexes
 /// are.
 template <int N>
-Lanes<N> clearance(const LaneHex<N>& x) {
-  const LaneEdges<N> edges(x);
+Lanes<N> clearance(const LaneEdges<N>& edges) {
   const Coefficients<N> all = coefficients(edges);
   Lanes<N> least = all[0];
   for (int i = 1; i < 27; ++i) least = least.min(all[i]);
@@ -141,7 +141,7 @@ HexVerdict judge(const LaneHex<1>& x) {
 
 /// Valid by the quick test.
 bool is_clear(const Mesh& mesh, Index hex) {
-  return clearance(load<1>(mesh, hex))[0] > 0;
+  return clearance(LaneEdges<1>(load<1>(mesh, hex)))[0] > 0;
 }
 bool is_valid(const Mesh& mesh, Index hex) {
   return is_clear(mesh, hex) || judge(mesh, hex).fault == HexFault::none;
@@ -152,7 +152,9 @@ template <class F>
 void for_inverted(const Mesh& mesh, Index begin, Index end, F f) {
   Index h = begin;
   for (; h + n_lanes <= end; h += n_lanes) {
-    const Lanes<n_lanes> clear = clearance(load<n_lanes>(mesh, h));
+    const LaneEdges<n_lanes> edges(load<n_lanes>(mesh, h));
+    if ((affine_clearance(edges) > 0).all()) continue;
+    const Lanes<n_lanes> clear = clearance(edges);
     if ((clear > 0).all()) continue;
     for (int lane = 0; lane < n_lanes; ++lane)
       if (!(clear[lane] > 0) && judge(mesh, h + lane).fault != HexFault::none) f(h + lane);
@@ -196,24 +198,49 @@ std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes
   return found;
 }
 
-std::vector<Index> hexes_below(const Mesh& mesh, double limit, Index first) {
-  return collect(mesh, first, [&](Index begin, Index end, std::vector<Index>& found) {
-    Index h = begin;
-    for (; h + n_lanes <= end; h += n_lanes) {
-      const Lanes<n_lanes> values = scaled_jacobian_kernel.some(load<n_lanes>(mesh, h), 1);
+namespace {
+
+/// Those of hex_of(0) .. hex_of(n - 1) that are below.
+template <class HexOf>
+std::vector<Index> below(const Mesh& mesh, double limit, Index n, const HexOf& hex_of) {
+  constexpr Index size = 4096;
+  std::vector<std::vector<Index>> of_chunk(n_chunks(n, size));
+  parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
+    std::vector<Index>& found = of_chunk[chunk];
+    Index i = begin;
+    for (; i + n_lanes <= end; i += n_lanes) {
+      const auto x = load<n_lanes>(mesh, [&](int lane) { return hex_of(i + lane); });
+      const Lanes<n_lanes> values = scaled_jacobian_of(HexCorners<n_lanes>(x));
       for (int lane = 0; lane < n_lanes; ++lane)
-        if (!(values[lane] >= limit)) found.push_back(h + lane);
+        if (!(values[lane] >= limit)) found.push_back(hex_of(i + lane));
     }
-    for (; h < end; ++h)
-      if (!(scaled_jacobian_kernel.one(load<1>(mesh, h), 1)[0] >= limit)) found.push_back(h);
+    for (; i < end; ++i)
+      if (!(quality(Metric::scaled_jacobian, mesh, hex_of(i)) >= limit)) found.push_back(hex_of(i));
   });
+  std::vector<Index> all;
+  for (const auto& list : of_chunk) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Index> hexes_below(const Mesh& mesh, double limit, Index first) {
+  return below(mesh, limit, mesh.n_hexes() - first, [&](Index i) { return first + i; });
+}
+std::vector<Index> hexes_below(const Mesh& mesh, double limit, std::span<const Index> hexes) {
+  return below(mesh, limit, static_cast<Index>(hexes.size()), [&](Index i) { return hexes[i]; });
+}
+
+bool all_valid(const Mesh& mesh, Index begin, Index end) {
+  bool all = true;
+  for_inverted(mesh, begin, end, [&](Index) { all = false; });
+  return all;
 }
 
 bool all_valid(const Mesh& mesh) {
   std::atomic<bool> all = true;
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    if (all.load(std::memory_order_relaxed))
-      for_inverted(mesh, begin, end, [&](Index) { all.store(false, std::memory_order_relaxed); });
+    if (all.load(std::memory_order_relaxed) && !all_valid(mesh, begin, end)) all = false;
   });
   return all;
 }

@@ -19,32 +19,38 @@ namespace HEXTWIST_API hextwist {
 /// A hex with a smaller scaled Jacobian (quality.h: corners and centre) is flat but for rounding.
 inline constexpr double least_scaled_jacobian = 1e-6;
 
+/// Why a hex is not valid.
 enum class HexFault {
-  none,
+  none,    ///< it is valid
   corner,  ///< the Jacobian at a corner is not positive
   inside,  ///< it is at all corners, but not everywhere in between
   flat,    ///< positive everywhere, scaled Jacobian below least_scaled_jacobian
 };
 
+/// What was found in a hex.
 struct HexVerdict {
-  HexFault fault = HexFault::none;
-  double value = 0;        ///< the offending Jacobian; of flat hexes the scaled one
-  Vec3 at = Vec3::Zero();  ///< where, in the unit cube
+  HexFault fault = HexFault::none;  ///< none: the rest means nothing
+  double value = 0;                 ///< the offending Jacobian; of flat hexes the scaled one
+  Vec3 at = Vec3::Zero();           ///< where, in the unit cube
 };
 
 /// What is wrong with a hex. What can't be decided within rounding (about 1e-14 of the longest edges' product) or
 /// within 4096 pieces counts as wrong. Precondition here and below: finite coordinates, nodes that exist.
 HexVerdict judge(std::span<const Vec3, 8> corners);
+/// The same of a hex of a mesh.
 HexVerdict judge(const Mesh& mesh, Index hex);
 
-/// Hexes that are not valid ("inverted" in all that is said), ascending: those with index >= first; those of a list
-/// (ascending). The same for any number of threads.
+/// Hexes that are not valid ("inverted" in all that is said), ascending: those with index >= first. The same for any
+/// number of threads.
 std::vector<Index> inverted_hexes(const Mesh& mesh, Index first = 0);
+/// Those of a list (ascending) that are not valid.
 std::vector<Index> inverted_hexes(const Mesh& mesh, std::span<const Index> hexes);
 /// Whether there is none among all hexes; quicker.
 bool all_valid(const Mesh& mesh);
 
 /// Hexes with index >= first whose scaled Jacobian (quality.h) is below a limit, ascending.
 std::vector<Index> hexes_below(const Mesh& mesh, double limit, Index first = 0);
+/// The same among some hexes, ascending.
+std::vector<Index> hexes_below(const Mesh& mesh, double limit, std::span<const Index> hexes);
 
 }  // namespace hextwist

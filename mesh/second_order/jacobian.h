@@ -17,8 +17,9 @@ namespace HEXTWIST_API hextwist {
 /// The 27 nodes of a hex: number i + 3 j + 9 k lies at (i, j, k) / 2 of the unit cube.
 using QuadraticHex = std::array<Vec3, 27>;
 
-/// The point at a place of the unit cube, and the columns of the Jacobian there.
+/// The point at a place of the unit cube.
 Vec3 point(const QuadraticHex& hex, const Vec3& at);
+/// The columns of the Jacobian at a place of the unit cube: derivatives along its x, y and z, model units.
 std::array<Vec3, 3> jacobian(const QuadraticHex& hex, const Vec3& at);
 
 /// What can't be decided within rounding (1e-13 of the product of the longest derivatives) or within 4096 pieces counts

@@ -11,13 +11,15 @@
 
 namespace HEXTWIST_API hextwist {
 
+/// Middles of edges and faces by the corners around them. Nothing is said of those that are not listed.
 struct MiddleNodes {
   int nodes_per_hex = 8;    ///< 8: there are none; 20: of edges; 27: of edges, faces and hexes (those are not kept)
   std::vector<Edge> edges;  ///< lower node first; ascending
-  std::vector<Vec3> edge_points;  ///< per edge
+  std::vector<Vec3> edge_points;  ///< per edge, model units
   std::vector<Quad> faces;        ///< nodes ascending; ascending
-  std::vector<Vec3> face_points;  ///< per face
+  std::vector<Vec3> face_points;  ///< per face, model units
 
+  /// Is no middle known?
   bool empty() const { return edges.empty() && faces.empty(); }
 };
 

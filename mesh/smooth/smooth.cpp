@@ -1,10 +1,12 @@
 #include "hextwist/mesh/smooth/smooth.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <iterator>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
@@ -25,9 +27,7 @@ void check(const SmoothOptions& options) {
 
 Summary shape_summary(const Mesh& mesh, std::span<const Index> hexes) {
   if (static_cast<Index>(hexes.size()) == mesh.n_hexes()) return summarize(quality(Metric::shape, mesh));
-  std::vector<double> values(hexes.size());
-  for (std::size_t i = 0; i < hexes.size(); ++i) values[i] = quality(Metric::shape, mesh, hexes[i]);
-  Summary summary = summarize(values);
+  Summary summary = summarize(quality(Metric::shape, mesh, hexes));
   if (summary.count > 0) {
     summary.min_hex = hexes[summary.min_hex];
     summary.max_hex = hexes[summary.max_hex];
@@ -189,10 +189,12 @@ class Smoother {
   }
   void wake_nodes_of_bad_hexes(double threshold) {
     std::ranges::fill(state_.awake, 0);
-    for (std::size_t i = 0; i < distortions_.size(); ++i)
-      if (distortions_[i] > threshold)
-        for (const Index node : state_.mesh.hexes[state_.problem.hexes[i]])
-          if (const Index slot = state_.problem.slot[node]; slot >= 0) state_.awake[slot] = 1;
+    parallel_each(distortions_.size(), [&](std::size_t i) {
+      if (!(distortions_[i] > threshold)) return;
+      for (const Index node : state_.mesh.hexes[state_.problem.hexes[i]])
+        if (const Index slot = state_.problem.slot[node]; slot >= 0)
+          std::atomic_ref(state_.awake[slot]).store(1, std::memory_order_relaxed);
+    });
   }
 
   void optimise(const char* stage, Sweep sweep) {

@@ -32,6 +32,7 @@
 
 namespace HEXTWIST_API hextwist {
 
+/// What smoothing is after.
 enum class SmoothScheme {
   mean_ratio,        ///< shape; untangles first where that is needed
   condition_number,  ///< |A| |A^-1| / 3 at the corners (Knupp 2000) instead; untangles likewise
@@ -43,8 +44,9 @@ const char* name(SmoothScheme scheme);
 /// By name; case, '_' and '-' do not matter. Throws Error listing the known ones.
 SmoothScheme smooth_scheme(std::string_view name);
 
+/// Which nodes move, how, and how long.
 struct SmoothOptions {
-  SmoothScheme scheme = SmoothScheme::mean_ratio;
+  SmoothScheme scheme = SmoothScheme::mean_ratio;  ///< the default is the best for nearly all meshes
   /// Nodes that may move, in any order; none given: all.
   std::optional<std::vector<Index>> nodes;
   /// Nodes that stay, whatever `nodes` says.
@@ -69,25 +71,28 @@ struct SmoothOptions {
 
 /// State after a sweep.
 struct SmoothStep {
-  const char* stage = "";  ///< "start", "untangle", "shape", "worst", "average", "laplacian", "condition number"
-  double min_shape = 0;
-  double average_shape = 0;
-  double energy = 0;              ///< average over the corners of (shape at the corner)^(-3/2); infinite while inverted
+  const char* stage = "";    ///< "start", "untangle", "shape", "worst", "average", "laplacian", "condition number",
+                             ///< "corners"
+  double min_shape = 0;      ///< over the hexes around the nodes that could move
+  double average_shape = 0;  ///< over the same hexes
+  double energy = 0;         ///< average over the corners of (shape at the corner)^(-3/2); infinite while inverted
   std::int64_t node_updates = 0;  ///< so far
   double seconds = 0;             ///< so far
 };
 
+/// What smoothing has done.
 struct SmoothReport {
-  Index n_nodes = 0;                  ///< that could move
-  Summary shape_before, shape_after;  ///< over the hexes around those nodes
-  Index inverted_before = 0;          ///< among these hexes
-  std::vector<Index> not_repaired;    ///< hexes that are inverted still, ascending
-  int sweeps = 0;
-  std::int64_t node_updates = 0;  ///< optimisations of one node's place
-  bool converged = false;         ///< ended because nothing moved or improved any more
-  bool stopped = false;           ///< by the progress callback
-  double seconds = 0;
-  std::vector<SmoothStep> history;
+  Index n_nodes = 0;                ///< that could move
+  Summary shape_before;             ///< over the hexes around those nodes
+  Summary shape_after;              ///< over the same hexes
+  Index inverted_before = 0;        ///< among these hexes
+  std::vector<Index> not_repaired;  ///< hexes that are inverted still, ascending
+  int sweeps = 0;                   ///< over the nodes, all stages together
+  std::int64_t node_updates = 0;    ///< optimisations of one node's place
+  bool converged = false;           ///< ended because nothing moved or improved any more
+  bool stopped = false;             ///< by the progress callback
+  double seconds = 0;               ///< wall clock
+  std::vector<SmoothStep> history;  ///< the start and every sweep, if asked for (SmoothOptions::record_history)
 };
 
 /// Called after each sweep with the stage and a fraction 0..1 of the sweeps allowed; false: stop with what is reached.

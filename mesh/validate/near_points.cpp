@@ -1,12 +1,16 @@
 // Nearly coincident points by hashing them to cells much wider than the tolerance: nearly every point has only its own
-// cell to look at, the few next to a cell wall also the cell behind it.
+// cell to look at, the few next to a cell wall also the cell behind it. Most points are alone in their cells, which a
+// bit for every hash tells; only the others are compared.
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
+#include "hextwist/base/parallel.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 
@@ -61,6 +65,41 @@ void for_near_cells(const Cells& cells, const Vec3& p, F f) {
         if (i || j || k) f(Cell{own[0] + i, own[1] + j, own[2] + k});
 }
 
+/// Points that may share a cell with another one, or lie within tolerance of its wall: those with a hash that some
+/// other hash is like in its lowest bits. Ascending; all that are near another point are among them.
+std::vector<Index> not_alone(const Cells& cells, std::span<const Vec3> points) {
+  constexpr std::size_t slots_of_point = 16;
+  const std::size_t n_slots = std::bit_ceil(slots_of_point * points.size() + 64);
+  std::vector<std::uint64_t> once(n_slots / 64), twice(n_slots / 64);
+  const auto place = [&](std::uint64_t h) { return h & (n_slots - 1); };
+  const auto bit = [](std::size_t slot) { return std::uint64_t{1} << (slot & 63); };
+  const auto set = [&](const Cell& cell) {
+    const std::size_t slot = place(hash(cell));
+    const auto order = std::memory_order_relaxed;
+    if (std::atomic_ref(once[slot >> 6]).fetch_or(bit(slot), order) & bit(slot))
+      std::atomic_ref(twice[slot >> 6]).fetch_or(bit(slot), order);
+  };
+  const auto n = static_cast<Index>(points.size());
+  parallel_ranges(n, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      if (!points[i].allFinite()) continue;
+      set(cells.cell(points[i]));
+      for_near_cells(cells, points[i], set);
+    }
+  });
+  return indices_where(n, [&](Index i) {
+    if (!points[i].allFinite()) return false;
+    bool any = false;
+    const auto ask = [&](const Cell& cell) {
+      const std::size_t slot = place(hash(cell));
+      any |= (twice[slot >> 6] & bit(slot)) != 0;
+    };
+    ask(cells.cell(points[i]));
+    for_near_cells(cells, points[i], ask);
+    return any;
+  });
+}
+
 }  // namespace
 
 std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double tolerance) {
@@ -75,12 +114,11 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
   tolerance = std::max(tolerance, 1e-16 * size);
   const Cells cells = {box.min - Vec3::Constant(0.3 * tolerance), tolerance > 0 ? tolerance : 1};
 
-  std::vector<Entry> entries(points.size());
-  parallel_ranges(n, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      entries[i] = {points[i].allFinite() ? hash(cells.cell(points[i])) : 0, points[i].allFinite() ? i : -1};
+  const std::vector<Index> candidates = not_alone(cells, points);
+  std::vector<Entry> entries(candidates.size());
+  parallel_each(candidates.size(), [&](std::size_t i) {
+    entries[i] = {hash(cells.cell(points[candidates[i]])), candidates[i]};
   });
-  std::erase_if(entries, [](const Entry& e) { return e.point < 0; });
   const auto key = [&](const Entry& e) {
     const Vec3& p = points[e.point];
     return std::make_tuple(e.hash, p.x(), p.y(), p.z(), e.point);

@@ -286,23 +286,30 @@ void find_folded_faces(const Part& part, const Faces& faces, Report& report) {
 }
 
 /// Groups of hexes around a node that are joined to each other through faces at the node.
-int n_groups_around(const Faces& faces, std::span<const Index> corners) {
-  std::vector<std::pair<Index, Index>> at_face;  // face, place in corners: three per hex
+int n_groups_around(const Mesh& mesh, std::span<const Index> corners) {
+  struct FaceAt {
+    Index diagonal, low, high, place;  // the other nodes of the face; place in corners
+    auto key() const { return std::tie(diagonal, low, high); }
+  };
+  std::vector<FaceAt> at_face;  // three per hex
   const auto n = static_cast<Index>(corners.size());
   for (Index i = 0; i < n; ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      at_face.emplace_back(faces.of_hex[corners[i] >> 3][2 * axis + (corners[i] >> axis & 1)], i);
-  std::ranges::sort(at_face);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Hex& hex = mesh.hexes[corners[i] >> 3];
+      const int c = corners[i] & 7, u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
+      const auto [low, high] = std::minmax(hex[c ^ u], hex[c ^ v]);
+      at_face.push_back({hex[c ^ u ^ v], low, high, i});
+    }
+  std::ranges::sort(at_face, {}, [](const FaceAt& f) { return std::tie(f.diagonal, f.low, f.high, f.place); });
   std::vector<Index> group = singletons(n);
   for (std::size_t i = 1; i < at_face.size(); ++i)
-    if (at_face[i].first == at_face[i - 1].first) join(group, at_face[i].second, at_face[i - 1].second);
+    if (at_face[i].key() == at_face[i - 1].key()) join(group, at_face[i].place, at_face[i - 1].place);
   int n_groups = 0;
   for (Index i = 0; i < n; ++i) n_groups += group[i] == i;
   return n_groups;
 }
 
-void find_torn_edges(const Part& part, const Faces& faces, const CompressedRows& corners, std::span<const Side> skin,
-                     Report& report) {
+void find_torn_edges(const Part& part, const CompressedRows& corners, std::span<const Side> skin, Report& report) {
   const Mesh& mesh = *part.mesh;
   // Hexes around an edge form fans between two quads of the skin each.
   std::vector<std::array<Index, 2>> rims(4 * skin.size());
@@ -332,10 +339,10 @@ void find_torn_edges(const Part& part, const Faces& faces, const CompressedRows&
   std::vector<char> on_skin(mesh.points.size(), 0);
   for (const auto& [a, b] : rims) on_skin[a] = on_skin[b] = 1;
   for (const Index node : indices_where(
-           mesh.n_nodes(), [&](Index n) { return on_skin[n] && !torn[n] && n_groups_around(faces, corners[n]) > 1; })) {
+           mesh.n_nodes(), [&](Index n) { return on_skin[n] && !torn[n] && n_groups_around(mesh, corners[n]) > 1; })) {
     std::vector<Index> hexes = part.originals_of(hexes_at(corners, node));
     const std::string text = report.hexes(hexes) + " meet at " + report.nodes({node}) + " in " +
-                             std::to_string(n_groups_around(faces, corners[node])) + " groups that share no face there";
+                             std::to_string(n_groups_around(mesh, corners[node])) + " groups that share no face there";
     report.add(ViolationKind::torn_edge, std::move(hexes), {node}, text);
   }
 }
@@ -409,6 +416,16 @@ bool is_warning(ViolationKind kind) {
 std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options) {
   std::vector<Violation> found;
   Report report(mesh, found);
+  if (std::vector<Side> skin;
+      is_sound_without_skin(mesh, skin)) {  // most are: only warnings and hanging nodes are left
+    const Part whole(mesh);
+    const CompressedRows corners = node_corners(mesh);
+    find_duplicate_nodes(mesh, options.relative_tolerance, report);
+    find_unused_nodes(mesh, report);
+    find_hanging_nodes(whole, corners, skin, report);
+    find_torn_edges(whole, corners, skin, report);
+    return found;
+  }
   std::vector<Index> unsound = find_bad_indices(mesh, report);
   const std::vector<char> not_finite = find_not_finite(mesh, report);
   const std::vector<Index> repeated = find_repeated_nodes(mesh, report);
@@ -428,7 +445,7 @@ std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options
   find_hanging_nodes(part, corners, skin, report);
   find_crowded_faces(part, loose, report);
   find_folded_faces(part, loose.faces, report);
-  find_torn_edges(part, loose.faces, corners, skin, report);
+  find_torn_edges(part, corners, skin, report);
   find_inverted(part, not_finite, report);
   return found;
 }

@@ -30,13 +30,15 @@ enum class ViolationKind {
 /// "hanging node" and so on.
 const char* name(ViolationKind kind);
 
+/// One thing that is wrong with a mesh.
 struct Violation {
-  ViolationKind kind;
+  ViolationKind kind;        ///< is_warning() says whether it matters
   std::vector<Index> hexes;  ///< involved, ascending
   std::vector<Index> nodes;  ///< involved, ascending
   std::string text;          ///< one line with ids as the user knows them, long lists cut short
 };
 
+/// What counts as the same place.
 struct ValidateOptions {
   /// Nodes nearer than this times the size of the box count as one place (0 .. 1e-4). 0 switches the search off.
   double relative_tolerance = 1e-10;
@@ -50,7 +52,8 @@ struct ValidateOptions {
 std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options = {});
 
 /// Quicker, and in less memory: false when validate() may find something worse than a warning. True is certain.
-bool has_only_warnings(const Mesh& mesh);
+/// known_valid: that all hexes are valid (quality/validity.h) has been found out already.
+bool has_only_warnings(const Mesh& mesh, bool known_valid = false);
 
 /// A violation that only warns: the mesh can still be refined.
 bool is_warning(ViolationKind kind);

@@ -28,8 +28,8 @@ struct HangingNode {
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
 
 /// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when
-/// true).
-bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin);
+/// true). known_valid: that all hexes are valid (validity.h) has been found out already.
+bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, bool known_valid = false);
 
 /// Whether two hexes turn alike around a face that they share: then they lie on the same side of it, or one of them is
 /// mirrored. Face f of hex a and face g of hex b have the same nodes in the same cyclic order, up to direction.

@@ -18,10 +18,11 @@ enum class HexOrigin : std::uint8_t {
 
 /// Per hex of the mesh now. Every hex of before is named by what came of it, and by nothing else.
 struct LevelOrigin {
-  std::vector<HexOrigin> kind;
-  std::vector<Index> at;   ///< same, finer: the hex before; coarser: a row of `several`
-  CompressedRows several;  ///< hexes before that fill the cell, ascending; pieces of one cell share a row
+  std::vector<HexOrigin> kind;  ///< one per hex
+  std::vector<Index> at;        ///< same, finer: the hex before; coarser: a row of `several`
+  CompressedRows several;       ///< hexes before that fill the cell, ascending; pieces of one cell share a row
 
+  /// The hexes before that a hex of now lies in or is made of, at least one; valid while this is left alone.
   std::span<const Index> before(Index hex) const {
     return kind[hex] == HexOrigin::coarser ? several[at[hex]] : std::span(&at[hex], 1);
   }

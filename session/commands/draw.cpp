@@ -10,13 +10,22 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/view/page.h"
 #include "hextwist/session/view/picture.h"
 
 namespace hextwist {
 namespace {
 
 constexpr Colour curve_colour = {50, 50, 60}, chosen_colour = {200, 30, 30}, plain_colour = {225, 228, 232};
-constexpr std::size_t max_legend_rows = 20;
+constexpr std::size_t max_legend_rows = 20, most_drawn = 20000;
+
+Vec3 view_of(const Command& command) {
+  if (!command.has("from")) return {1, -1, 0.7};
+  const Vec3 view = {command.find("x")->number, command.find("y")->number, command.find("z")->number};
+  if (!(view.norm() > 0))
+    throw error_at(command.statement, command.find("x")->token, "this is not a direction to look from");
+  return view;
+}
 
 class Painter {
  public:
@@ -47,7 +56,7 @@ class Painter {
       skin(chosen);
     curves();
     if (plain) highlight(kind, positions, dim);
-    view();
+    picture_.view = view_of(run_.command);
     picture_.title = text_of(command.statement);
     return std::move(picture_);
   }
@@ -180,15 +189,54 @@ class Painter {
       for (const Index n : related(selector_, kind, positions, EntityKind::node))
         picture_.lines.push_back({mesh_.points[n], mesh_.points[n], chosen_colour, 9, true});
   }
-
-  void view() {
-    const Command& command = run_.command;
-    if (!command.has("from")) return;
-    picture_.view = {command.find("x")->number, command.find("y")->number, command.find("z")->number};
-    if (!(picture_.view.norm() > 0))
-      throw error_at(command.statement, command.find("x")->token, "this is not a direction to look from");
-  }
 };
+
+void draw_picture(Execution& run, io::Output& out) {
+  const Command& command = run.command;
+  const Picture picture = Painter(run).paint();
+  const Item* width = command.find("width");
+  const int w = width ? static_cast<int>(width->number) : 1200;
+  const int h = width ? static_cast<int>(command.find("height")->number) : 900;
+  const std::string& file = command.find("file")->text;
+  const std::string extension = lower_extension(file);
+  if (extension == ".svg") {
+    if (picture.facets.size() > most_drawn)
+      throw Error("a drawing of " + counted(static_cast<std::int64_t>(picture.facets.size()), EntityKind::face) +
+                  " is too large for .svg, which takes " + std::to_string(most_drawn) + ": write a .png");
+    out << svg(picture, w, h);
+  } else if (extension == ".gif") {
+    std::string before;
+    if (command.has("append") && std::filesystem::exists(file)) {
+      const io::Bytes bytes = io::read_bytes(file);
+      before.assign(bytes.data.get(), bytes.size);
+    }
+    out << gif(before, render(picture, w, h), w, h);
+  } else {
+    out << png(render(picture, w, h), w, h);
+  }
+  for (std::size_t i = 0; i < std::min(picture.legend.size(), max_legend_rows) && picture.metric.empty(); ++i)
+    run.say("  " + picture.legend[i].text + ": " + row_colour_name(i));
+  run.say(command.find("file")->text + ": " +
+          counted(static_cast<std::int64_t>(picture.facets.size()), EntityKind::face) + " drawn");
+}
+
+/// The page always has the whole mesh; what the command is about is picked there, and hexes are shown alone.
+void draw_page(Execution& run, io::Output& out) {
+  const Command& command = run.command;
+  const std::string& file = command.find("file")->text;
+  SceneStart start{.view = view_of(command)};
+  if (const Item* range = command.find("range")) {
+    start.has_range = true;
+    start.kind = range->kind;
+    start.positions = run.chosen(*range);
+  }
+  if (command.has("quality")) start.colour = name(metrics_said(command, "quality").front());
+  const Page made = page({run.core.selector(), run.state, std::filesystem::path(file).stem().string()}, start, nullptr);
+  out << made.text;
+  for (const std::string& name : made.left_out)
+    run.note(name + " is left out of " + file + ", which would be too large");
+  run.say(file + ": " + counted(run.meshed->mesh.n_hexes(), EntityKind::hex));
+}
 
 }  // namespace
 
@@ -196,23 +244,22 @@ void do_draw(Execution& run) {
   const Command& command = run.command;
   need_mesh(run, "to draw");
   const Item& file = *command.find("file");
-  std::string extension = std::filesystem::path(file.text).extension().string();
-  const bool is_png = same_word(extension, ".png");
-  if (!is_png && !same_word(extension, ".html") && !same_word(extension, ".htm"))
+  const std::string extension = lower_extension(file.text);
+  const bool is_page = extension == ".html" || extension == ".htm";
+  if (!is_page && extension != ".png" && extension != ".svg" && extension != ".gif")
     throw error_at(command.statement, file.token,
-                   "pictures end in .png or .html, not in '" + printable(extension) + "'");
-  check_file(run, file, ".png .html .htm");
+                   "pictures end in .png, .svg, .gif or .html, not in '" + printable(extension) + "'");
+  check_file(run, file, ".png .svg .gif .html .htm");
+  if (command.has("append") && extension != ".gif")
+    throw error_at(command.statement, file.token, "only a .gif takes further pictures");
+  if (is_page) page_text();  // better said before the work
   run.stage("draw");
-  const Picture picture = Painter(run).paint();
-  const Item* width = command.find("width");
-  const int w = width ? static_cast<int>(width->number) : 1200;
-  const int h = width ? static_cast<int>(command.find("height")->number) : 900;
-  io::Output out(file.text, command.has("overwrite"));
-  out << (is_png ? png(render(picture, w, h), w, h) : html(picture));
+  io::Output out(file.text, command.has("overwrite") || command.has("append"));
+  if (is_page)
+    draw_page(run, out);
+  else
+    draw_picture(run, out);
   out.commit();
-  for (std::size_t i = 0; i < std::min(picture.legend.size(), max_legend_rows) && picture.metric.empty(); ++i)
-    run.say("  " + picture.legend[i].text + ": " + row_colour_name(i));
-  run.say(file.text + ": " + counted(static_cast<std::int64_t>(picture.facets.size()), EntityKind::face) + " drawn");
 }
 
 }  // namespace hextwist

@@ -1,9 +1,10 @@
-// Pictures of a mesh: what is seen of it, and the two files that show that.
+// Pictures of a mesh: what is seen of it, and the file that shows that.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hextwist/mesh/mesh.h"
@@ -47,11 +48,24 @@ Colour scale_colour(double goodness);
 Colour row_colour(std::size_t i);
 const char* row_colour_name(std::size_t i);
 
+/// Where a picture of width x height shows what: axes of the screen (right, up, towards the eye), what is in its
+/// middle, and pixels per unit. The line and the fill of a facet get darker the more it is turned away from the light.
+struct PictureFrame {
+  std::array<Vec3, 3> axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  Vec3 middle = Vec3::Zero();
+  double scale = 1;
+};
+PictureFrame frame_of(const Picture& picture, int width, int height);
+double shade_of(const Picture& picture, const Picture::Facet& facet, const PictureFrame& frame);
+
 /// width * height pixels, row by row from the top; parallel projection, the same for any number of threads.
 std::vector<Colour> render(const Picture& picture, int width, int height);
 /// A PNG file of such pixels.
 std::string png(const std::vector<Colour>& pixels, int width, int height);
-/// A page that draws the picture by itself, to be turned with the mouse; nothing is loaded from elsewhere.
-std::string html(const Picture& picture);
+/// The pictures of a GIF file (empty: none yet), and these pixels behind them; it starts again when it has ended.
+/// Throws Error where `file` is not a GIF of that size, or the program was built without giflib.
+std::string gif(std::string_view file, const std::vector<Colour>& pixels, int width, int height);
+/// The picture as lines and areas, with its title and legend: for drawings of a few thousand faces.
+std::string svg(const Picture& picture, int width, int height);
 
 }  // namespace hextwist

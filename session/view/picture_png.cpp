@@ -33,20 +33,11 @@ class Canvas {
         height_(height),
         pixels_(static_cast<std::size_t>(width) * height, background),
         depth_(pixels_.size(), -std::numeric_limits<float>::infinity()) {
-    // Axes of the screen: right, up, towards the eye.
-    const Vec3 eye = picture.view.normalized();
-    Vec3 right = picture.up.cross(eye);
-    if (right.norm() < 1e-6) right = (std::abs(eye.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY()).cross(eye);
-    axes_ = {right.normalized(), eye.cross(right.normalized()), eye};
-    Box seen;
-    const auto add = [&](const Vec3& p) { seen.add(Vec3(axes_[0].dot(p), axes_[1].dot(p), axes_[2].dot(p))); };
-    for (const Vec3& p : picture.points) add(p);
-    for (const Picture::Line& line : picture.lines) add(line.from), add(line.to);
-    if (seen.empty()) return;
-    const Vec3 size = (seen.max - seen.min).cwiseMax(1e-12 * seen.diagonal());
-    scale_ = 0.92 * std::min(width / std::max(size.x(), 1e-300), height / std::max(size.y(), 1e-300));
-    if (!std::isfinite(scale_)) scale_ = 1;
-    middle_ = (seen.min + seen.max) / 2;
+    const PictureFrame frame = frame_of(picture, width, height);
+    axes_ = frame.axes;
+    middle_ = frame.middle;
+    scale_ = frame.scale;
+    frame_ = frame;
   }
 
   void draw() {
@@ -72,6 +63,7 @@ class Canvas {
   std::array<Vec3, 3> axes_ = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   Vec3 middle_ = Vec3::Zero();
   double scale_ = 1;
+  PictureFrame frame_;
 
   Point2 project(const Vec3& p) const {
     return {width_ / 2.0 + scale_ * (axes_[0].dot(p) - middle_.x()),
@@ -92,14 +84,7 @@ class Canvas {
     for (int i = 0; i < 4; ++i) p[i] = screen[facet.corners[i]];
     const auto [lowest, highest] = std::ranges::minmax({p[0].y, p[1].y, p[2].y, p[3].y});
     if (highest < top || lowest > bottom) return;
-    // Light comes from the left above the eye.
-    const Vec3 a = picture_.points[facet.corners[2]] - picture_.points[facet.corners[0]];
-    const Vec3 b = picture_.points[facet.corners[3]] - picture_.points[facet.corners[1]];
-    Vec3 normal = a.cross(b);
-    if (normal.norm() > 0) normal.normalize();
-    if (normal.dot(axes_[2]) < 0) normal = -normal;
-    const Vec3 light = (-0.35 * axes_[0] + 0.5 * axes_[1] + 0.8 * axes_[2]).normalized();
-    const double shade = 0.68 + 0.32 * std::max(0.0, normal.dot(light));
+    const double shade = shade_of(picture_, facet, frame_);
     // Edges of small quads fade out: they would cover everything.
     const double area = (std::abs(cross(p[0], p[1], p[2])) + std::abs(cross(p[0], p[2], p[3]))) / 2;
     const double strength = std::clamp((std::sqrt(area) / samples - 2) / 6, 0.0, 1.0);
@@ -246,6 +231,37 @@ const char* row_colour_name(std::size_t i) {
   constexpr const char* names[] = {"blue",   "orange", "green", "red",   "violet",
                                    "yellow", "teal",   "pink",  "brown", "grey"};
   return names[i % std::size(names)];
+}
+
+PictureFrame frame_of(const Picture& picture, int width, int height) {
+  PictureFrame frame;
+  const Vec3 eye = picture.view.normalized();
+  Vec3 right = picture.up.cross(eye);
+  if (right.norm() < 1e-6) right = (std::abs(eye.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY()).cross(eye);
+  frame.axes = {right.normalized(), eye.cross(right.normalized()), eye};
+  Box seen;
+  const auto add = [&](const Vec3& p) {
+    seen.add(Vec3(frame.axes[0].dot(p), frame.axes[1].dot(p), frame.axes[2].dot(p)));
+  };
+  for (const Vec3& p : picture.points) add(p);
+  for (const Picture::Line& line : picture.lines) add(line.from), add(line.to);
+  if (seen.empty()) return frame;
+  const Vec3 size = (seen.max - seen.min).cwiseMax(1e-12 * seen.diagonal());
+  frame.scale = 0.92 * std::min(width / std::max(size.x(), 1e-300), height / std::max(size.y(), 1e-300));
+  if (!std::isfinite(frame.scale)) frame.scale = 1;
+  frame.middle = (seen.min + seen.max) / 2;
+  return frame;
+}
+
+double shade_of(const Picture& picture, const Picture::Facet& facet, const PictureFrame& frame) {
+  // Light comes from the left above the eye.
+  const Vec3 a = picture.points[facet.corners[2]] - picture.points[facet.corners[0]];
+  const Vec3 b = picture.points[facet.corners[3]] - picture.points[facet.corners[1]];
+  Vec3 normal = a.cross(b);
+  if (normal.norm() > 0) normal.normalize();
+  if (normal.dot(frame.axes[2]) < 0) normal = -normal;
+  const Vec3 light = (-0.35 * frame.axes[0] + 0.5 * frame.axes[1] + 0.8 * frame.axes[2]).normalized();
+  return 0.68 + 0.32 * std::max(0.0, normal.dot(light));
 }
 
 std::vector<Colour> render(const Picture& picture, int width, int height) {

@@ -24,8 +24,10 @@ class SizeField {
   virtual double least_at(const Vec3& /*point*/) const { return least(); }
   /// Changes abruptly, from hex to hex: what it says at a node means nothing.
   virtual bool jumps() const { return false; }
+  /// The size at one point: evaluate() for that alone.
   double at(const Vec3& p) const;
 };
+/// Fields are shared by whoever asks them; none is a null pointer.
 using SizeFieldPtr = std::shared_ptr<const SizeField>;
 
 /// The same everywhere. Throws Error unless it is positive and finite.
@@ -33,6 +35,7 @@ SizeFieldPtr constant_size(double size);
 
 /// What is wrong with the text of an expression, and where.
 struct SizeExpressionError : Error {
+  /// what: one line; at: the position.
   SizeExpressionError(const std::string& what, std::size_t at) : Error(what), position(at) {}
   std::size_t position;  ///< of the character in the expression, 0-based; its length: the end
 };

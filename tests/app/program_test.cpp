@@ -70,6 +70,36 @@ TEST(Program, done_is_zero) {
   EXPECT_TRUE(report("a.json")["ok"]);
 }
 
+TEST(Program, view_makes_a_page_or_says_what_is_missing) {
+  run("-c 'create brick x 1 interval 2' -o " + path("a.msh"));
+  EXPECT_EQ(run("view " + path("a.msh") + " -o " + path("a.png")).status, 2);
+  EXPECT_EQ(run("view").status, 2);
+  EXPECT_EQ(run("view " + path("none.msh") + " -o " + path("none.html")).status, 1);
+  const Outcome outcome = run("view " + path("a.msh") + " --before " + path("a.msh") + " -o " + path("a.html"));
+  if (outcome.status != 0) {
+    EXPECT_NE(outcome.err.find("error: this program was built without its page, which needs Node.js and npm"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path("a.html")));
+    return;
+  }
+  EXPECT_NE(outcome.out.find("a.html: open it in a browser"), std::string::npos) << outcome.out;
+  const std::string page = content(path("a.html"));
+  for (const char* block : {"id=\"skin\"", "id=\"inside\"", "id=\"before-skin\"", "<title>a</title>"})
+    EXPECT_NE(page.find(block), std::string::npos) << block;
+}
+
+TEST(Program, serve_refuses_what_it_cannot_do) {
+  EXPECT_EQ(run("serve a.msh b.msh").status, 2);
+  EXPECT_EQ(run("serve --port 99999").status, 2);
+  const Outcome outcome = run("serve --address 203.0.113.7");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(
+      outcome.err.find("203.0.113.7 cannot be listened on: it is taken, or is not an address of this machine") !=
+          std::string::npos ||
+      outcome.err.find("this program was built without") != std::string::npos)
+      << outcome.err;
+}
+
 TEST(Program, a_failed_command_is_one_and_leaves_the_old_output) {
   std::ofstream(path("a.msh")) << "old";
   const Outcome outcome = run("-c 'create brick x 1 interval 4; refine hex 65; refine hex 1' -o " + path("a.msh") +

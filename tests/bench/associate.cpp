@@ -19,7 +19,7 @@ const MeshedModel& bricks() {
 
 template <const MeshedModel& input()>
 AssociateResult from_geometry() {
-  return associate(input().mesh, *input().model, nullptr);
+  return associate(input().mesh, *input().model);
 }
 template <const MeshedModel& input()>
 AssociateResult from_tags() {

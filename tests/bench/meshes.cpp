@@ -21,7 +21,7 @@ Mesh cube(int n) {
 MeshedModel cube_on_brick(int n) {
   const double side = n;
   MeshedModel result{cube(n), cad_brick({side, side, side}).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 
@@ -73,7 +73,7 @@ MeshedModel glued_bricks(int n) {
   CadOptions options;
   options.glue = true;
   MeshedModel result{cube(n), cad_from_shape(bricks, options).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 
@@ -88,7 +88,7 @@ MeshedModel layered_bricks(int n) {
   CadOptions options;
   options.glue = true;
   MeshedModel result{cube(n), cad_from_shape(bricks, options).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 

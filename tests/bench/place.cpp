@@ -81,7 +81,7 @@ const Ball& ball() {
     Ball b;
     b.coarse.mesh = mesh_sphere({10}, {8, 12});
     b.coarse.model = cad_sphere({10}).model;
-    b.coarse.association = associate(b.coarse.mesh, *b.coarse.model, nullptr).association;
+    b.coarse.association = associate(b.coarse.mesh, *b.coarse.model).association;
     const Mesh& mesh = b.coarse.mesh;
     b.parts = split(mesh.hexes, mesh.n_nodes(), uniform_table(3), std::vector<std::uint16_t>(mesh.hexes.size(), 1));
     b.carried = carry(mesh, b.coarse.association, b.parts);

@@ -1,8 +1,16 @@
-"""The Python package: arrays, lifetimes, errors, callbacks, Ctrl-C."""
+"""The Python package: arrays, lifetimes, errors, callbacks, Ctrl-C, docstrings."""
 
 import _thread
+import ast
 import gc
+import html
+import importlib
+import inspect
+import os
 import pathlib
+import re
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -33,6 +41,23 @@ def volumes(mesh):
         for x, y, z in ((a, b, c), (a, c, d), (a, b, d), (b, c, d)):  # both ways to cut the quad
             total += np.einsum("ij,ij->i", x, np.cross(y, z)) / 12
     return total
+
+
+class Interpreters(unittest.TestCase):
+    def run_python(self, code):
+        # Without the packages of the interpreter.
+        return subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=False)
+
+    def test_one_without_numpy_is_told_which_has_it_and_runs_commands(self):
+        ran = self.run_python("import hextwist; hextwist.Session().cmd('create brick x 1 interval 2'); print('fine')")
+        self.assertEqual(ran.stdout, "fine\n", ran.stderr)
+        self.assertIn("has no numpy", ran.stderr)
+        self.assertIn(hextwist._built_for.python, ran.stderr)
+
+    def test_one_of_another_version_is_told_which_it_was_built_for(self):
+        ran = self.run_python("import sys; sys.modules['hextwist._core'] = None; import hextwist")
+        self.assertNotEqual(ran.returncode, 0)
+        self.assertIn(f"hextwist was built for {hextwist._built_for.python} (Python 3.", ran.stderr)
 
 
 class Arrays(unittest.TestCase):
@@ -409,3 +434,124 @@ class Callbacks(unittest.TestCase):
         thread.join()
         self.assertGreater(during, 20)
 
+
+def public_names(thing):
+    """(name, object) of what a module or class shows: of a class its own, of a module what `import *` brings."""
+    names = getattr(thing, "__all__", vars(thing))
+    return [(name, inspect.getattr_static(thing, name)) for name in names if not name.startswith("_")]
+
+
+def said(thing):
+    """A docstring, without the signature that pybind11 puts before it."""
+    return re.sub(r"^\w+\(.*\) -> .*\n*", "", inspect.getdoc(thing) or "").strip()
+
+
+def undocumented(thing, path):
+    """Paths of all below a module or class that say nothing about themselves."""
+    found = []
+    for name, member in public_names(thing):
+        if len(said(member)) < 10:
+            found.append(f"{path}.{name}")
+        if inspect.isclass(member):
+            found += undocumented(member, f"{path}.{name}")
+    return found
+
+
+class Docstrings(unittest.TestCase):
+    def modules(self):
+        yield hextwist
+        yield importlib.import_module("hextwist._core")
+        try:
+            yield importlib.import_module("hextwist.gmsh")
+        except ImportError as error:
+            print(f"without hextwist.gmsh: {error}")
+
+    def test_are_there_for_everything_public(self):
+        for module in self.modules():
+            self.assertGreater(len(module.__doc__), 20, module)
+            self.assertEqual(undocumented(module, module.__name__), [])
+
+    def test_are_missed_where_there_are_none(self):
+        class Half:
+            """Only half of this says something."""
+
+            def silent(self):
+                pass
+
+            @property
+            def short(self):
+                """Short."""
+
+        whole = type(hextwist)("whole")
+        whole.__all__, whole.Half = ["Half"], Half
+        self.assertEqual(undocumented(whole, "whole"), ["whole.Half.silent", "whole.Half.short"])
+
+    def test_say_the_shapes_and_types_that_arrays_have(self):
+        session = session_on("bracket")
+        mesh, n_checked = session.mesh, 0
+        arrays = {name: getattr(mesh, name) for name, _ in public_names(hextwist.Mesh)}
+        arrays["quality"] = mesh.quality()
+        flags = np.zeros(mesh.n_hexes, dtype=bool)
+        for name, array in arrays.items():
+            if not isinstance(array, np.ndarray):
+                continue
+            columns, dtype = re.match(r"\(\w+,([^)]*)\) (\w+)\b", said(getattr(hextwist.Mesh, name))).groups()
+            self.assertEqual(dtype, array.dtype.name, name)
+            self.assertEqual([int(columns)] if columns else [], list(array.shape[1:]), name)
+            n_checked += 1
+        self.assertGreaterEqual(n_checked, 14)
+        for name, array in (
+            ("ids", session.ids("hex")),
+            ("nodes_of", session.nodes_of("curve", 1)),
+            ("adapt", session.adapt(flags)),
+        ):
+            self.assertEqual(array.ndim, 1)
+            self.assertIn(array.dtype.name, said(getattr(hextwist.Session, name)), name)
+
+    def test_make_a_page_on_which_everything_public_is(self):
+        script = pathlib.Path(__file__).resolve().parents[2] / "docs/python_reference.py"
+        with tempfile.TemporaryDirectory() as folder:
+            environment = dict(os.environ, PYTHONPATH=str(pathlib.Path(hextwist.__file__).parents[1]))
+            subprocess.run([sys.executable, script, folder], check=True, env=environment)
+            page = (pathlib.Path(folder) / "hextwist.html").read_text(encoding="utf-8")
+        shown = html.unescape(re.sub(r"<[^>]+>", "", page))
+        for module in (hextwist, importlib.import_module("hextwist._core")):
+            for name, member in public_names(module):
+                if not inspect.isclass(member) or name == "GmshLink":
+                    continue
+                self.assertIn(f'id="hextwist.{name}"', page)
+                for each, thing in public_names(member):
+                    self.assertIn(f'id="hextwist.{name}.{each}"', page)
+                    self.assertIn(said(thing), shown)
+        for name in ("refine", "take", "put", "Link.tags"):
+            self.assertIn(f'id="hextwist.gmsh.{name}"', page)
+        self.assertIn("(commands: str) -> bool", shown)
+        for nothing in ("_core", str(pathlib.Path.home()) + "/", "built-in function", "object at 0x"):
+            self.assertFalse(nothing in shown, nothing)
+
+    def test_of_what_can_fail_say_what_is_raised(self):
+        for of in (hextwist.Mesh, hextwist.Session):
+            for name, member in public_names(of):
+                if not isinstance(member, property):
+                    self.assertRegex(said(member), r"[Rr]aises", name)
+
+    def test_and_types_for_editors_name_the_same_things(self):
+        stub = ast.parse((pathlib.Path(hextwist.__file__).parent / "_core.pyi").read_text())
+        core = importlib.import_module("hextwist._core")
+        for node in stub.body:
+            if not isinstance(node, ast.ClassDef):
+                continue
+            of = getattr(core, node.name)
+            stated = {each.name: each for each in node.body if isinstance(each, ast.FunctionDef)}
+            there = dict(public_names(of))
+            self.assertEqual({name for name in stated if name != "__init__"}, set(there), node.name)
+            for name, member in there.items():
+                is_property = any(isinstance(d, ast.Name) and d.id == "property" for d in stated[name].decorator_list)
+                self.assertEqual(isinstance(member, property), is_property, f"{node.name}.{name}")
+                if is_property:
+                    continue
+                signature = stated[name].args
+                words = [each.arg for each in signature.args + signature.kwonlyargs]
+                self.assertEqual(re.findall(r"(\w+): ", inspect.getdoc(member).splitlines()[0]), words, name)
+        named = {node.name for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        self.assertEqual(named, {name for name in vars(core) if not name.startswith("_")})

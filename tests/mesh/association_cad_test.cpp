@@ -52,7 +52,7 @@ TEST_P(association_on_cad, tags_and_geometry_agree_on_the_brep) {
   const auto by_tags = associate(file_.mesh, *model, &file_.tags);
   EXPECT_EQ(by_tags.notices, std::vector<std::string>{});
   expect_good(file_.mesh, by_tags, *model);
-  const auto by_geometry = associate(file_.mesh, *model, nullptr);
+  const auto by_geometry = associate(file_.mesh, *model);
   EXPECT_EQ(by_geometry.notices, std::vector<std::string>{});
   EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
   // The tags of the file are the truth: it was meshed on this CAD.
@@ -69,7 +69,7 @@ TEST_P(association_on_cad, tags_and_geometry_agree_on_the_step) {
   EXPECT_EQ(model->count(3), GetParam().n_volumes);
   const auto by_tags = associate(file_.mesh, *model, &file_.tags);
   expect_good(file_.mesh, by_tags, *model);
-  const auto by_geometry = associate(file_.mesh, *model, nullptr);
+  const auto by_geometry = associate(file_.mesh, *model);
   EXPECT_EQ(by_geometry.notices, std::vector<std::string>{});
   EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
   for (const std::string& notice : by_tags.notices) RecordProperty("notice", notice);
@@ -77,7 +77,7 @@ TEST_P(association_on_cad, tags_and_geometry_agree_on_the_step) {
 
 TEST_P(association_on_cad, scrambled_tags_are_found_out) {
   const auto model = cad(".brep").model;
-  const auto truth = associate(file_.mesh, *model, nullptr).association;
+  const auto truth = associate(file_.mesh, *model).association;
   std::mt19937 random(3);
   for (int round = 0; round < 3; ++round) {
     Association wrong = file_.tags;
@@ -138,7 +138,7 @@ TEST(association_on_other_cad, dangling_tags_are_named_and_change_nothing) {
   const MeshFile file = read_mesh(folder / "mesh" / "cad_component_hex.msh");
   const auto model = read_cad(folder / "mesh" / "cad_component_hex.brep").model;
   const auto by_tags = associate(file.mesh, *model, &file.tags);
-  const auto by_geometry = associate(file.mesh, *model, nullptr);
+  const auto by_geometry = associate(file.mesh, *model);
   EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
   EXPECT_EQ(check_association(file.mesh, by_tags.association, *model), std::vector<std::string>{});
   EXPECT_TRUE(test::complete(file.mesh, by_tags.association, *model));
@@ -158,7 +158,7 @@ TEST_P(association_on_models, tags_and_geometry_agree) {
   for (const char* extension : {".brep", ".step"}) {
     const auto model = read_cad(stem.string() + extension, {.glue = true}).model;
     const auto by_tags = associate(file.mesh, *model, &file.tags);
-    const auto by_geometry = associate(file.mesh, *model, nullptr);
+    const auto by_geometry = associate(file.mesh, *model);
     EXPECT_EQ(by_geometry.notices, std::vector<std::string>{});
     EXPECT_TRUE(test::same_owners(by_tags.association, by_geometry.association));
     EXPECT_TRUE(test::complete(file.mesh, by_tags.association, *model));
@@ -180,7 +180,7 @@ TEST(association_threads, their_number_changes_nothing) {
   std::vector<AssociateResult> results;
   for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(associate(mesh, *model, nullptr));
+    results.push_back(associate(mesh, *model));
   }
   for (const auto& result : results) {
     EXPECT_TRUE(test::same_owners(result.association, results[0].association));

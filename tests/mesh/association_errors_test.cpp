@@ -12,7 +12,7 @@ namespace {
 
 std::string error_of(const Mesh& mesh, const Model& model, const AssociateOptions& options = {}) {
   try {
-    associate(mesh, model, nullptr, options);
+    associate(mesh, model, options);
   } catch (const Error& error) {
     return error.what();
   }
@@ -144,7 +144,7 @@ TEST(association_notices, what_the_mesh_misses_is_said) {
     if (h != 13) mesh.blocks[0].hexes.push_back(h);
   const auto own = associate_with_own_skin(mesh);
   ASSERT_EQ(own.model->count(2), 12);
-  const auto result = associate(test::grid(1, 1, 1, Vec3::Constant(3)), *own.model, nullptr);
+  const auto result = associate(test::grid(1, 1, 1, Vec3::Constant(3)), *own.model);
   ASSERT_EQ(result.notices.size(), 4);
   EXPECT_EQ(result.notices[0], "1 volume has no hex: 2");
   EXPECT_NE(result.notices[1].find("6 surfaces have no face of the mesh: "), std::string::npos);
@@ -157,7 +157,7 @@ TEST(association_notices, a_volume_much_larger_than_its_hexes_is_said) {
   // A square in a circle.
   Mesh mesh = test::grid(1, 1, 1);
   for (Vec3& p : mesh.points) p.head(2) = Eigen::Vector2d(p.x() + p.y() - 1, p.y() - p.x());
-  const auto result = associate(mesh, *analytic_cylinder(1, 1), nullptr);
+  const auto result = associate(mesh, *analytic_cylinder(1, 1));
   EXPECT_EQ(result.notices, std::vector<std::string>{"volume 1 of the model is 3.14159, its hexes are 2"});
 }
 

@@ -15,7 +15,7 @@ namespace {
 struct Case {
   Mesh mesh = test::grid(3, 3, 3);
   std::shared_ptr<const Model> model = analytic_brick(3, 3, 3);
-  Association association = associate(mesh, *model, nullptr).association;
+  Association association = associate(mesh, *model).association;
   Edges mesh_edges = edges(mesh);
   Faces mesh_faces = faces(mesh);
 
@@ -47,7 +47,7 @@ TEST(owner_queries, nodes_edges_and_faces_know_their_owners) {
 TEST(owner_queries, an_edge_through_the_inside_between_boundary_nodes_is_the_volumes) {
   const Mesh mesh = test::grid(2, 1, 2);
   const auto model = analytic_brick(2, 1, 2);
-  const Association association = associate(mesh, *model, nullptr).association;
+  const Association association = associate(mesh, *model).association;
   const Edges all = edges(mesh);
   // The middle line from the middle of one side to that of the other: both ends are on surfaces.
   const Index edge = find_edge(all, 1 + 3 * (0 + 2 * 1), 1 + 3 * (1 + 2 * 1));

@@ -64,7 +64,7 @@ TEST(association, a_brick_gets_the_owners_that_its_grid_says) {
   const Vec3 size(0.5, 1, 2);
   const Mesh mesh = test::grid(n[0], n[1], n[2], size);
   const auto model = analytic_brick(n[0] * size.x(), n[1] * size.y(), n[2] * size.z());
-  const auto result = associate(mesh, *model, nullptr);
+  const auto result = associate(mesh, *model);
   EXPECT_EQ(result.notices, std::vector<std::string>{});
   EXPECT_LT(result.max_distance, 1e-12);
   for (int k = 0, node = 0; k <= n[2]; ++k)
@@ -79,7 +79,7 @@ TEST(association, a_brick_gets_the_owners_that_its_grid_says) {
 TEST(association, one_hex_is_enough) {
   const Mesh mesh = test::grid(1, 1, 1);
   const auto model = analytic_brick(1, 1, 1);
-  const auto result = associate(mesh, *model, nullptr);
+  const auto result = associate(mesh, *model);
   EXPECT_TRUE(complete(mesh, result.association, *model));
   EXPECT_EQ(result.association.curve_edges.size(), 12);
   for (int c = 0; c < 8; ++c) EXPECT_EQ(result.association.node_owner[c], (Owner{0, 1 + c}));
@@ -89,10 +89,10 @@ TEST(association, numbering_and_turning_change_nothing) {
   std::mt19937 random(11);
   const Mesh plain = test::grid(3, 3, 2);
   const auto model = analytic_brick(3, 3, 2);
-  const auto before = associate(plain, *model, nullptr).association;
+  const auto before = associate(plain, *model).association;
   for (int round = 0; round < 5; ++round) {
     const Mesh mesh = test::shuffled(plain, random);
-    const auto after = associate(mesh, *model, nullptr).association;
+    const auto after = associate(mesh, *model).association;
     EXPECT_TRUE(complete(mesh, after, *model));
     for (Index n = 0; n < mesh.n_nodes(); ++n)
       for (Index m = 0; m < plain.n_nodes(); ++m)
@@ -108,7 +108,7 @@ TEST(association, elements_smaller_than_the_tolerance_keep_their_owners) {
   const auto model = analytic_brick(1, 1, 1);
   for (Vec3& p : mesh.points)
     for (double& x : p.reshaped()) x = x == 0 ? 0 : std::pow(10, (x - 12) * 0.75);
-  const auto association = associate(mesh, *model, nullptr).association;
+  const auto association = associate(mesh, *model).association;
   EXPECT_TRUE(complete(mesh, association, *model));
   for (int k = 0, node = 0; k <= 12; ++k)
     for (int j = 0; j <= 12; ++j)
@@ -120,7 +120,7 @@ TEST(association, sheets_nearer_than_the_tolerance_are_told_apart_by_their_norma
   const double thin = 1e-6;
   const Mesh mesh = test::grid(3, 3, 1, Vec3(1, 1, thin));
   const auto model = analytic_brick(3, 3, thin);
-  const auto association = associate(mesh, *model, nullptr).association;
+  const auto association = associate(mesh, *model).association;
   for (std::size_t i = 0; i < association.surface_faces.size(); ++i)
     EXPECT_EQ(association.face_surface[i], 1 + association.surface_faces[i].face);
 }
@@ -129,7 +129,7 @@ TEST(association, a_cylinder_has_rims_and_a_ball_has_none) {
   for (const int n : {2, 4, 8}) {
     const Mesh mesh = cylinder_mesh(n, 3, 1.5, 4);
     const auto model = analytic_cylinder(1.5, 4);
-    const auto result = associate(mesh, *model, nullptr);
+    const auto result = associate(mesh, *model);
     EXPECT_TRUE(complete(mesh, result.association, *model));
     EXPECT_TRUE(on_model(mesh, result.association, *model, 1e-12));
     EXPECT_EQ(check_association(mesh, result.association, *model), std::vector<std::string>{});
@@ -138,7 +138,7 @@ TEST(association, a_cylinder_has_rims_and_a_ball_has_none) {
     EXPECT_EQ(nodes_owned_by(result.association, {1, 1}).size(), 4 * n - 1);
     const Mesh ball = ball_mesh(n, 2);
     const auto sphere = analytic_sphere(2);
-    const auto on_sphere = associate(ball, *sphere, nullptr);
+    const auto on_sphere = associate(ball, *sphere);
     EXPECT_TRUE(complete(ball, on_sphere.association, *sphere));
     EXPECT_TRUE(on_model(ball, on_sphere.association, *sphere, 1e-12));
     EXPECT_TRUE(on_sphere.association.curve_edges.empty());
@@ -150,7 +150,7 @@ TEST(association, rims_without_a_node_at_their_vertex_stay_closed) {
   const Eigen::AngleAxisd turn(0.1, Vec3::UnitZ());
   for (Vec3& p : mesh.points) p = turn * p;
   const auto model = analytic_cylinder(1, 1);
-  const auto result = associate(mesh, *model, nullptr);
+  const auto result = associate(mesh, *model);
   EXPECT_TRUE(complete(mesh, result.association, *model));
   EXPECT_EQ(nodes_owned_by(result.association, {1, 1}).size(), 16);
   ASSERT_EQ(result.notices.size(), 1);
@@ -160,7 +160,7 @@ TEST(association, rims_without_a_node_at_their_vertex_stay_closed) {
 TEST(association, right_tags_change_nothing_and_wrong_ones_are_replaced_with_a_notice) {
   const Mesh mesh = test::grid(3, 3, 3);
   const auto model = analytic_brick(3, 3, 3);
-  const auto truth = associate(mesh, *model, nullptr).association;
+  const auto truth = associate(mesh, *model).association;
   const auto same = associate(mesh, *model, &truth);
   EXPECT_TRUE(same_owners(same.association, truth));
   EXPECT_EQ(same.notices, std::vector<std::string>{});
@@ -188,7 +188,7 @@ TEST(association, right_tags_change_nothing_and_wrong_ones_are_replaced_with_a_n
 TEST(association, tags_of_entities_that_are_not_are_ignored_with_a_notice) {
   const Mesh mesh = test::grid(2, 2, 2);
   const auto model = analytic_brick(2, 2, 2);
-  const auto truth = associate(mesh, *model, nullptr).association;
+  const auto truth = associate(mesh, *model).association;
   Association wrong = truth;
   wrong.face_surface[0] = 23;
   wrong.node_owner[0] = {0, 17};

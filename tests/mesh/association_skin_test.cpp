@@ -48,7 +48,7 @@ TEST(own_skin, the_mesh_lies_on_it_by_geometry_alone) {
     const Mesh mesh = test::shuffled(plain, random);
     const auto own = associate_with_own_skin(mesh);
     expect_good(mesh, own);
-    const auto again = associate(mesh, *own.model, nullptr);
+    const auto again = associate(mesh, *own.model);
     EXPECT_TRUE(test::same_owners(again.association, own.association));
     EXPECT_EQ(again.notices, std::vector<std::string>{});
   }

@@ -44,6 +44,8 @@ TEST(histogram, of_nothing_is_nothing_and_of_equal_values_one_line) {
   EXPECT_EQ(histogram({}, 5), "");
   EXPECT_EQ(histogram(std::vector<double>(3, 0.5), 5),
             "0.5 .. 0.5        3  ##################################################\n");
+  EXPECT_EQ(histogram(std::vector<double>{0.5, 0.5 + 1e-12, 0.5 - 1e-12}, 5),
+            histogram(std::vector<double>(3, 0.5), 5));
 }
 
 TEST(histogram, counts_every_value_once_where_it_belongs) {

@@ -130,7 +130,7 @@ TEST(primitives, the_mesh_is_associated_with_the_solid_from_geometry_alone) {
     SCOPED_TRACE(mesh.blocks[0].name);
     const Model& model = *cad.model;
     for (int dim = 0; dim < 4; ++dim) EXPECT_EQ(model.count(dim), counts[dim]);
-    const AssociateResult result = associate(mesh, model, nullptr);
+    const AssociateResult result = associate(mesh, model);
     EXPECT_TRUE(check_association(mesh, result.association, model).empty());
     EXPECT_LT(result.max_distance, 1e-12 * model.box().diagonal());
     EXPECT_LT((model.box().min - box(mesh).min).norm(), 1e-6 * model.box().diagonal());

@@ -40,7 +40,7 @@ TEST(SmoothOnModel, brings_a_shaken_brick_back_to_cubes) {
   std::mt19937 random(4);
   Mesh mesh = grid(5, 4, 3);
   const auto model = analytic_brick(5, 4, 3);
-  Association association = associate(mesh, *model, nullptr).association;
+  Association association = associate(mesh, *model).association;
   const auto vertices = nodes_owned_by(association, {0, 1});
   shake_on(mesh, association, *model, 0.2, random);
   const Vec3 corner = mesh.points[vertices[0]];
@@ -62,7 +62,7 @@ TEST(SmoothOnModel, keeps_nodes_on_a_cylinder_and_lifts_the_worst) {
     std::mt19937 random(6);
     Mesh mesh = round_grid(4, 5, 2);
     const auto model = analytic_cylinder(1, 2);
-    Association association = associate(mesh, *model, nullptr).association;
+    Association association = associate(mesh, *model).association;
     shake_on(mesh, association, *model, 0.04, random);
     const Association before = association;
     SmoothOptions options;
@@ -81,7 +81,7 @@ TEST(SmoothOnModel, leaves_the_skin_when_told) {
   std::mt19937 random(4);
   Mesh mesh = grid(4, 4, 4);
   const auto model = analytic_brick(4, 4, 4);
-  Association association = associate(mesh, *model, nullptr).association;
+  Association association = associate(mesh, *model).association;
   shake_on(mesh, association, *model, 0.15, random);
   const Mesh before = mesh;
   SmoothOptions options;
@@ -98,7 +98,7 @@ TEST(SmoothOnModel, untangles_on_a_cylinder) {
   std::mt19937 random(8);
   Mesh mesh = round_grid(4, 5, 2);
   const auto model = analytic_cylinder(1, 2);
-  Association association = associate(mesh, *model, nullptr).association;
+  Association association = associate(mesh, *model).association;
   shake_on(mesh, association, *model, 0.2, random);
   const SmoothReport report = smooth(mesh, association, model.get());
   EXPECT_GT(report.inverted_before, 20);

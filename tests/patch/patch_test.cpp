@@ -184,7 +184,7 @@ TEST(patch, requests_by_chance_on_grids_give_what_they_give_over_the_whole_mesh)
   expect_same_for(brick(11, 10, 12), 12, random);
   MeshedModel mixed = brick(30, 8, 3);
   mixed.mesh = shuffled(mixed.mesh, random);
-  mixed.association = associate(mixed.mesh, *mixed.model, nullptr).association;
+  mixed.association = associate(mixed.mesh, *mixed.model).association;
   expect_same_for(mixed, 12, random);
 }
 
@@ -209,7 +209,7 @@ TEST(patch, requests_by_chance_on_real_cad_and_foreign_meshes_give_what_they_giv
     SCOPED_TRACE(name);
     MeshedModel meshed{
         read_mesh(folder / "cad" / (name + "_1k.msh")).mesh, read_cad(folder / "cad" / (name + ".brep")).model, {}};
-    meshed.association = associate(meshed.mesh, *meshed.model, nullptr).association;
+    meshed.association = associate(meshed.mesh, *meshed.model).association;
     expect_same_for(std::move(meshed), 3, random);
   }
   for (const char* name : {"swivel2_7494.mesh", "mastodon_model_1.e", "moebius_rot1_r1.vtk"}) {

@@ -198,7 +198,7 @@ TEST(request, a_cancelled_run_throws_and_leaves_the_input) {
 
 TEST(request, the_whole_pipeline_gives_the_same_bytes_for_one_two_and_eight_threads) {
   MeshedModel input{test::grid(12, 12, 12), analytic_brick(12, 12, 12), {}};
-  input.association = associate(input.mesh, *input.model, nullptr).association;
+  input.association = associate(input.mesh, *input.model).association;
   const auto run = [&](int threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     return refine(input, {.target = {.kind = EntityKind::curve, .ids = {1, 6, 11}}, .how = Cuts{2}}).refined;

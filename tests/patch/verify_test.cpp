@@ -15,12 +15,12 @@ namespace {
 
 MeshedModel ball() {
   MeshedModel result{mesh_sphere({10}, {4, 5}), cad_sphere({10}).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 MeshedModel brick(int n) {
   MeshedModel result{mesh_brick({1, 1, 1}, {n, n, n}), cad_brick({1, 1, 1}).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 
@@ -73,7 +73,7 @@ TEST(verify, curves_and_surfaces_of_a_shipped_model_are_reported_alike) {
   MeshedModel bracket;
   bracket.model = read_cad(folder / "bracket_fillet.brep").model;
   bracket.mesh = read_mesh(folder / "bracket_fillet.msh").mesh;
-  bracket.association = associate(bracket.mesh, *bracket.model, nullptr).association;
+  bracket.association = associate(bracket.mesh, *bracket.model).association;
   const Measured known = measured(bracket);
   for (Index id = 1; id <= bracket.model->count(0); id += 5) {
     Request request;

@@ -93,7 +93,7 @@ TEST_P(ShippedModel, ownership_from_geometry_alone_equals_that_from_tags) {
   const auto cad = read_cad(file(row()["cad"][0]));
   const auto read = read_mesh(file(row()["mesh"]));
   const auto tagged = associate(read.mesh, *cad.model, &read.tags).association;
-  const auto found = associate(read.mesh, *cad.model, nullptr).association;
+  const auto found = associate(read.mesh, *cad.model).association;
   EXPECT_EQ(found.node_owner, tagged.node_owner);
   EXPECT_EQ(found.curve_edges, tagged.curve_edges);
   EXPECT_EQ(found.edge_curve, tagged.edge_curve);

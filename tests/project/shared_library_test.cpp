@@ -22,8 +22,11 @@ std::vector<std::string> words(const std::string& text) {
 std::vector<std::string> public_words() {
   static const std::regex comment("//[^\n]*");
   std::vector<std::string> all;
-  for (const auto& header : public_headers())
-    std::ranges::copy(words(std::regex_replace(content(header), comment, "")), std::back_inserter(all));
+  for (const auto& header : public_headers()) {
+    std::string text = content(header);
+    for (std::size_t at; (at = text.find("/*")) != std::string::npos;) text.erase(at, text.find("*/", at) + 2 - at);
+    std::ranges::copy(words(std::regex_replace(text, comment, "")), std::back_inserter(all));
+  }
   std::ranges::sort(all);
   return all;
 }

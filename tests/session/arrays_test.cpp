@@ -18,7 +18,7 @@ double heat_at(const Vec3& point) {
 /// With two values per node that are linear in space, so that one knows what new nodes must get.
 MeshedModel heated_brick() {
   MeshedModel result{mesh_brick({5, 5, 5}, {5, 5, 5}), cad_brick({5, 5, 5}).model, {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   Field heat{"heat", Field::On::node, 2, {}};
   for (const Vec3& point : result.mesh.points) {
     heat.values.push_back(heat_at(point));

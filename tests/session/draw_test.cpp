@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "hextwist/session/view/page.h"
 #include "hextwist/session/view/picture.h"
 #include "session/session_fixture.h"
 
@@ -155,33 +156,124 @@ TEST(Draw, quality_gives_the_colours) {
   EXPECT_EQ(scale_colour(2), scale_colour(1));
 }
 
+/// A block of a page: its header and what follows, inflated.
+std::string block_of(const std::string& page, const std::string& id) {
+  const std::string begin = "<script type=\"text/plain\" id=\"" + id + "\">";
+  const std::size_t at = page.find(begin);
+  if (at == std::string::npos) return "";
+  const std::string text = page.substr(at + begin.size(), page.find('<', at + begin.size()) - at - begin.size());
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string packed;
+  unsigned bits = 0;
+  int n = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    if ((n += 6) >= 8) packed += static_cast<char>(bits >> (n -= 8) & 0xff);
+  }
+  std::string raw(1 << 22, '\0');
+  uLongf size = static_cast<uLongf>(raw.size());
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                       static_cast<uLong>(packed.size())),
+            Z_OK)
+      << id;
+  raw.resize(size);
+  return raw.substr(4);
+}
+
 TEST(Draw, a_page_stands_by_itself) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; block 7 hex 1 name '</script><b>&'");
   const auto file = folder() / "a.html";
+  if (!has_page()) {
+    EXPECT_TRUE(f.error("draw to '" + file.string() + "'").starts_with("this program was built without its page"));
+    EXPECT_FALSE(std::filesystem::exists(file));
+    return;
+  }
   f.session.run("draw to '" + file.string() + "'");
   const std::string page = content(file);
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_TRUE(page.ends_with("</html>\n"));
-  for (const char* outside : {"http:", "https:", "src=", "href=", "import ", "fetch("})
+  EXPECT_NE(page.find("Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'"),
+            std::string::npos);
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "</script><b>"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-  EXPECT_EQ(page.find("</script>"), page.rfind("</script>")) << "a name must not end the script";
-  const auto array = [&](const std::string& name) {
-    const std::size_t begin = page.find("," + name + ":\"") + name.size() + 3;
-    return page.substr(begin, page.find('"', begin) - begin);
+  // 24 faces on 26 nodes are seen at first; all 27 and the 8 hexes are in a block of their own.
+  const std::string skin = block_of(page, "skin"), inside = block_of(page, "inside");
+  for (const char* array : {"[\"node\",\"u32\",1,26]", "[\"quad\",\"u32\",4,24]", "[\"edge\",\"u32\",2,48]"})
+    EXPECT_NE(skin.find(array), std::string::npos) << array << "\n" << skin.substr(0, 600);
+  for (const char* array : {"[\"point\",\"f32\",3,27]", "[\"hex\",\"u32\",8,8]"})
+    EXPECT_NE(inside.find(array), std::string::npos) << array << "\n" << inside.substr(0, 300);
+  EXPECT_NE(block_of(page, "c2").find("[\"value\",\"f32\",1,8]"), std::string::npos);
+  EXPECT_NE(f.all_output().find("8 hexes"), std::string::npos);
+}
+
+TEST(Draw, a_drawing_has_an_area_for_each_face) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 2 name '<&>'; block 2 hex 3");
+  const auto file = folder() / "a.svg";
+  f.session.run("draw quality shape from 0 -1 0 pixels 300 200 to '" + file.string() + "'");
+  const std::string drawing = content(file);
+  const auto n = [&](const std::string& what) {
+    int result = 0;
+    for (std::size_t at = drawing.find(what); at != std::string::npos; at = drawing.find(what, at + 1)) ++result;
+    return result;
   };
-  // 24 quads of four numbers of four bytes, three bytes becoming four characters.
-  EXPECT_EQ(array("quads").size(), 24u * 16 / 3 * 4);
-  EXPECT_EQ(array("points").size(), 26u * 12 / 3 * 4);
-  EXPECT_EQ(array("hexes").size(), 24u * 8 / 3 * 4);
-  EXPECT_NE(f.all_output().find("24 faces drawn"), std::string::npos);
+  EXPECT_TRUE(drawing.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"300\" height=\"200\""));
+  EXPECT_TRUE(drawing.ends_with("</svg>\n"));
+  EXPECT_EQ(n("<polygon "), 24);
+  EXPECT_EQ(n(">shape</text>"), 1);
+  // The front is drawn last: a square of 92% of the height in the middle.
+  const std::size_t last = drawing.rfind("<polygon points=\"");
+  EXPECT_NE(drawing.substr(last, 60).find("150.00,"), std::string::npos) << drawing.substr(last, 60);
+  f.session.run("draw to '" + file.string() + "' overwrite");
+  EXPECT_NE(content(file).find("block 1 '&lt;&amp;&gt;'"), std::string::npos);
+  EXPECT_NE(f.error("create brick x 2 interval 60; draw to '" + (folder() / "b.svg").string() + "'")
+                .find("a drawing of 21600 faces is too large for .svg, which takes 20000"),
+            std::string::npos);
+}
+
+TEST(Draw, a_moving_picture_gets_one_more) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2");
+  const auto file = folder() / "a.gif";
+  const std::string draw = "draw pixels 60 40 to '" + file.string() + "'";
+  if (const std::string said = f.error(draw); said != "no error") {
+    EXPECT_TRUE(said.starts_with("this program was built without giflib")) << said;
+    return;
+  }
+  EXPECT_NE(f.error(draw).find("exists already"), std::string::npos);
+  const std::string one = content(file);
+  EXPECT_EQ(one.substr(0, 3), "GIF");
+  EXPECT_EQ(one.back(), ';');
+  EXPECT_NE(one.find("NETSCAPE2.0"), std::string::npos);
+  f.session.run("refine hex 1; " + draw + " append; undo; " + draw + " append");
+  const std::string three = content(file);
+  // The first picture is there as it was, and the third is the same but for its place.
+  EXPECT_GT(three.size(), 2 * one.size());
+  // Width and height, lowest byte first.
+  EXPECT_EQ(three.substr(6, 4), std::string("\x3c\0\x28\0", 4));
+  int n = 0;
+  for (std::size_t at = three.find(std::string("\x21\xf9\x04", 3)); at != std::string::npos;
+       at = three.find(std::string("\x21\xf9\x04", 3), at + 1))
+    ++n;
+  EXPECT_EQ(n, 3) << "graphic control extensions";
+  EXPECT_EQ(f.error("draw pixels 50 40 to '" + file.string() + "' append"),
+            "the pictures in this file have 60 by 40 pixels, not 50 by 40");
+  EXPECT_EQ(content(file), three);
+  const auto no_gif = written("no.gif", "no picture at all");
+  EXPECT_EQ(f.error("draw to '" + no_gif.string() + "' append"), "this is not a GIF file to add a picture to");
+  std::ofstream(folder() / "half.gif", std::ios::binary) << three.substr(0, three.size() / 2);
+  EXPECT_EQ(f.error("draw pixels 60 40 to '" + (folder() / "half.gif").string() + "' append"),
+            "this is not a whole GIF file to add a picture to");
+  EXPECT_EQ(f.error("draw to 'a.png' append"), "only a .gif takes further pictures");
 }
 
 TEST(Draw, mistakes_leave_no_file) {
   Fixture f;
   EXPECT_TRUE(f.error("draw to 'a.png'").starts_with("there is no mesh to draw; read one"));
   f.session.run("create brick x 2 interval 2");
-  EXPECT_EQ(f.error("draw to 'a.jpg'"), "pictures end in .png or .html, not in '.jpg'");
+  EXPECT_EQ(f.error("draw to 'a.jpg'"), "pictures end in .png, .svg, .gif or .html, not in '.jpg'");
   const auto file = folder() / "a.png";
   EXPECT_EQ(f.error("draw from 0 0 0 to '" + file.string() + "'"), "this is not a direction to look from");
   EXPECT_FALSE(std::filesystem::exists(file));

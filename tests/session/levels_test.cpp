@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include "hextwist/base/same_bits.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/levels/level_origin.h"
 #include "session_fixture.h"
@@ -224,6 +225,59 @@ TEST(SessionLevels, changes_of_a_solver_go_both_ways_with_fields) {
   f.session.adapt(std::vector<std::int8_t>(mesh_of(f).hexes.size(), -2));
   EXPECT_EQ(mesh_of(f).hexes, base.mesh.hexes);
   EXPECT_EQ(mesh_of(f).points, base.mesh.points);
+}
+
+/// Finer at the bore of the bracket in the layer of its hexes (4 thick) that the plane at x is in, coarser elsewhere.
+/// By the middles of hexes: nodes between layers may have moved a little to where their hexes are better.
+void follow_plane(Session& session, double x, int n_levels) {
+  const auto layer = [](double at) { return std::floor(at / 4); };
+  for (int call = 0; call < 8; ++call) {
+    const Mesh& mesh = session.meshed().mesh;
+    const auto level = std::ranges::find(mesh.fields, "level", &Field::name);
+    std::vector<std::int8_t> changes(mesh.hexes.size(), -1);
+    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+      double near = 1e9;
+      for (const Index n : mesh.hexes[h])
+        near = std::min(near, std::hypot(mesh.points[n].y(), mesh.points[n].z() - 50));
+      const double is = level == mesh.fields.end() ? 0 : level->values[h];
+      if (layer(test::centroid(mesh, h).x()) == layer(x) && near < 10.1) changes[h] = is < n_levels ? 1 : 0;
+    }
+    const AdaptOutcome outcome = session.adapt(changes);
+    if (std::ranges::all_of(outcome.came_from.kind, [](HexOrigin kind) { return kind == HexOrigin::same; })) return;
+  }
+}
+
+TEST(SessionLevels, a_front_along_the_bore_of_the_bracket_leaves_nothing_behind) {
+  const MeshedModel base = test::shipped("bracket");
+  for (const int n_levels : {1, 2}) {
+    Session session;
+    session.take(base, true);
+    for (int step = 0; step < 10; ++step) {
+      SCOPED_TRACE(std::to_string(n_levels) + " levels, step " + std::to_string(step));
+      const Mesh before = session.meshed().mesh;
+      const double x = 0.4 + 0.8 * step;
+      follow_plane(session, x, n_levels);
+      const MeshedModel& now = session.meshed();
+      Session fresh;
+      fresh.take(base, true);
+      follow_plane(fresh, x, n_levels);
+      EXPECT_LE(now.mesh.n_hexes(), fresh.meshed().mesh.n_hexes() * 1.05);
+      EXPECT_GT(now.mesh.n_hexes(), base.mesh.n_hexes());
+      EXPECT_GE(worst(now.mesh), 0.9 * worst(fresh.meshed().mesh));
+      EXPECT_TRUE(test::conformal(now.mesh));
+      EXPECT_TRUE(test::uninverted(now.mesh));
+      EXPECT_LE(off_model(now.mesh, now.association, *now.model).max_relative, 1e-9);
+      // What has its id is what it was.
+      for (Index n = 0; n < now.mesh.n_nodes(); ++n) {
+        const Index old = find_node(before, node_id(now.mesh, n));
+        if (old >= 0 && old < base.mesh.n_nodes()) {
+          EXPECT_TRUE(same_bits(now.mesh.points[n], before.points[old]));
+        }
+      }
+    }
+    session.run("coarsen hex all levels 9");
+    EXPECT_EQ(session.meshed().mesh.hexes, base.mesh.hexes);
+  }
 }
 
 TEST(SessionLevels, are_written_and_read_so_that_another_run_goes_on) {

@@ -233,5 +233,30 @@ TEST(PatchedSession, changes_the_mesh_in_place_also_in_a_journal) {
   EXPECT_EQ(before->mesh.n_hexes(), 14 * 13 * 12);
 }
 
+TEST(PatchedSession, sizes_that_are_met_change_nothing_and_keep_the_levels) {
+  Fixture f;
+  f.session.run("create brick x 1 interval 30; refine hex 5000 numsplit 1");
+  const MeshedModel before = f.session.meshed();
+  for (const char* command : {"refine curve 1 size 0.1 bias 1.3", "refine volume all size 0.5",
+                              "refine surface 2 size 0.05 depth 1", "refine vertex 3 size 0.04",
+                              "refine hex 5000 to 6000 size 0.1", "refine volume 1 sizing_function \"0.05 + x*x\""}) {
+    SCOPED_TRACE(command);
+    f.session.run(command);
+    EXPECT_TRUE(test::same_bits(f.session.meshed(), before));
+    const CommandRecord& record = f.last();
+    EXPECT_EQ(record.sizes.passes, 0);
+    EXPECT_GT(record.sizes.hexes, 0);
+    EXPECT_EQ(record.sizes.coarser, 0);
+    EXPECT_EQ(record.after.shape.min, record.before.shape.min);
+  }
+  f.session.run("undo 6");
+  EXPECT_TRUE(test::same_bits(f.session.meshed(), before));
+  f.session.run("redo 6; refine hex 1 numsplit 1; coarsen hex all levels 3");
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 27000);
+  // One hex too large by a hair is cut.
+  f.session.run("refine curve 1 size 0.0192");
+  EXPECT_GT(f.session.meshed().mesh.n_hexes(), 27000);
+}
+
 }  // namespace
 }  // namespace hextwist::test

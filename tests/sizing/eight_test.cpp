@@ -75,7 +75,7 @@ TEST(one_into_eight, every_hex_of_a_block_in_a_grid_gets_eight_cubes) {
   const Box size = {7, 7, 7};
   const MeshedModel input{test::grid(7, 7, 7), analytic_brick(7, 7, 7), {}};
   MeshedModel owned = input;
-  owned.association = associate(owned.mesh, *owned.model, nullptr).association;
+  owned.association = associate(owned.mesh, *owned.model).association;
   for (int p = 1; p <= 3; ++p)
     for (int q = 1; q <= 4; ++q)
       for (int r = 2; r <= 3; ++r)

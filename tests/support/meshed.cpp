@@ -12,7 +12,7 @@ namespace hextwist::test {
 
 MeshedModel brick(int a, int b, int c) {
   MeshedModel result{grid(a, b, c), analytic_brick(a, b, c), {}};
-  result.association = associate(result.mesh, *result.model, nullptr).association;
+  result.association = associate(result.mesh, *result.model).association;
   return result;
 }
 

@@ -16,34 +16,58 @@ class Error(Exception):
 class Cancelled(Error): ...
 
 class Group:
-    id: int
-    name: str
-    members: NDArray[np.int32]
+    @property
+    def id(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def members(self) -> NDArray[np.int32]: ...
 
 Groups = Mapping[int, Union[Group, ArrayLike, tuple[str, ArrayLike]]]
 
 class Mesh:
-    n_nodes: int
-    n_hexes: int
-    points: NDArray[np.float64]  # (n_nodes, 3)
-    hexes: NDArray[np.int32]  # (n_hexes, 8)
-    bit_hexes: NDArray[np.int32]  # (n_hexes, 8)
-    node_ids: NDArray[np.int64]  # (n_nodes,)
-    hex_ids: NDArray[np.int64]  # (n_hexes,)
-    node_owners: NDArray[np.int32]  # (n_nodes, 2)
-    node_parameters: NDArray[np.float64]  # (n_nodes, 2)
-    hex_volumes: NDArray[np.int32]  # (n_hexes,)
-    curve_edges: NDArray[np.int32]  # (n, 2)
-    edge_curves: NDArray[np.int32]  # (n,)
-    surface_quads: NDArray[np.int32]  # (n, 4)
-    surface_sides: NDArray[np.int32]  # (n, 2)
-    quad_surfaces: NDArray[np.int32]  # (n,)
-    arrays: dict[str, NDArray[Any]]
-    blocks: dict[int, Group]
-    node_sets: dict[int, Group]
-    side_sets: dict[int, Group]
-    node_fields: dict[str, NDArray[np.float64]]
-    hex_fields: dict[str, NDArray[np.float64]]
+    @property
+    def n_nodes(self) -> int: ...
+    @property
+    def n_hexes(self) -> int: ...
+    @property
+    def points(self) -> NDArray[np.float64]: ...  # (n_nodes, 3)
+    @property
+    def hexes(self) -> NDArray[np.int32]: ...  # (n_hexes, 8)
+    @property
+    def bit_hexes(self) -> NDArray[np.int32]: ...  # (n_hexes, 8)
+    @property
+    def node_ids(self) -> NDArray[np.int64]: ...  # (n_nodes,)
+    @property
+    def hex_ids(self) -> NDArray[np.int64]: ...  # (n_hexes,)
+    @property
+    def node_owners(self) -> NDArray[np.int32]: ...  # (n_nodes, 2)
+    @property
+    def node_parameters(self) -> NDArray[np.float64]: ...  # (n_nodes, 2)
+    @property
+    def hex_volumes(self) -> NDArray[np.int32]: ...  # (n_hexes,)
+    @property
+    def curve_edges(self) -> NDArray[np.int32]: ...  # (n, 2)
+    @property
+    def edge_curves(self) -> NDArray[np.int32]: ...  # (n,)
+    @property
+    def surface_quads(self) -> NDArray[np.int32]: ...  # (n, 4)
+    @property
+    def surface_sides(self) -> NDArray[np.int32]: ...  # (n, 2)
+    @property
+    def quad_surfaces(self) -> NDArray[np.int32]: ...  # (n,)
+    @property
+    def arrays(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def blocks(self) -> dict[int, Group]: ...
+    @property
+    def node_sets(self) -> dict[int, Group]: ...
+    @property
+    def side_sets(self) -> dict[int, Group]: ...
+    @property
+    def node_fields(self) -> dict[str, NDArray[np.float64]]: ...
+    @property
+    def hex_fields(self) -> dict[str, NDArray[np.float64]]: ...
     def quality(self, metric: str = "shape") -> NDArray[np.float64]: ...
     def n_entities(self, kind: str) -> int: ...
     def entity(self, kind: str, id: int) -> dict[str, Any]: ...
@@ -52,8 +76,10 @@ class Mesh:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
 
 class GmshLink:
-    on_cad: bool
-    tags: dict[str, list[int]]
+    @property
+    def on_cad(self) -> bool: ...
+    @property
+    def tags(self) -> dict[str, list[int]]: ...
 
 def take_gmsh(session: Session, entities: list[Any], groups: list[Any], brep: Union[str, os.PathLike[str]]) -> GmshLink: ...
 def put_gmsh(session: Session, link: GmshLink) -> list[Any]: ...
@@ -65,11 +91,16 @@ class Session:
         notice: Optional[Callable[[str], Any]] = None,
         progress: Optional[Callable[[str, float], Any]] = None,
     ) -> None: ...
-    mesh: Mesh
-    has_cad: bool
-    finished: bool
-    record: Optional[dict[str, Any]]
-    records: list[dict[str, Any]]
+    @property
+    def mesh(self) -> Mesh: ...
+    @property
+    def has_cad(self) -> bool: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def record(self) -> Optional[dict[str, Any]]: ...
+    @property
+    def records(self) -> list[dict[str, Any]]: ...
     def cmd(self, commands: str) -> bool: ...
     def import_cad(self, file: Union[str, os.PathLike[str]]) -> bool: ...
     def import_mesh(self, file: Union[str, os.PathLike[str]]) -> bool: ...

@@ -20,6 +20,7 @@ which. Physical groups can be named as blocks, side sets and node sets: `refine 
 
 import os
 import tempfile
+from typing import Any, Callable, Dict, List, Optional
 
 import gmsh as _gmsh
 
@@ -29,21 +30,23 @@ __all__ = ["Link", "put", "refine", "take"]
 
 
 class Link:
-    """A session on the mesh of Gmsh's current model, from take(). session: to run commands in, then put()."""
+    """A session on the mesh of Gmsh's current model, made by take(). session: the hextwist.Session, to run commands in,
+    then put(); model: the name of Gmsh's model."""
 
-    def __init__(self, session, model, link):
+    def __init__(self, session: _core.Session, model: str, link: _core.GmshLink) -> None:
         self.session = session
         self.model = model
         self._link = link
 
     @property
-    def tags(self):
-        """{kind: list}: the tag in Gmsh of the entity of each id, from id 1; 0: Gmsh has none."""
+    def tags(self) -> Dict[str, List[int]]:
+        """{kind: list}: per "vertex", "curve", "surface", "volume" the tag in Gmsh of the entity of each id, from id 1;
+        0: Gmsh has none."""
         return self._link.tags
 
     @property
-    def on_cad(self):
-        """False: the session is on the skin of the mesh."""
+    def on_cad(self) -> bool:
+        """False: the session is on the skin of the mesh, since not all volumes with hexes are OpenCASCADE's."""
         return self._link.on_cad
 
 
@@ -61,9 +64,10 @@ def _groups():
     ]
 
 
-def take(session=None):
-    """The mesh of Gmsh's current model in a session (a new one by default; notices are printed). Raises hextwist.Error
-    with the session as it was."""
+def take(session: Optional[_core.Session] = None) -> Link:
+    """The mesh of Gmsh's current model in a session (a new one by default; notices are printed), in place of the mesh
+    and CAD that it had. Raises hextwist.Error, the session as it was: no hexes, other volume elements, elements on the
+    boundary that are not sides or edges of hexes, a mesh that does not lie on its CAD."""
     session = session or _core.Session(notice=print)
     entities = [_read(dim, tag) for dim, tag in _gmsh.model.getEntities()]
     solids = set(_gmsh.model.occ.getEntities(3))
@@ -102,8 +106,10 @@ def _parameters(dim, tag, coord):
         return []
 
 
-def put(link):
-    """Puts the mesh of the session into the model that it was taken from. Raises with Gmsh's model as it was."""
+def put(link: Link) -> None:
+    """Puts the mesh of the session into the model that it was taken from, which has to be Gmsh's current one. Nodes and
+    elements that were there keep their tags, new ones get tags above all in use. Raises hextwist.Error where another
+    model is current or the session is on other CAD by now, and what Gmsh raises; Gmsh's model is then as it was."""
     if _gmsh.model.getCurrent() != link.model:
         raise _core.Error(f"the current model of Gmsh is not '{link.model}', where the mesh came from")
     fresh, before = _core.put_gmsh(link.session, link._link), []
@@ -119,7 +125,13 @@ def put(link):
         raise
 
 
-def refine(commands, *, output=None, notice=print, progress=None):
+def refine(
+    commands: str,
+    *,
+    output: Optional[Callable[[str], Any]] = None,
+    notice: Optional[Callable[[str], Any]] = print,
+    progress: Optional[Callable[[str, float], Any]] = None,
+) -> _core.Session:
     """Takes the mesh, refines it and puts it back. commands: what stands behind `refine` ("curve 3 numsplit 2"), or
     whole commands, one per line or separated by ';'. Callbacks: those of hextwist.Session. Returns the session.
     Raises hextwist.Error (or what a callback raised, or KeyboardInterrupt) with Gmsh's model as it was."""

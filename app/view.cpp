@@ -1,0 +1,40 @@
+#include "view.h"
+
+#include "hextwist/io/file.h"
+#include "hextwist/session/core.h"
+#include "hextwist/session/view/page.h"
+
+namespace hextwist::app {
+namespace {
+
+SceneSource source_of(Session& session, const std::filesystem::path& mesh) {
+  Session::Core& core = session.core();
+  return {core.selector(), core.state, mesh.stem().string()};
+}
+
+}  // namespace
+
+void write_view(const Options& options, Session& session, const std::function<void(const std::string&)>& say) {
+  page_text();  // better said before the work
+  Session before;
+  if (!options.before.empty()) {
+    if (!options.cad.empty()) before.import_cad(options.cad);
+    before.import_mesh(options.before);
+  }
+  const SceneSource source = source_of(session, options.mesh);
+  Page made;
+  if (options.before.empty()) {
+    made = page(source, {});
+  } else {
+    const SceneSource other = source_of(before, options.before);
+    made = page(source, {}, &other);
+  }
+  io::Output out(options.output, true);
+  out << made.text;
+  out.commit();
+  for (const std::string& name : made.left_out)
+    say("note: " + name + " is left out of " + options.output.string() + ", which would be too large");
+  say(options.output.string() + ": open it in a browser");
+}
+
+}  // namespace hextwist::app

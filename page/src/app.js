@@ -1,0 +1,490 @@
+// The viewer: what is picked, shown, cut; controls and keys.
+import * as THREE from 'three';
+import { Colouring } from './colouring.js';
+import { fillHelp } from './help.js';
+import { labelPlaces } from './labels.js';
+import { EntityList } from './list.js';
+import { boundsOf } from './pane.js';
+import { commands, Picks, rangeText } from './picks.js';
+import { short } from './scene.js';
+import { Pane, Stage } from './stage.js';
+
+const element = (id) => document.getElementById(id);
+const kindsToPick = [['geometry', 'auto'], ['vertex'], ['curve'], ['surface'], ['volume'], ['node'], ['edge'], ['face'], ['hex'], ['block'], ['sheet'], ['nodeset'], ['sideset']];
+const themes = {
+  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#d9480f', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
+  dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
+};
+
+export class App {
+  constructor() {
+    const dark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+    this.theme = {};
+    this.setTheme(dark ? 'dark' : 'light');
+    this.picks = new Picks();
+    this.picks.changed = () => this.picked();
+    this.clip = { mode: 'off', normal: [1, 0, 0], distance: 0 };
+    this.shownHexes = null;  // per hex, null: all
+    this.explode = 0;
+    this.panes = [];
+    this.queue = Promise.resolve();
+    this.stage = new Stage(element('view'), element('over'), this.theme, {
+      hover: (found, at) => this.hover(found, at),
+      pick: (found, add) => this.clicked(found, add),
+      area: (pane, hexes, add) => this.pickHexes([...hexes], add),
+    });
+    this.colouring = new Colouring(this);
+    this.list = new EntityList(this, { pick: (...pick) => this.picks.pick(...pick), fit: (kind, position) => this.fitTo(kind, [position]) });
+    this.controls();
+    this.keys();
+  }
+
+  get pane() { return this.panes[this.panes.length - 1]; }
+  get scene() { return this.pane.scene; }
+  draw() { this.stage.draw(); }
+  say(text) { element('status').value = text; }
+
+  /** Shows a scene, and what was before beside it. keep: the eye stays. */
+  async open(scene, before = null, keep = false) {
+    for (const pane of this.panes) pane.dispose();
+    this.before = before;
+    this.panes = [new Pane(scene, this.theme)];
+    element('title').textContent = scene.meta.title;
+    document.title = `${scene.meta.title} – hextwist`;
+    element('counts').textContent = `${scene.meta.n_hexes.toLocaleString('en')} hexes, ${scene.meta.n_nodes.toLocaleString('en')} nodes`;
+    document.querySelector('[data-toggle="before"]').hidden = !before;
+    const { start } = scene.meta;
+    if (!keep) {
+      this.stage.eye.look(...start.view);
+      this.stage.eye.fit(new THREE.Vector3(), scene.radius);
+      this.shownHexes = null;
+      this.explode = 0;
+    }
+    this.stage.setPanes(this.panes);
+    this.applyLook();
+    await this.pane.loadCad();
+    this.list.reset(scene);
+    await this.colouring.reset(scene);
+    if (keep) {
+      this.shownHexes = null;
+      await this.rebuild();
+      await this.repick();
+    } else if (start.kind) {
+      await this.pickIds(start.kind, start.ids);
+      if (['hex', 'volume', 'block', 'sheet', 'face', 'surface', 'sideset'].includes(start.kind) && scene.hasInside) await this.showOnly();
+    }
+    // The first hover shall not wait for it.
+    (window.requestIdleCallback ?? setTimeout)(() => this.pane.tree());
+    if (scene.meta.left_out.length) this.say(`left out, as the page would be too large: ${scene.meta.left_out.join(', ')}`);
+  }
+
+  async showBefore(on) {
+    if (on && this.before && this.panes.length === 1) {
+      const pane = new Pane(this.before, this.theme);
+      await pane.loadCad();
+      this.panes.unshift(pane);
+    } else if (!on && this.panes.length > 1) this.panes.shift().dispose();
+    this.stage.setPanes(this.panes);
+    element('names').className = this.panes.length > 1 ? 'two' : '';
+    this.applyLook();
+    await this.colouring.choose(this.colouring.key);
+    await this.rebuild();
+  }
+
+  /** Runs a task that may take a moment, one after the other. */
+  busy(what, task) {
+    const run = async () => {
+      const timer = setTimeout(() => { element('busy').textContent = what; element('busy').hidden = false; }, 120);
+      try {
+        return await task();
+      } catch (error) {
+        this.say(error.message);
+        throw error;
+      } finally {
+        clearTimeout(timer);
+        element('busy').hidden = true;
+      }
+    };
+    return run();
+  }
+
+  // What is picked.
+
+  describe(found) {
+    const { kind, position, id, pane, hit } = found, row = pane.scene.row(kind, position), parts = [`${kind} ${id}`];
+    if (row.name) parts.push(`"${row.name}"`);
+    if (row.note) parts.push(row.note);
+    if (kind !== 'hex' && hit) parts.push(`hex ${pane.scene.hexId(hit.hex)}`);
+    const value = hit ? this.colouring.said(pane, hit.hex) : '';
+    if (value) parts.push(value);
+    return parts.join(' · ');
+  }
+  async hover(found, at) {
+    const tip = element('tip'), stage = this.stage;
+    const key = found ? `${found.kind} ${found.id} ${this.panes.indexOf(found.pane)}` : '';
+    if (found && at) {
+      tip.textContent = this.describe(found);
+      tip.hidden = false;
+      const wide = tip.offsetWidth;
+      tip.style.left = `${Math.min(at[0] + 14, stage.width - wide - 4)}px`;
+      tip.style.top = `${at[1] + 34 > stage.height ? at[1] - 28 : at[1] + 14}px`;
+      if (found.hit) {
+        const p = found.hit.point.toArray().map((v, k) => short(v + found.pane.scene.meta.origin[k]));
+        element('where').textContent = `(${p.join(', ')})`;
+      }
+    } else {
+      tip.hidden = true;
+      element('where').textContent = '';
+    }
+    if (key === this.hovered) return;
+    this.hovered = key;
+    for (const pane of this.panes) if (pane !== found?.pane) pane.mark(pane.hints, null);
+    if (found) {
+      const shape = await found.pane.shapeOf(found.kind, [found.position]);
+      if (this.hovered !== key) return;
+      found.pane.mark(found.pane.hints, shape, this.theme.hint, false);
+    }
+    this.draw();
+  }
+  clicked(found, add) {
+    if (!found) {
+      if (!add) this.picks.clear();
+      return;
+    }
+    this.picks.pick(found.kind, found.id, found.position, add);
+    this.say(this.describe(found));
+    this.lastHit = found.hit;
+    if (this.list.kind !== found.kind && [...this.list.select.options].some((o) => o.value === found.kind)) this.list.show(found.kind);
+  }
+  async pickHexes(hexes, add = false) {
+    if (this.scene.skin.quad_hex_id && this.scene.hasInside) await this.busy('loading ids', () => this.scene.inside());
+    const pairs = hexes.map((h) => [this.scene.hexId(h), h]);
+    this.picks.set('hex', add && this.picks.kind === 'hex' ? [...this.picks.ids, ...pairs] : pairs);
+    this.say(`${hexes.length.toLocaleString('en')} ${hexes.length === 1 ? 'hex' : 'hexes'} picked`);
+  }
+  async pickIds(kind, ids) {
+    if (!this.scene.meta[kind] && this.scene.hasInside && this.scene.count(kind) === null) await this.scene.inside();
+    if ((kind === 'hex' && this.scene.skin.quad_hex_id) || (kind === 'node' && this.scene.skin.node_id)) await this.scene.inside();
+    this.picks.set(kind, ids.map((id) => [id, this.scene.find(kind, id)]).filter(([, position]) => position >= 0));
+  }
+  /** After the mesh has changed: what is still there stays picked. */
+  async repick() { await this.pickIds(this.picks.kind, [...this.picks.ids.keys()]); }
+
+  async picked() {
+    const { picks } = this, ticket = (this.ticket = {});
+    element('range').value = picks.size ? `${picks.kind} ${rangeText(picks.ids.keys())}` : '';
+    element('command').value = await this.commandText();
+    element('run-command').hidden = !this.live || !picks.size;
+    this.list.render();
+    if (picks.kind !== 'group') {
+      const shape = picks.size ? await this.busy('looking it up', () => this.pane.shapeOf(picks.kind, [...picks.ids.values()])) : null;
+      if (this.ticket !== ticket) return;
+      // Twist planes say where a sheet is; its hexes would hide them.
+      const planes = element('planes').checked && picks.kind === 'sheet' ? [...picks.ids.values()].slice(0, 60) : [];
+      await this.pane.showPlanes(planes);
+      this.pane.mark(this.pane.marks, planes.length ? null : shape, this.theme.pick, true);
+    }
+    this.draw();
+  }
+  async commandText() {
+    const kind = element('command-kind').value;
+    if (this.picks.kind === 'sheet' && kind.startsWith('refine') && this.picks.size === 1) {
+      // A sheet is named by one of its edges.
+      const inside = await this.scene.inside(), edge = inside.sheets.ofEdge.indexOf([...this.picks.ids.values()][0]);
+      return `refine sheet edge ${edge + 1}`;
+    }
+    return this.picks.text(kind);
+  }
+  async fitTo(kind, positions, around = 1.3) {
+    const shape = await this.busy('looking it up', () => this.pane.shapeOf(kind, positions)), bounds = boundsOf(shape);
+    if (!bounds) return;
+    this.stage.eye.fit(bounds.center, Math.max(bounds.radius * around, this.scene.radius * 0.04));
+    this.draw();
+  }
+  fit() {
+    if (this.picks.size) return this.fitTo(this.picks.kind, [...this.picks.ids.values()]);
+    this.stage.eye.fit(new THREE.Vector3(), this.scene.radius);
+    this.draw();
+  }
+  async goTo(hex) {
+    await this.pickHexes([hex]);
+    if (this.scene.hasInside) await this.busy('loading the inside', () => this.scene.inside());
+    await this.picked();
+    await this.fitTo('hex', [hex], 7);
+    this.say(`hex ${this.scene.hexId(hex)} · ${this.colouring.said(this.pane, hex)}`);
+  }
+
+  // What is shown.
+
+  async hexesPicked() {
+    const { picks, scene, pane } = this, inside = await scene.inside(), positions = [...picks.ids.values()];
+    if (picks.kind === 'hex') return new Set(positions);
+    if (picks.kind === 'sheet') return new Set(positions.flatMap((s) => inside.hexesOfSheet(s)));
+    if (picks.kind === 'volume') return new Set(Array.from(inside.volume.keys()).filter((h) => positions.includes(inside.volume[h] - 1)));
+    if (picks.kind === 'block') {
+      const sets = await scene.sets();
+      return new Set(positions.flatMap((p) => [...sets[`block ${scene.meta.block[p][0]}`]]));
+    }
+    const shape = await pane.shapeOf(picks.kind, positions), hexes = new Set();
+    if (shape.quads) for (const h of shape.quads.hex) hexes.add(h);
+    else {
+      // Hexes that touch it.
+      const nodes = new Set(await this.nodesPicked(inside));
+      for (let h = 0; h < inside.nHexes; ++h)
+        for (let c = 0; c < 8; ++c) if (nodes.has(inside.hexes[8 * h + c])) { hexes.add(h); break; }
+    }
+    return hexes;
+  }
+  async nodesPicked(inside) {
+    const { picks, scene } = this, positions = [...picks.ids.values()];
+    if (picks.kind === 'node') return positions;
+    if (picks.kind === 'edge') return positions.flatMap((e) => [inside.edges.nodes[2 * e], inside.edges.nodes[2 * e + 1]]);
+    if (picks.kind === 'nodeset') {
+      const sets = await scene.sets();
+      return positions.flatMap((p) => [...sets[`nodeset ${scene.meta.nodeset[p][0]}`]]);
+    }
+    const ids = new Set(positions.map((p) => p + 1)), out = [], { curve_edge, curve_of_edge } = scene.skin;
+    if (picks.kind === 'curve') curve_of_edge.forEach((c, i) => { if (ids.has(c)) out.push(curve_edge[2 * i], curve_edge[2 * i + 1]); });
+    else inside.ownerDim.forEach((dim, n) => { if (dim === 0 && ids.has(inside.ownerId[n])) out.push(n); });
+    return out;
+  }
+  async showOnly(hexes = null) {
+    const wanted = hexes ?? (await this.hexesPicked());
+    if (!wanted.size) return this.say('nothing is picked');
+    this.shownHexes = new Uint8Array(this.scene.meta.n_hexes);
+    for (const h of wanted) this.shownHexes[h] = 1;
+    await this.rebuild();
+    this.say(`${wanted.size.toLocaleString('en')} of ${this.scene.meta.n_hexes.toLocaleString('en')} hexes shown`);
+  }
+  async hide() {
+    const wanted = await this.hexesPicked();
+    this.shownHexes ??= new Uint8Array(this.scene.meta.n_hexes).fill(1);
+    for (const h of wanted) this.shownHexes[h] = 0;
+    this.picks.clear();
+    await this.rebuild();
+  }
+  async column() {
+    const hit = this.lastHit, inside = await this.scene.inside(), hex = this.picks.kind === 'hex' && this.picks.size ? [...this.picks.ids.values()][0] : hit?.hex;
+    if (hex === undefined) return this.say('pick a face or a hex first: the column runs through the face that was clicked');
+    const side = hit && hit.quad >= 0 && hit.hex === hex ? this.pane.quads.side[hit.quad] : 0;
+    const hexes = inside.column(hex, side);
+    await this.pickHexes(hexes);
+    await this.showOnly(new Set(hexes));
+    this.say(`column of ${hexes.length} hexes`);
+  }
+  async sheetsOfPicked() {
+    const inside = await this.scene.inside();
+    let sheets;
+    if (this.picks.kind === 'edge') sheets = [...this.picks.ids.values()].map((e) => inside.sheets.ofEdge[e]);
+    else sheets = [...(await this.hexesPicked())].slice(0, 1000).flatMap((h) => inside.sheetsOfHex(h));
+    const pairs = [...new Set(sheets)].sort((a, b) => a - b).map((s) => [s + 1, s]);
+    if (!pairs.length) return this.say('nothing is picked');
+    element('planes').checked = true;
+    this.picks.set('sheet', pairs);
+    this.list.show('sheet');
+  }
+  /** Sheets that run through hexes which were cut, and through no other. */
+  async planesOfRefinement() {
+    const inside = await this.scene.inside(), i = this.scene.meta.channels.findIndex((c) => c.name === 'template');
+    if (i < 0) return this.say('this mesh has not been refined by levels');
+    const cut = await this.scene.channel(i), outside = new Uint8Array(inside.sheets.n);
+    for (let h = 0; h < inside.nHexes; ++h) if (!cut[h]) for (const s of inside.sheetsOfHex(h)) outside[s] = 1;
+    const sheets = Array.from(outside.keys()).filter((s) => !outside[s]);
+    element('planes').checked = true;
+    this.picks.set('sheet', sheets.slice(0, 60).map((s) => [s + 1, s]));
+    this.say(`${sheets.length} sheets lie within what was refined${sheets.length > 60 ? ', 60 of them shown' : ''}`);
+    this.draw();
+  }
+
+  /** After cut, explosion or choice of hexes: one at a time, the last one counts. */
+  rebuild() {
+    this.wanted = (this.wanted ?? 0) + 1;
+    const mine = this.wanted;
+    this.queue = this.queue.then(async () => {
+      if (mine !== this.wanted) return;
+      await this.busy('cutting', async () => {
+        for (const pane of this.panes) {
+          await pane.rebuild({ clip: this.clip, shown: pane === this.pane ? this.shownHexes : null, explode: this.explode });
+          this.colouring.paint(pane);
+        }
+        this.applyLook();
+      });
+      await this.picked();
+      await this.label();
+    }).catch((error) => this.say(error.message));
+    return this.queue;
+  }
+  cutChanged(turned = false) {
+    const mode = document.querySelector('input[name="cut"]:checked').value, axis = element('cut-axis').value, flip = element('cut-flip').checked ? -1 : 1;
+    const along = (axis === 'view' ? this.stage.eye.direction.toArray() : axis.split(' ').map(Number));
+    // What is cut off is on the side of the eye, unless that is to be the other way round.
+    if (turned || !this.clipSign) this.clipSign = this.stage.eye.direction.dot(new THREE.Vector3(...along)) < 0 ? -1 : 1;
+    const sign = flip * this.clipSign, normal = along.map((v) => v * sign);
+    // From one end of the mesh to the other, along the normal.
+    let low = Infinity, high = -Infinity;
+    const { point } = this.scene.skin;
+    for (let i = 0; i < point.length; i += 3) {
+      const d = normal[0] * point[i] + normal[1] * point[i + 1] + normal[2] * point[i + 2];
+      if (d < low) low = d;
+      if (d > high) high = d;
+    }
+    const t = Number(element('cut-at').value), at = sign > 0 ? t : 1 - t;
+    this.clip = { mode, normal, distance: low + (high - low) * (0.001 + 0.998 * at) };
+    return this.rebuild();
+  }
+  async label() {
+    if (!this.labels) {
+      this.stage.labelPoints = null;
+      return this.draw();
+    }
+    this.stage.labelPoints = await this.busy('labels', () => this.labelPlaces(this.labelKind()));
+    this.draw();
+  }
+  labelKind() { return this.stage.kind === 'geometry' ? 'surface' : this.stage.kind; }
+  labelPlaces(kind) { return labelPlaces(this.pane, kind); }
+
+  // Controls.
+
+  setTheme(name) {
+    document.documentElement.dataset.theme = name;
+    Object.assign(this.theme, themes[name]);
+    this.themeName = name;
+  }
+  async switchTheme() {
+    this.setTheme(this.themeName === 'dark' ? 'light' : 'dark');
+    for (const pane of this.panes) await pane.loadCad();
+    this.applyLook();
+    this.colouring.shown();
+    await this.picked();
+  }
+  applyLook() {
+    const what = element('what').value, edges = document.querySelector('[data-toggle="edges"]').getAttribute('aria-pressed') === 'true';
+    for (const pane of this.panes) {
+      const ofFaces = pane.faces.material.uniforms, ofCad = pane.cad.material.uniforms;
+      // Lines of the mesh lie on the CAD where that is shown; inside there is none.
+      pane.faces.visible = what === 'mesh' || (what === 'both' && pane.shown !== null);
+      pane.cad.visible = what !== 'mesh' && pane.quads.offset === null;
+      ofFaces.lines.value = edges ? 0.55 : 0;
+      ofCad.lines.value = what === 'both' ? 0.75 : 0;
+      for (const uniforms of [ofFaces, ofCad]) uniforms.ink.value.set(...this.theme.edge);
+      ofCad.colour.value.set(...this.theme.cad);
+      pane.sectionLines.material.color.set(this.theme.ink);
+    }
+    this.draw();
+  }
+  toggle(name, on = null) {
+    const button = document.querySelector(`[data-toggle="${name}"]`);
+    if (button.hidden) return;
+    const pressed = on ?? button.getAttribute('aria-pressed') !== 'true';
+    button.setAttribute('aria-pressed', pressed);
+    if (name === 'parallel') this.stage.eye.isParallel = pressed;
+    if (name === 'edges') this.applyLook();
+    if (name === 'labels') { this.labels = pressed; this.label(); }
+    if (name === 'before') this.showBefore(pressed);
+    if (name === 'box' || name === 'lasso') {
+      const other = name === 'box' ? 'lasso' : 'box';
+      if (pressed) document.querySelector(`[data-toggle="${other}"]`).setAttribute('aria-pressed', false);
+      this.stage.areaTool = pressed ? name : null;
+      element('view').classList.toggle('box', pressed);
+    }
+    this.draw();
+  }
+  do(name) {
+    const actions = {
+      fit: () => this.fit(), theme: () => this.switchTheme(), help: () => element('help').showModal(), clear: () => this.picks.clear(),
+      only: () => this.showOnly(), hide: () => this.hide(), column: () => this.column(), sheets: () => this.sheetsOfPicked(),
+      all: () => { this.shownHexes = null; return this.rebuild(); }, auto: () => this.colouring.auto(),
+      'worst-next': () => this.colouring.step(1), 'worst-back': () => this.colouring.step(-1), 'refined-planes': () => this.planesOfRefinement(),
+    };
+    return actions[name]();
+  }
+  setKind(kind) {
+    this.stage.kind = kind;
+    document.querySelector(`input[name="pick"][value="${kind}"]`).checked = true;
+    if (this.labels) this.label();
+  }
+  async copy(id) {
+    const text = element(id).value;
+    if (!text) return;
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      // Pages from the disk may have no clipboard; the older way needs the field.
+      element(id).select();
+      document.execCommand('copy');
+    }
+    this.say(`copied: ${text.length > 80 ? text.slice(0, 77) + '...' : text}`);
+  }
+
+  controls() {
+    const picks = element('pick-kinds');
+    for (const [kind, text = kind] of kindsToPick) {
+      const label = document.createElement('label'), input = Object.assign(document.createElement('input'), { type: 'radio', name: 'pick', value: kind });
+      input.checked = kind === 'geometry';
+      if (kind === 'geometry') label.title = 'Vertex before curve before surface';
+      input.addEventListener('change', () => this.setKind(kind));
+      label.append(input, Object.assign(document.createElement('span'), { textContent: text }));
+      picks.append(label);
+    }
+    for (const name of Object.keys(commands)) element('command-kind').append(new Option(name, name));
+    element('command-kind').addEventListener('change', () => this.picked());
+    element('what').addEventListener('change', () => this.applyLook());
+    for (const button of document.querySelectorAll('[data-toggle]')) button.addEventListener('click', () => this.toggle(button.dataset.toggle));
+    for (const button of document.querySelectorAll('[data-do]')) button.addEventListener('click', () => this.do(button.dataset.do));
+    for (const button of document.querySelectorAll('[data-copy]')) button.addEventListener('click', () => this.copy(button.dataset.copy));
+    for (const button of document.querySelectorAll('[data-view]'))
+      button.addEventListener('click', () => { this.stage.eye.look(...button.dataset.view.split(' ').map(Number)); this.draw(); });
+    for (const input of document.querySelectorAll('input[name="cut"]')) input.addEventListener('change', () => this.cutChanged(true));
+    element('cut-axis').addEventListener('change', () => this.cutChanged(true));
+    element('cut-flip').addEventListener('change', () => this.cutChanged());
+    element('cut-at').addEventListener('input', () => { if (this.clip.mode !== 'off') this.cutChanged(); });
+    element('explode').addEventListener('input', () => { this.explode = Number(element('explode').value); this.rebuild(); });
+    element('through').addEventListener('change', () => { this.stage.through = element('through').checked; });
+    element('planes').addEventListener('change', () => this.picked());
+    fillHelp(element('help'));
+  }
+
+  keys() {
+    const views = [...document.querySelectorAll('[data-view]')];
+    const cuts = ['off', 'crinkle', 'plane'], whats = ['mesh', 'both', 'cad'];
+    document.addEventListener('keydown', async (e) => {
+      const typing = e.target.matches('input:not([type="range"]):not([type="radio"]):not([type="checkbox"]), select, textarea');
+      if (e.key === 'Escape' && !element('help').open && e.target.id !== 'prompt') {
+        if (typing) element('view').focus();
+        else this.picks.clear();
+        return;
+      }
+      if (typing || e.ctrlKey || e.metaKey || e.altKey || element('help').open) return;
+      const { eye } = this.stage, onView = e.target.id === 'view' || e.target === document.body;
+      const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key];
+      if (arrow && onView) {
+        if (e.shiftKey) eye.move(-0.06 * arrow[0], -0.06 * arrow[1]);
+        else eye.turn((arrow[0] * Math.PI) / 18, (arrow[1] * Math.PI) / 18);
+        this.stage.showsCross = true;
+      } else if (e.key === 'Enter' && onView) {
+        this.stage.showsCross = true;
+        this.clicked(await this.stage.find(this.stage.width - this.stage.paneWidth / 2, this.stage.height / 2), e.shiftKey);
+      } else if (e.key === '+' || e.key === '=') eye.zoom(0.85);
+      else if (e.key === '-') eye.zoom(1 / 0.85);
+      else if (e.key >= '0' && e.key <= '6') views[Number(e.key)].click();
+      else if (e.key === '[' || e.key === ']') {
+        element('cut-at').value = Number(element('cut-at').value) + (e.key === '[' ? -0.02 : 0.02);
+        if (this.clip.mode !== 'off') this.cutChanged();
+      } else {
+        const action = {
+          f: () => this.do('fit'), p: () => this.toggle('parallel'), e: () => this.toggle('edges'), l: () => this.toggle('labels'), b: () => this.toggle('before'),
+          t: () => this.do('theme'), x: () => this.toggle('box'), o: () => this.toggle('lasso'), w: () => this.do('worst-next'), '?': () => this.do('help'),
+          '/': () => element('search').focus(), a: () => this.do('all'), i: () => this.do('only'), h: () => this.do('hide'),
+          g: () => { element('what').value = whats[(whats.indexOf(element('what').value) + 1) % 3]; this.applyLook(); },
+          c: () => { document.querySelector(`input[name="cut"][value="${cuts[(cuts.indexOf(this.clip.mode) + 1) % 3]}"]`).checked = true; this.cutChanged(true); },
+          k: () => { const all = kindsToPick.map(([kind]) => kind); this.setKind(all[(all.indexOf(this.stage.kind) + 1) % all.length]); this.say(`picks: ${this.stage.kind}`); },
+          ':': () => element('prompt')?.focus(),
+        }[e.key.toLowerCase()];
+        if (!action) return;
+        action();
+      }
+      e.preventDefault();
+      this.draw();
+    });
+  }
+}

@@ -1,0 +1,116 @@
+// The list of entities of a kind: only the rows that are seen exist, so a million hexes are a list like any.
+import { kinds, pluralOf } from './scene.js';
+
+const rowHeight = 24;
+const mostHeight = 24e6;  // browsers end somewhere beyond 30 million pixels
+
+export class EntityList {
+  /** on: { pick(kind, id, position, add), fit(kind, position) } */
+  constructor(app, on) {
+    this.app = app;
+    this.on = on;
+    this.box = document.getElementById('list');
+    this.space = document.getElementById('list-space');
+    this.search = document.getElementById('search');
+    this.select = document.getElementById('list-kind');
+    this.at = 0;
+    this.box.addEventListener('scroll', () => this.render());
+    this.search.addEventListener('input', () => this.filter());
+    this.search.addEventListener('keydown', (e) => { if (e.key === 'Enter' && this.rows.length) this.choose(0, false, true); });
+    this.select.addEventListener('change', () => this.show(this.select.value));
+    this.box.addEventListener('click', (e) => {
+      const item = e.target.closest('.item');
+      if (item) this.choose(Number(item.dataset.at), e.ctrlKey || e.metaKey || e.shiftKey, false);
+    });
+    this.box.addEventListener('dblclick', (e) => {
+      const item = e.target.closest('.item');
+      if (item) this.on.fit(this.kind, this.rows.at(Number(item.dataset.at)));
+    });
+    this.box.addEventListener('keydown', (e) => {
+      const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10, Home: -1e9, End: 1e9 }[e.key];
+      if (step) {
+        this.at = Math.max(0, Math.min(this.rows.length - 1, this.at + step));
+        const top = this.at * rowHeight;
+        if (top < this.box.scrollTop) this.box.scrollTop = top;
+        if (top + rowHeight > this.box.scrollTop + this.box.clientHeight) this.box.scrollTop = top + rowHeight - this.box.clientHeight;
+        this.render();
+      } else if (e.key === 'Enter' || e.key === ' ') this.choose(this.at, e.key === ' ' || e.ctrlKey, e.key === 'Enter');
+      else return;
+      e.preventDefault();
+      e.stopPropagation();
+    });
+    new ResizeObserver(() => this.render()).observe(this.box);
+  }
+
+  /** Kinds that this mesh has any of. */
+  reset(scene) {
+    this.scene = scene;
+    const kind = this.kind ?? 'surface';
+    this.select.replaceChildren();
+    for (const each of [...kinds, 'group']) {
+      const n = scene.count(each);
+      if (n === 0 || ((each === 'edge' || each === 'face' || each === 'sheet') && !scene.hasInside)) continue;
+      this.select.append(new Option(`${pluralOf(each)}${n === null ? '' : ` (${n.toLocaleString('en')})`}`, each));
+    }
+    this.show([...this.select.options].some((o) => o.value === kind) ? kind : this.select.options[0].value);
+  }
+  async show(kind) {
+    this.kind = kind;
+    this.select.value = kind;
+    if (this.scene.count(kind) === null || ((kind === 'hex' || kind === 'node') && (this.scene.skin.node_id || this.scene.skin.quad_hex_id) && this.scene.hasInside))
+      await this.app.busy('loading the inside', () => this.scene.inside());
+    this.at = 0;
+    this.filter();
+  }
+  filter() {
+    const said = this.search.value.trim().toLowerCase(), n = this.scene.count(this.kind) ?? 0, words = said.split(/\s+/).filter(Boolean);
+    if (!words.length) this.rows = { length: n, at: (i) => i };
+    else if (!this.scene.meta[this.kind]) {
+      // Of what has no names: ids, and those that begin with these digits.
+      const id = Number(words[words.length - 1].replace(/^#/, '')), position = Number.isInteger(id) ? this.scene.find(this.kind, id) : -1;
+      const list = position >= 0 ? [position] : [];
+      this.rows = { length: list.length, at: (i) => list[i] };
+    } else {
+      const list = [];
+      for (let i = 0; i < n; ++i) {
+        const { id, name, note } = this.scene.row(this.kind, i), text = `${this.kind} ${id} ${name} ${note}`.toLowerCase();
+        if (words.every((word) => (/^\d+$/.test(word) ? String(id) === word || name.toLowerCase().includes(word) : text.includes(word)))) list.push(i);
+      }
+      this.rows = { length: list.length, at: (i) => list[i] };
+    }
+    this.at = Math.min(this.at, Math.max(0, this.rows.length - 1));
+    this.space.style.height = `${Math.min(mostHeight, this.rows.length * rowHeight)}px`;
+    this.box.scrollTop = 0;
+    this.render();
+  }
+  render() {
+    if (!this.rows) return;
+    const { rows, box, space } = this, whole = rows.length * rowHeight, shown = Math.min(mostHeight, whole);
+    // Taller lists than there can be are scrolled in larger steps.
+    const room = Math.max(1, shown - box.clientHeight), top = whole > shown ? (box.scrollTop / room) * (whole - box.clientHeight) : box.scrollTop;
+    const first = Math.max(0, Math.floor(top / rowHeight) - 2), last = Math.min(rows.length, first + Math.ceil(box.clientHeight / rowHeight) + 5);
+    const picks = this.app.picks, items = [];
+    for (let i = first; i < last; ++i) {
+      const { id, name, note } = this.scene.row(this.kind, rows.at(i)), item = document.createElement('div');
+      item.className = `item${i === this.at ? ' at' : ''}`;
+      item.id = `item-${i}`;
+      item.dataset.at = i;
+      item.setAttribute('role', 'option');
+      item.setAttribute('aria-selected', picks.kind === this.kind && picks.ids.has(id));
+      item.setAttribute('aria-posinset', i + 1);
+      item.setAttribute('aria-setsize', rows.length);
+      item.style.top = `${box.scrollTop + i * rowHeight - top}px`;
+      item.append(`${this.kind} ${id}`);
+      if (name || note) item.append(Object.assign(document.createElement('small'), { textContent: [name, note].filter(Boolean).join(' · ') }));
+      items.push(item);
+    }
+    space.replaceChildren(...items);
+    box.setAttribute('aria-activedescendant', rows.length ? `item-${this.at}` : '');
+  }
+  choose(i, add, fit) {
+    this.at = i;
+    const position = this.rows.at(i);
+    this.on.pick(this.kind, this.scene.row(this.kind, position).id, position, add);
+    if (fit) this.on.fit(this.kind, position);
+  }
+}

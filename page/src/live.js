@@ -1,0 +1,260 @@
+// A session behind the page: a prompt, what commands say, and the mesh as it changes.
+import { Scene, short } from './scene.js';
+import { completed, unpack } from './unpack.js';
+
+const element = (id) => document.getElementById(id);
+const formats = ['.msh', '.vtu', '.e', '.inp', '.mesh', '.png', '.html'];
+const make = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
+
+export class Live {
+  constructor(app) {
+    this.app = app;
+    app.live = this;
+    this.token = new URLSearchParams(location.search).get('token') ?? '';
+    this.history = [];
+    this.files = new Set();
+    this.next = 0;
+    this.version = -1;
+    this.blocks = new Map();  // name -> { number, arrays }
+  }
+
+  async ask(path, body) {
+    const response = await fetch(path, {
+      method: body ? 'POST' : 'GET', body: body ? JSON.stringify(body) : undefined,
+      headers: { 'X-Hextwist-Token': this.token, ...(body ? { 'Content-Type': 'application/json' } : {}) },
+    });
+    if (!response.ok) {
+      const { error = response.statusText } = await response.json().catch(() => ({}));
+      throw Object.assign(new Error(error), { status: response.status });
+    }
+    return response;
+  }
+
+  async start() {
+    this.build();
+    await this.join();
+    this.follow();
+    await new Promise((resolve) => { this.isThere = resolve; });
+  }
+  /** The session of this tab, or a new one where that is gone. */
+  async join() {
+    const before = sessionStorage.getItem('hextwist-session') ?? '';
+    const { id, known } = await (await this.ask('session', { id: before })).json();
+    sessionStorage.setItem('hextwist-session', id);
+    if (this.id && !known) this.log('note', 'the session of before is gone: this is a new one');
+    if (!known) {
+      this.next = 0;
+      this.version = -1;
+      this.blocks.clear();
+    }
+    this.id = id;
+  }
+  async follow() {
+    for (;;) {
+      try {
+        const news = await (await this.ask(`events?id=${this.id}&since=${this.next}`)).json();
+        this.connected(true);
+        this.next = news.next;
+        this.isShown = false;
+        for (const event of news.events) this.happened(event);
+        this.progress(news);
+        if (news.version !== this.version && !news.running) await this.reload(news.version);
+        this.isShown = !news.running;
+        if (!news.running) this.isThere?.();
+      } catch (error) {
+        if (error.status === 404) await this.join().catch(() => {});
+        else if (error.status === 403) {
+          this.connected(false, error.message);
+          this.isThere?.();
+          return;
+        } else if (error.status !== 409) this.connected(false);
+        await new Promise((resolve) => setTimeout(resolve, 700));
+      }
+    }
+  }
+  connected(yes, why = 'connection lost, trying again') {
+    element('connection').textContent = yes ? '' : why;
+    element('connection').hidden = yes;
+  }
+
+  /** Arrays of a block; only what has changed is sent. */
+  async load(name) {
+    const have = this.blocks.get(name);
+    const response = await this.ask(`block?id=${this.id}&name=${name}&have=${have?.number ?? 0}`).catch((error) => {
+      if (error.status === 404) return null;
+      throw error;
+    });
+    if (!response) return null;
+    const bytes = new Uint8Array(await response.arrayBuffer());
+    this.received = (this.received ?? 0) + bytes.length;
+    let arrays = await unpack(bytes);
+    if (response.headers.get('X-Hextwist-Difference') === '1') arrays = completed(arrays, have.arrays);
+    if (!/^c\d+$/.test(name)) this.blocks.set(name, { number: Number(response.headers.get('X-Hextwist-Number')), arrays });
+    return arrays;
+  }
+  async reload(version) {
+    const { app } = this, before = app.panes.length ? app.scene : null, isTwo = app.panes.length > 1;
+    const scene = await Scene.open((name) => this.load(name));
+    this.version = version;
+    if (!scene) {
+      app.say('there is no mesh yet: import one, or create a brick');
+      return;
+    }
+    // What is not loaded of the mesh before is not to be had any more.
+    if (before) before.load = async () => null;
+    await app.open(scene, before, before !== null);
+    if (isTwo) await app.showBefore(true);
+  }
+
+  happened({ kind, text, record }) {
+    if (kind === 'record') return this.report(record);
+    if (kind === 'file') {
+      this.files.add(text);
+      const link = make('button', { textContent: `save ${text}`, title: `Download ${text}` });
+      link.addEventListener('click', () => this.save(text));
+      element('log').append(link, '\n');
+      return;
+    }
+    if (kind === 'command') {
+      if (this.history[this.history.length - 1] !== text) this.history.push(text);
+      this.at = this.history.length;
+    }
+    this.log(kind, kind === 'command' ? `> ${text}` : text);
+  }
+  log(kind, text) {
+    const log = element('log'), atEnd = log.scrollTop + log.clientHeight > log.scrollHeight - 40;
+    log.append(make('span', { className: kind === 'command' ? 'said' : kind, textContent: `${text}\n` }));
+    while (log.childNodes.length > 3000) log.firstChild.remove();
+    if (atEnd || kind === 'command') log.scrollTop = log.scrollHeight;
+  }
+  report(record) {
+    const box = element('report'), row = (name, value) => make('tr', {}, make('th', { scope: 'row', textContent: name }), make('td', { textContent: value }));
+    const pair = (both) => (both.after ? `${both.before && both.before.min !== both.after.min ? `${short(both.before.min)} → ` : ''}${short(both.after.min)}` : '–');
+    const rows = [
+      row('command', record.command), row('done', record.ok ? 'yes' : `no: ${record.error}`),
+      row('hexes', record.hexes_before === record.hexes_after ? record.hexes_after.toLocaleString('en') : `${record.hexes_before.toLocaleString('en')} → ${record.hexes_after.toLocaleString('en')}${record.dry_run ? ' (dry run)' : ''}`),
+      row('smallest shape', pair(record.shape)), row('scaled Jacobian', pair(record.scaled_jacobian)),
+      row(record.off_cad.model === 'cad' ? 'off the CAD' : 'off the skin', short(record.off_cad.max)), row('seconds', short(record.seconds.total)),
+    ];
+    box.replaceChildren(make('table', {}, make('tbody', {}, ...rows)));
+  }
+  progress({ running, stage, share }) {
+    this.running = running;
+    element('cancel').disabled = !running;
+    for (const id of ['undo', 'redo', 'export']) element(id).disabled = running;
+    element('progress').hidden = !running;
+    element('stage-now').textContent = running ? stage : '';
+    if (running && share > 0) element('progress').value = share;
+    else element('progress').removeAttribute('value');
+  }
+
+  async run(text) {
+    if (!text.trim()) return;
+    try {
+      await this.ask('run', { id: this.id, text });
+      element('prompt').value = '';
+    } catch (error) {
+      this.log('error', `error: ${error.message}`);
+    }
+  }
+  async save(name) {
+    const blob = await (await this.ask(`file?id=${this.id}&name=${encodeURIComponent(name)}`)).blob();
+    const link = make('a', { href: URL.createObjectURL(blob), download: name.split('/').pop() });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+  async complete() {
+    const line = element('prompt').value, list = element('offers');
+    const { words } = await (await this.ask('complete', { id: this.id, line })).json();
+    const start = line.match(/[^\s;,"']*$/)[0];
+    const take = (word) => {
+      element('prompt').value = line.slice(0, line.length - start.length).replace(word.startsWith('"') ? /"$/ : /$^/, '') + word + ' ';
+      this.offer([]);
+      element('prompt').focus();
+    };
+    if (words.length === 1) return take(words[0]);
+    // As far as all of them agree.
+    let common = words[0] ?? '';
+    for (const word of words) while (!word.startsWith(common)) common = common.slice(0, -1);
+    if (common.length > start.length && common.startsWith(start)) element('prompt').value = line.slice(0, line.length - start.length) + common;
+    this.offer(words, take);
+  }
+  offer(words, take) {
+    const list = element('offers');
+    this.offers = words.slice(0, 200);
+    this.offerAt = -1;
+    this.take = take;
+    list.replaceChildren(...this.offers.map((word, i) => {
+      const item = make('li', { textContent: word, id: `offer-${i}`, role: 'option' });
+      item.addEventListener('click', () => take(word));
+      return item;
+    }));
+    list.hidden = !words.length;
+    element('prompt').setAttribute('aria-expanded', words.length > 0);
+  }
+
+  build() {
+    const prompt = make('input', { id: 'prompt', type: 'text', autocomplete: 'off', spellcheck: false, placeholder: 'refine curve 3 5 – Tab completes, arrows go through what was said' });
+    prompt.setAttribute('aria-label', 'Command');
+    prompt.setAttribute('role', 'combobox');
+    prompt.setAttribute('aria-controls', 'offers');
+    prompt.setAttribute('aria-expanded', 'false');
+    const button = (id, text, title, action) => {
+      const made = make('button', { id, textContent: text, title });
+      made.addEventListener('click', action);
+      return made;
+    };
+    const exports = make('select', { id: 'export', title: 'Write the mesh into a file in the folder of the session' }, new Option('Export…', ''), ...formats.map((f) => new Option(f, f)));
+    exports.setAttribute('aria-label', 'Export');
+    exports.addEventListener('change', () => {
+      const file = `${this.app.panes.length ? this.app.scene.meta.title : 'mesh'}_out${exports.value}`;
+      if (exports.value) this.run(exports.value === '.png' || exports.value === '.html' ? `draw to "${file}" overwrite` : `export mesh "${file}" overwrite`);
+      exports.value = '';
+    });
+    const offers = make('ul', { id: 'offers', role: 'listbox', hidden: true });
+    offers.setAttribute('aria-label', 'Completions');
+    const log = make('div', { id: 'log', tabIndex: 0, role: 'log' }), report = make('div', { id: 'report' });
+    log.setAttribute('aria-label', 'What commands say');
+    report.setAttribute('role', 'region');
+    report.setAttribute('aria-label', 'Report on the last command');
+    const progress = make('progress', { id: 'progress', hidden: true, max: 1 });
+    progress.setAttribute('aria-label', 'Progress');
+    element('live').append(
+      make('div', { id: 'said' }, log, report),
+      make('div', { id: 'prompt-row' }, offers, prompt, make('span', { id: 'stage-now' }), progress, make('span', { id: 'connection', hidden: true, role: 'alert' }),
+        button('cancel', 'Cancel', 'Stop the running command', () => this.ask('cancel', { id: this.id })),
+        button('undo', 'Undo', 'Undo the last command', () => this.run('undo')), button('redo', 'Redo', 'Redo what was undone', () => this.run('redo')), exports),
+    );
+    element('live').hidden = false;
+    element('run-command').addEventListener('click', () => this.run(element('command').value));
+    prompt.addEventListener('input', () => this.offer([]));
+    prompt.addEventListener('keydown', (e) => {
+      const { offers: words = [] } = this;
+      if (e.key === 'Tab' && !e.shiftKey && prompt.value) this.complete().catch((error) => this.log('error', error.message));
+      else if (words.length && (e.key === 'ArrowDown' || e.key === 'ArrowUp')) {
+        this.offerAt = (this.offerAt + (e.key === 'ArrowDown' ? 1 : -1) + words.length) % words.length;
+        [...element('offers').children].forEach((item, i) => item.setAttribute('aria-selected', i === this.offerAt));
+        element(`offer-${this.offerAt}`).scrollIntoView({ block: 'nearest' });
+        prompt.setAttribute('aria-activedescendant', `offer-${this.offerAt}`);
+      } else if (e.key === 'Enter') {
+        if (words.length && this.offerAt >= 0) this.take(words[this.offerAt]);
+        else {
+          this.offer([]);
+          this.run(prompt.value);
+        }
+      } else if (e.key === 'Escape') {
+        if (words.length) this.offer([]);
+        else element('view').focus();
+      } else if (e.key === 'ArrowUp' || e.key === 'ArrowDown') {
+        this.at = Math.max(0, Math.min(this.history.length, (this.at ?? this.history.length) + (e.key === 'ArrowUp' ? -1 : 1)));
+        prompt.value = this.history[this.at] ?? '';
+      } else return;
+      e.preventDefault();
+      e.stopPropagation();
+    });
+  }
+}

@@ -1,0 +1,390 @@
+// The page in a real browser: what is picked, coloured, cut; keys; names of controls.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { browser as launch, drawn, idsOf, listed, model, open, output, random, run, spawn, toLine, truth } from './support.mjs';
+
+let browser;
+before(async () => { browser = await launch(); });
+after(() => browser.close());
+
+const shot = (page, name) => page.screenshot({ path: join(output, `${name}.png`) });
+const value = (page, id) => page.$eval(`#${id}`, (e) => e.value);
+const settled = (page) => page.evaluate(async () => { await hextwist.queue; await new Promise((r) => setTimeout(r, 60)); });
+const kindOf = (page, kind) => page.click(`#pick-kinds label:has(input[value="${kind}"])`);
+
+/** Parallel, from a direction; returns the frame of the canvas. */
+async function lookFrom(page, mesh, direction) {
+  if ((await page.getAttribute('[data-toggle="parallel"]', 'aria-pressed')) !== 'true') await page.click('[data-toggle="parallel"]');
+  await page.click(`[data-view="${direction}"]`);
+  await page.evaluate(() => hextwist.picks.clear());
+  await page.click('[data-do="fit"]');
+  const box = await (await page.$('#view')).boundingBox(), height = await page.evaluate(() => hextwist.stage.eye.height);
+  const view = mesh.look(direction.split(' ').map(Number), height, box.width, box.height);
+  return { box, view };
+}
+async function clickAt(page, { box }, [x, y]) {
+  await page.evaluate(() => hextwist.picks.clear());
+  await page.mouse.click(box.x + x, box.y + y);
+  await page.waitForTimeout(30);
+  await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => setTimeout(r, 20))));
+  return value(page, 'range');
+}
+
+for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
+  test(`a click finds the entity of every kind that is there: ${name}`, async () => {
+    const mesh = truth(name), page = await open(browser, drawn(`picks_${name}`, name)), next = random(7);
+    const blocks = listed(run([...model(name), '-c', 'list block all']), 'block');
+    for (const direction of ['1 -1 0.7', '0 -1 0']) {
+      const frame = await lookFrom(page, mesh, direction), { view, box } = frame;
+      const seen = (p, slack) => { const at = mesh.pixel(view, p), hit = mesh.meet(view, ...at); return !hit || mesh.depth(view, p) > hit.depth - slack; };
+      for (const kind of ['hex', 'face', 'surface', 'volume', 'node', 'edge', 'block']) {
+        await kindOf(page, kind);
+        for (let tries = 0, done = 0; done < 3 && tries < 400; ++tries) {
+          const at = [next() * box.width, next() * box.height], hit = mesh.meet(view, ...at);
+          if (!hit || hit.margin < 2) continue;
+          const { face, corners } = hit, to = corners.map((c) => Math.hypot(c[0] - at[0], c[1] - at[1]));
+          const sides = corners.map((c, i) => toLine(...at, c, corners[(i + 1) % 4])), nearest = (d) => d.indexOf(Math.min(...d)), isClear = (d) => { const s = [...d].sort((a, b) => a - b); return s[1] - s[0] > 2; };
+          if ((kind === 'node' && !isClear(to)) || (kind === 'edge' && !isClear(sides))) continue;
+          const k = nearest(sides), ends = [face.cycle[k], face.cycle[(k + 1) % 4]].sort((a, b) => a - b);
+          const id = { hex: face.hexes[0].id, face: face.id, surface: face.surface, volume: face.hexes[0].volume, node: face.cycle[nearest(to)], edge: mesh.edgeIds.get(ends.join()), block: null }[kind];
+          const range = await clickAt(page, frame, at);
+          if (kind === 'block') assert.ok(blocks.length === 0 ? range === '' : blocks.includes(idsOf(range)[0]), `${range} of ${blocks}`);
+          else assert.equal(range, `${kind} ${id}`, `${name} from ${direction} at ${at}`);
+          ++done;
+        }
+      }
+      // Curves at the middles of their edges, vertices at their places; kind "auto" finds the same.
+      for (const kind of ['curve', 'geometry']) {
+        await kindOf(page, kind);
+        for (let done = 0, tries = 0; done < 3 && tries < 300; ++tries) {
+          const edge = mesh.curves[Math.floor(next() * mesh.curves.length)], [p, q] = edge.nodes.map((n) => mesh.points.get(n));
+          const middle = p.map((v, i) => (v + q[i]) / 2), at = mesh.pixel(view, middle);
+          if (!seen(middle, 1e-3) || Math.hypot(...mesh.pixel(view, p).map((v, i) => v - mesh.pixel(view, q)[i])) < 8) continue;
+          const near = (other) => other.curve !== edge.curve && toLine(...at, ...other.nodes.map((n) => mesh.pixel(view, mesh.points.get(n)))) < 12;
+          if (mesh.curves.some(near)) continue;
+          if ([...mesh.vertices.values()].some((n) => Math.hypot(...mesh.pixel(view, mesh.points.get(n)).map((v, i) => v - at[i])) < 14)) continue;
+          assert.equal(await clickAt(page, frame, at), `curve ${edge.curve}`, `${name} from ${direction}`);
+          ++done;
+        }
+      }
+      await kindOf(page, 'vertex');
+      for (const [id, node] of [...mesh.vertices].slice(0, 8)) {
+        const p = mesh.points.get(node), at = mesh.pixel(view, p);
+        if (!seen(p, 1e-3) || [...mesh.vertices].some(([other, n]) => other !== id && Math.hypot(...mesh.pixel(view, mesh.points.get(n)).map((v, i) => v - at[i])) < 10)) continue;
+        assert.equal(await clickAt(page, frame, at), `vertex ${id}`);
+      }
+    }
+    await shot(page, `picks_${name}`);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
+test('sets are picked by what is in them', async () => {
+  const page = await open(browser, drawn('sets', null, 'create brick x 4 interval 4; sideset 5 surface 1; nodeset 6 curve 1; reset block; block 7 hex 1 to 64'));
+  const mesh = truth(null, 'create brick x 4 interval 4');
+  for (const direction of ['1 -1 0.7', '-1 0 0', '0 0 -1', '0 1 0', '1 0 0', '0 0 1']) {
+    const frame = await lookFrom(page, mesh, direction), at = [frame.box.width / 2, frame.box.height / 2 + 9], hit = mesh.meet(frame.view, ...at);
+    await kindOf(page, 'sideset');
+    assert.equal(await clickAt(page, frame, at), hit.face.surface === 1 ? 'sideset 5' : '', direction);
+    await kindOf(page, 'block');
+    assert.equal(await clickAt(page, frame, at), 'block 7');
+  }
+  await page.selectOption('#list-kind', 'nodeset');
+  await page.click('#list .item');
+  assert.equal(await value(page, 'range'), 'nodeset 6');
+  assert.equal(await value(page, 'command'), 'refine node in nodeset 6');
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('several picks make one range, and commands that the program takes', async () => {
+  const page = await open(browser, drawn('ranges', 'bracket'));
+  await page.selectOption('#list-kind', 'curve');
+  for (const [i, id] of [3, 5, 6, 7, 12].entries()) await page.click(`#list .item:has-text("curve ${id}") >> nth=0`, { modifiers: i ? ['Control'] : [] });
+  assert.equal(await value(page, 'range'), 'curve 3 5 to 7 12');
+  assert.equal(await value(page, 'command'), 'refine curve 3 5 to 7 12');
+  // Taken out again.
+  await page.click('#list .item:has-text("curve 12")', { modifiers: ['Control'] });
+  assert.equal(await value(page, 'range'), 'curve 3 5 to 7');
+  const kinds = await page.$$eval('#command-kind option', (all) => all.map((o) => o.value));
+  assert.ok(kinds.length >= 8);
+  for (const kind of ['vertex', 'curve', 'surface', 'volume', 'node', 'edge', 'face', 'hex', 'block', 'nodeset', 'sideset', 'sheet']) {
+    await page.selectOption('#list-kind', kind);
+    await page.waitForSelector('#list .item');
+    await page.click('#list .item');
+    const texts = [];
+    for (const command of kinds.filter((k) => k !== 'range alone')) {
+      await page.selectOption('#command-kind', command);
+      await page.waitForTimeout(5);
+      texts.push(await value(page, 'command'));
+    }
+    // Those that cut hexes come last. What does not apply to the kind (no levels to take back) is said; the words are
+    // always understood.
+    const cuts = texts.filter((text) => text.startsWith('refine'));
+    for (const cut of cuts) {
+      const said = spawn([...model('bracket'), '--keep-going', '-c', [...texts.filter((text) => !cuts.includes(text)), cut].join('; ')]);
+      assert.doesNotMatch(said, /expected|unexpected|does not exist|ambiguous/, texts.join('; '));
+    }
+  }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('the list is searched by name, id and type', async () => {
+  const page = await open(browser, drawn('search', 'bracket', 'curve 4 name "rim of the bore"'));
+  const rows = () => page.$$eval('#list .item', (all) => all.map((e) => e.textContent));
+  await page.selectOption('#list-kind', 'curve');
+  await page.fill('#search', 'bore');
+  assert.equal((await rows()).length, 1);
+  assert.match((await rows())[0], /curve 4.*rim of the bore/);
+  await page.press('#search', 'Enter');
+  assert.equal(await value(page, 'range'), 'curve 4');
+  await page.fill('#search', 'circle');
+  const circles = listed(run([...model('bracket'), '-c', 'list curve with radius > 0']), 'curve');
+  assert.deepEqual((await rows()).map((text) => Number(text.match(/curve (\d+)/)[1])), circles);
+  await page.selectOption('#list-kind', 'hex');
+  await page.fill('#search', '417');
+  assert.deepEqual((await rows()).map((t) => t.trim()), ['hex 417']);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('colours, histogram and worst ten are those of the program', async () => {
+  const page = await open(browser, drawn('colours', 'bracket', 'refine curve 5 depth 1')), start = [...model('bracket')];
+  const report = JSON.parse((run([...start, '-c', 'refine curve 5 depth 1', '--json', join(output, 'r.json')]), readFileSync(join(output, 'r.json'), 'utf8')));
+  const worst = report.commands.at(-1).shape.after;
+  const before = await page.screenshot();
+  await page.selectOption('#colour', 'shape');
+  await settled(page);
+  assert.notEqual(Buffer.compare(before, await shot(page, 'colours')), 0);
+  assert.match(await page.textContent('#legend'), /shape/);
+  const bars = await page.$$('#histogram button:not([disabled])');
+  let total = 0;
+  for (const bar of bars.slice(0, 6)) {
+    const [, from, to, count] = (await bar.getAttribute('aria-label')).match(/(\S+) to (\S+): ([\d,]+) hex/);
+    await bar.click();
+    const picked = idsOf(await value(page, 'range'));
+    assert.equal(picked.length, Number(count.replace(',', '')));
+    total += picked.length;
+    const width = Number(to) - Number(from), inner = listed(run([...start, '-c', `refine curve 5 depth 1; list hex with quality shape > ${Number(from) + 0.01 * width} and quality shape < ${Number(to) - 0.01 * width}`]), 'hex');
+    for (const id of inner) assert.ok(picked.includes(id), `hex ${id} between ${from} and ${to}`);
+  }
+  assert.ok(total > 0);
+  await page.click('[data-do="worst-next"]');
+  // Of equal ones it may be another.
+  await page.waitForFunction(() => /^1: hex (\d+), /.test(document.getElementById('worst-now').value));
+  await page.waitForFunction(() => document.getElementById('worst-now').value.includes(`${document.getElementById('range').value},`));
+  const values = [];
+  for (let i = 0; i < 9; ++i) {
+    values.push(Number((await value(page, 'worst-now')).split(', ')[1]));
+    await page.click('[data-do="worst-next"]');
+  }
+  assert.deepEqual(values, [...values].sort((a, b) => a - b));
+  assert.ok(Math.abs(values[0] - worst.min) < 1e-3 * worst.min);
+  // Everything that is offered can be chosen.
+  const offered = await page.$$eval('#colour option:not([disabled])', (all) => all.map((o) => o.value));
+  for (const name of ['volume', 'level', 'template', 'sheet', 'scaled Jacobian', 'oddy', 'dimension']) assert.ok(offered.includes(name), name);
+  for (const name of offered) { await page.selectOption('#colour', name); await settled(page); }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('levels, fields and wished sizes give colours', async () => {
+  const page = await open(browser, drawn('fields', null, 'create brick x 4 interval 4; refine hex 22 graded; sizing function f "1 + 0.1*abs(x)"', 'hex all quality shape'));
+  assert.equal(await value(page, 'colour'), 'shape');
+  for (const [name, what] of [['level', /level 1/], ['template', /one into 27/], ['actual / wished size', /actual/]]) {
+    await page.selectOption('#colour', name);
+    await settled(page);
+    assert.match(await page.textContent('#legend'), what);
+  }
+  await page.selectOption('#colour', 'template');
+  await settled(page);
+  await page.click('#histogram button:has-text("one into 27")');
+  assert.equal(idsOf(await value(page, 'range')).length, 27);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('a cut shows whole hexes inside, and a click finds them', async () => {
+  const commands = 'create brick x 6 interval 6', page = await open(browser, drawn('cut', null, commands)), mesh = truth(null, commands);
+  const frame = await lookFrom(page, mesh, '1 0 0');
+  await kindOf(page, 'hex');
+  await page.click('input[name="cut"][value="crinkle"]');
+  await page.$eval('#cut-at', (e) => { e.value = 0.5; e.dispatchEvent(new Event('input')); });
+  await settled(page);
+  const outside = new Set(mesh.skin.map((face) => face.hexes[0].id)), shownFaces = mesh.faces.filter((face) => {
+    const kept = face.hexes.filter((hex) => hex.nodes.reduce((sum, n) => sum + mesh.points.get(n)[0] / 8, 0) < 0);
+    return kept.length === 1;
+  });
+  let inside = 0;
+  for (const at of [[0.5, 0.45], [0.47, 0.6], [0.55, 0.4], [0.3, 0.5]]) {
+    const pixel = [frame.box.width * at[0], frame.box.height * at[1]], hit = mesh.meet(frame.view, ...pixel, shownFaces);
+    const range = await clickAt(page, frame, pixel);
+    const expected = hit ? hit.face.hexes.find((hex) => hex.nodes.reduce((sum, n) => sum + mesh.points.get(n)[0], 0) < 0).id : null;
+    assert.equal(range, expected === null ? '' : `hex ${expected}`);
+    if (expected !== null && !outside.has(expected)) ++inside;
+  }
+  assert.ok(inside > 0, 'no hex inside was met');
+  await shot(page, 'cut');
+  await page.click('input[name="cut"][value="plane"]');
+  await page.$eval('#cut-at', (e) => { e.value = 0.42; e.dispatchEvent(new Event('input')); });
+  await settled(page);
+  const range = await clickAt(page, frame, [frame.box.width / 2 + 7, frame.box.height / 2 + 7]);
+  assert.ok(!outside.has(idsOf(range)[0]), range);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('sheets and columns are those of the program', async () => {
+  const page = await open(browser, drawn('sheets', 'cam'));
+  await page.selectOption('#list-kind', 'sheet');
+  await page.waitForSelector('#list .item');
+  await page.fill('#search', '7');
+  await page.click('#list .item');
+  await page.click('[data-do="only"]');
+  await settled(page);
+  const shown = await page.evaluate(() => Array.from(hextwist.shownHexes.keys()).filter((h) => hextwist.shownHexes[h]).map((h) => hextwist.scene.hexId(h)));
+  assert.deepEqual(shown, listed(run([...model('cam'), '-c', 'list hex in sheet 7']), 'hex'));
+  await page.check('#planes');
+  await settled(page);
+  await shot(page, 'sheet');
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('boxes and lassos pick hexes', async () => {
+  const commands = 'create brick x 6 interval 6', page = await open(browser, drawn('boxes', null, commands)), mesh = truth(null, commands);
+  const frame = await lookFrom(page, mesh, '0 -1 0'), { box, view } = frame;
+  const rectangle = [[box.width * 0.42, box.height * 0.4], [box.width * 0.61, box.height * 0.7]];
+  const expected = mesh.skin.filter((face) => {
+    const p = [0, 1, 2].map((k) => face.cycle.reduce((sum, n) => sum + mesh.points.get(n)[k] / 4, 0)), [x, y] = mesh.pixel(view, p);
+    return p[1] < -2.9 && x > rectangle[0][0] && x < rectangle[1][0] && y > rectangle[0][1] && y < rectangle[1][1];
+  }).map((face) => face.hexes[0].id).sort((a, b) => a - b);
+  await page.click('[data-toggle="box"]');
+  await page.mouse.move(box.x + rectangle[0][0], box.y + rectangle[0][1]);
+  await page.mouse.down();
+  await page.mouse.move(box.x + rectangle[1][0], box.y + rectangle[1][1], { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  assert.ok(expected.length > 1);
+  assert.deepEqual(idsOf(await value(page, 'range')), expected);
+  await page.click('[data-toggle="lasso"]');
+  await page.mouse.move(box.x + rectangle[0][0], box.y + rectangle[0][1]);
+  await page.mouse.down();
+  for (const [x, y] of [[rectangle[1][0], rectangle[0][1]], rectangle[1], [rectangle[0][0], rectangle[1][1]]]) await page.mouse.move(box.x + x, box.y + y, { steps: 3 });
+  await page.mouse.up();
+  await settled(page);
+  assert.deepEqual(idsOf(await value(page, 'range')), expected);
+  // Through and through: the hexes behind them as well.
+  await page.check('#through');
+  await page.click('[data-toggle="box"]');
+  await page.mouse.move(box.x + rectangle[0][0], box.y + rectangle[0][1]);
+  await page.mouse.down();
+  await page.mouse.move(box.x + rectangle[1][0], box.y + rectangle[1][1], { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  assert.equal(idsOf(await value(page, 'range')).length, 6 * expected.length);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('the page and the picture of a command show the same', async () => {
+  const page = await open(browser, drawn('same', 'pipe_tee')), mesh = truth('pipe_tee');
+  const { box } = await lookFrom(page, mesh, '1 -1 0.7');
+  await page.mouse.move(5, 300);
+  await page.evaluate(() => { hextwist.pane.curves.visible = false; document.getElementById('over').hidden = true; document.getElementById('legend').hidden = true; });
+  const size = [Math.round(box.width), Math.round(box.height)];
+  run([...model('pipe_tee'), '-c', `draw pixels ${size[0]} ${size[1]} to '${join(output, 'same_picture.png')}' overwrite`]);
+  await settled(page);
+  const seen = await page.screenshot({ path: join(output, 'same_page.png'), clip: { x: box.x, y: box.y, width: size[0], height: size[1] } });
+  const picture = readFileSync(join(output, 'same_picture.png'));
+  const blank = await browser.newPage();
+  // Bounding box and filled part of that box, of either: the scale differs, what is seen does not.
+  const [a, b] = await blank.evaluate(async (images) => {
+    const results = [];
+    for (const image of images) {
+      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${image}`)).blob()), canvas = new OffscreenCanvas(bitmap.width, bitmap.height), pen = canvas.getContext('2d');
+      pen.drawImage(bitmap, 0, 0);
+      const { data } = pen.getImageData(0, 0, bitmap.width, bitmap.height), back = data.slice(0, 3);
+      const isInk = (x, y) => [0, 1, 2].some((k) => Math.abs(data[4 * (y * bitmap.width + x) + k] - back[k]) > 8);
+      let x0 = 1e9, x1 = -1, y0 = 1e9, y1 = -1;
+      for (let y = 0; y < bitmap.height; ++y) for (let x = 0; x < bitmap.width; ++x) if (isInk(x, y)) { x0 = Math.min(x0, x); x1 = Math.max(x1, x); y0 = Math.min(y0, y); y1 = Math.max(y1, y); }
+      const n = 60, mask = [];
+      for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i) mask.push(isInk(Math.round(x0 + ((x1 - x0) * (i + 0.5)) / n), Math.round(y0 + ((y1 - y0) * (j + 0.5)) / n)) ? 1 : 0);
+      results.push({ aspect: (x1 - x0) / (y1 - y0), mask });
+    }
+    return results;
+  }, [seen.toString('base64'), picture.toString('base64')]);
+  assert.ok(Math.abs(a.aspect - b.aspect) < 0.02 * b.aspect, `${a.aspect} and ${b.aspect}`);
+  const differ = a.mask.filter((v, i) => v !== b.mask[i]).length;
+  assert.ok(differ < 0.03 * a.mask.length, `${differ} of ${a.mask.length} places differ`);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  await blank.close();
+});
+
+test('everything can be done by keys', async () => {
+  const page = await open(browser, drawn('keys', 'bracket'));
+  await page.focus('#view');
+  await page.keyboard.press('Enter');
+  assert.match(await value(page, 'range'), /^(surface|curve|vertex) \d+$/);
+  const keys = { p: () => hextwist.stage.eye.isParallel, l: () => Boolean(hextwist.labels), c: () => hextwist.clip.mode === 'crinkle', t: () => document.documentElement.dataset.theme === 'dark' };
+  for (const [key, test] of Object.entries(keys)) {
+    assert.equal(await page.evaluate(test), false, key);
+    await page.keyboard.press(key);
+    await settled(page);
+    assert.equal(await page.evaluate(test), true, key);
+  }
+  const azimuth = await page.evaluate(() => hextwist.stage.eye.azimuth);
+  await page.keyboard.press('ArrowLeft');
+  assert.notEqual(await page.evaluate(() => hextwist.stage.eye.azimuth), azimuth);
+  await page.keyboard.press('?');
+  assert.ok(await page.$eval('#help', (e) => e.open));
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('/');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'search');
+  // Every control is reached by Tab.
+  const reached = new Set();
+  await page.focus('#view');
+  for (let i = 0; i < 90; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => { const e = document.activeElement; return e.id || e.dataset.do || e.dataset.toggle || e.dataset.view || e.dataset.copy || e.name || e.tagName; }));
+  }
+  for (const one of ['fit', 'parallel', 'edges', 'what', 'labels', 'theme', 'help', 'list-kind', 'search', 'list', 'view', 'pick', 'box', 'lasso', 'command-kind', 'clear', 'only', 'colour', 'cut', 'cut-axis', 'cut-at', 'explode', 'planes'])
+    assert.ok(reached.has(one), `${one} is not reached`);
+  await shot(page, 'dark');
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('controls have names and roles, and nothing sticks out', async () => {
+  const page = await open(browser, drawn('names', 'bracket', '', 'quality shape'));
+  const unnamed = await page.evaluate(() => {
+    const nameOf = (e) => e.getAttribute('aria-label') || e.textContent.trim() || e.title || [...(e.labels ?? [])].map((l) => l.textContent.trim()).join('');
+    return [...document.querySelectorAll('button, input, select, [role], canvas:not([aria-hidden])')].filter((e) => !nameOf(e)).map((e) => e.outerHTML.slice(0, 100));
+  });
+  assert.deepEqual(unnamed.filter((e) => !e.includes('id="busy"')), []);
+  const tree = await (await page.context().newCDPSession(page)).send('Accessibility.getFullAXTree');
+  const roles = tree.nodes.filter((n) => !n.ignored).map((n) => `${n.role?.value}: ${n.name?.value}`);
+  for (const wanted of ['button: Fit', 'button: From plus x', 'combobox: By', 'slider: At', 'searchbox: Search by name, id or type', 'listbox: List of entities', 'radio: curve', 'checkbox: flip', 'group: Look from'])
+    assert.ok(roles.some((r) => r.startsWith(wanted)), wanted);
+  for (const size of [[1280, 720], [1024, 640]]) {
+    await page.setViewportSize({ width: size[0], height: size[1] });
+    const wide = await page.evaluate(() => [...document.querySelectorAll('header button, #left *, #right button, #right input, #right select')].filter((e) => e.offsetParent && !e.closest('#list')).map((e) => [e, e.getBoundingClientRect()]).filter(([e, b]) => b.right > innerWidth + 1 || b.left < -1).map(([e]) => e.outerHTML.slice(0, 80)));
+    assert.deepEqual(wide, [], size.join(' x '));
+  }
+  writeFileSync(join(output, 'roles.txt'), roles.join('\n'));
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('names in a mesh are text and nothing else', async () => {
+  const page = await open(browser, drawn('hostile', null, `create brick x 2 interval 2; block 7 hex 1 name '</script><img src=x onerror=alert(1)>&"'; block 8 hex 2`));
+  await page.selectOption('#list-kind', 'block');
+  assert.ok((await page.textContent('#list')).includes('</script><img src=x onerror=alert(1)>&"'));
+  assert.equal(await page.$('img'), null);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
