@@ -203,6 +203,10 @@ class Writer {
       in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
         Index* to = nodes.data();
         for (std::size_t i = 0; i < size; ++i) {
+          if (!second_) {
+            for (const Index node : in_file_order(mesh_.hexes[part.hexes[first + i]])) *to++ = node + 1;
+            continue;
+          }
           const FileHex hex = file_hex(mesh_, second_, part.hexes[first + i], exodus_middles);
           for (const Index node : hex.all()) *to++ = node + 1;
         }

@@ -213,9 +213,18 @@ constexpr std::size_t element_size(int dim, int nodes_per_hex) {
 template <int dim, int nodes_per_hex>
 auto element_node_ids(const Mesh& mesh, const PlannedElements& elements, std::size_t k, const SecondOrder* second) {
   constexpr std::size_t n = element_size(dim, nodes_per_hex);
-  const FileHex nodes = gmsh_nodes(mesh, elements, dim, k, second);
   std::array<std::int64_t, n> ids;
-  for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes.nodes[c]);
+  if constexpr (nodes_per_hex > 8) {
+    const FileHex nodes = gmsh_nodes(mesh, elements, dim, k, second);
+    for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes.nodes[c]);
+    return ids;
+  }
+  std::array<Index, n> nodes;
+  if constexpr (dim == 3 && nodes_per_hex == 8)
+    nodes = in_file_order(mesh.hexes[elements.item(k)]);
+  else
+    std::ranges::copy_n(&elements.nodes[n * k], n, nodes.begin());
+  for (std::size_t c = 0; c < n; ++c) ids[c] = id_of(mesh.node_ids, nodes[c]);
   return ids;
 }
 
