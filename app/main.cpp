@@ -11,6 +11,7 @@
 #include "hextwist/session/session.h"
 #include "interactive.h"
 #include "options.h"
+#include "parts.h"
 #include "report.h"
 #include "serve/server.h"
 #include "view.h"
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   limit_memory(available_memory());
   if (options.serve) return run_server(options);
+  if (options.split || options.join) return run_parts(options);
   Session session;
   Console console;
   session.set_callbacks(console.callbacks());

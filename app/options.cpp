@@ -19,7 +19,8 @@ constexpr const char* description =
     "result to OUT when all of them succeeded. Without commands it is interactive; when standard input is not a\n"
     "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh,\n"
     "'hextwist view MESH [--cad FILE]' makes a page that shows it, 'hextwist serve [FILES]' is a page with a prompt,\n"
-    "'hextwist convert MESH OUT [--order 2]' writes it in another format.\n";
+    "'hextwist convert MESH OUT [--order 2]' writes it in another format,\n"
+    "'hextwist split MESH N' and 'hextwist join PART' divide a mesh in files and make it one again.\n";
 
 bool is_journal(const std::string& name) {
   return lower_extension(name) == ".jou";
@@ -66,6 +67,27 @@ int read_view(int argc, char** argv, Options& options) {
   const std::string extension = lower_extension(options.output);
   if (extension != ".html" && extension != ".htm") return wrong(options.output.string() + ": a page ends in .html");
   return -1;
+}
+
+int read_split(int argc, char** argv, Options& options) {
+  CLI::App app("Divides a mesh in parts: Exodus files NAME.N.0, NAME.N.1, ... with the communication maps of Nemesis.",
+               "hextwist split");
+  app.add_option("MESH", options.mesh, "mesh to divide")->required();
+  app.add_option("N", options.split, "number of parts")->required()->check(CLI::Range(1, 1000000));
+  app.add_option("-o,--output", options.output, "NAME; default: MESH with .e, in this folder");
+  app.add_option("--by", options.split_by, "scotch (default, where it was built in), slabs or ids")
+      ->check(CLI::IsMember({"scotch", "slabs", "ids"}));
+  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  if (options.output.empty()) options.output = options.mesh.filename().replace_extension(".e");
+  return -1;
+}
+
+int read_join(int argc, char** argv, Options& options) {
+  CLI::App app("Makes one mesh of its parts.", "hextwist join");
+  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0")->required();
+  app.add_option("-o,--output", options.output, "the mesh; format by extension")->required();
+  options.join = true;
+  return parsed(app, [&] { app.parse(argc - 1, argv + 1); });
 }
 
 int read_serve(int argc, char** argv, Options& options) {
@@ -123,6 +145,8 @@ int read_options(int argc, char** argv, Options& options) {
   if (argc > 1 && std::string_view(argv[1]) == "convert") return read_convert(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "view") return read_view(argc, argv, options);
+  if (argc > 1 && std::string_view(argv[1]) == "split") return read_split(argc, argv, options);
+  if (argc > 1 && std::string_view(argv[1]) == "join") return read_join(argc, argv, options);
   if (argc > 1 && std::string_view(argv[1]) == "serve") return read_serve(argc, argv, options);
   CLI::App app(description, "hextwist");
   std::vector<std::string> files, commands;

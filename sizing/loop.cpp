@@ -80,6 +80,7 @@ MeshedModel State::pass(Cut cut) {
   result_.came_from = {};
   result_.old_node = {};
   lineage_ = std::move(parts.lineage);
+  if (watch) watch(lineage_, from.mesh);
   current_ = &result_.refined;
   return std::exchange(result_.refined, std::move(next));
 }

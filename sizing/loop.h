@@ -2,6 +2,7 @@
 // left to cut.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,9 @@ class State {
   double fraction() const { return 0.9 * n_passes_ / (n_passes_ + 1); }
   void begin(const char* stage) { stages.begin(stage, fraction()); }
   void note(std::string line) { report.notices.push_back(std::move(line)); }
+
+  /// Called after every pass of a technique with what it did to the mesh before. May be empty.
+  std::function<void(const Lineage&, const Mesh& before)> watch;
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
   void run(Technique& technique);

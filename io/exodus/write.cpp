@@ -11,6 +11,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/write_internal.h"
+#include "hextwist/io/file_part.h"
 
 namespace hextwist::io {
 namespace {
@@ -22,10 +23,42 @@ std::string named(const char* kind, std::int64_t id, const std::string& name) {
   return std::string(kind) + " " + std::to_string(id) + (name.empty() ? "" : " '" + name + "'");
 }
 
+constexpr Index nobody = -1;
+
+/// Per hex the block that is its element block. sizes: of the blocks, in the whole.
+std::vector<Index> element_blocks(const Mesh& mesh, std::span<const std::int64_t> sizes) {
+  std::vector<Index> block_of_hex(mesh.hexes.size(), nobody);
+  // The smallest last, of equal ones the first.
+  std::vector<Index> order(mesh.blocks.size());
+  std::iota(order.rbegin(), order.rend(), 0);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](Index b) { return sizes[b]; });
+  for (const Index b : order)
+    for (const Index h : mesh.blocks[b].hexes) block_of_hex[h] = b;
+  return block_of_hex;
+}
+
+BlockCounts counts_of(const Mesh& mesh, std::span<const std::int64_t> sizes, std::vector<Index>& block_of_hex) {
+  BlockCounts counts;
+  counts.hexes.assign(sizes.begin(), sizes.end());
+  if (sizes.empty())
+    for (const Block& block : mesh.blocks) counts.hexes.push_back(std::ssize(block.hexes));
+  counts.own.assign(mesh.blocks.size(), 0);
+  block_of_hex = element_blocks(mesh, counts.hexes);
+  for (const Index b : block_of_hex) ++(b == nobody ? counts.rest : counts.own[b]);
+  return counts;
+}
+
 class Writer {
  public:
-  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, std::vector<std::string>& notices)
-      : replacement_(file), mesh_(mesh), second_(second), notices_(notices), values_(mesh, notices) {
+  /// of_whole: null unless it is a part of one.
+  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, const FilePart* of_whole,
+         std::vector<std::string>& notices)
+      : replacement_(file),
+        mesh_(mesh),
+        second_(second),
+        of_whole_(of_whole),
+        notices_(notices),
+        values_(mesh, notices) {
     if (mesh.results) extras_ = mesh.results.get();
     divide();
     tell_names();
@@ -34,10 +67,11 @@ class Writer {
 
   void write() {
     sizes();
+    if (of_whole_) write_exodus_part(target(), *of_whole_, globals(), elements_of_hexes());
     nodes();
     blocks();
     sets();
-    const ExodusTarget to{id_, mesh_, parts_, [this](int status) { check(status); }, notices_};
+    const ExodusTarget to = target();
     values_.write_properties(to);
     values_.write_records(to);
     values_.write_results(to);
@@ -61,40 +95,36 @@ class Writer {
 
   void divide() {
     const std::vector<Block>& blocks = mesh_.blocks;
-    constexpr Index nobody = -1;
-    std::vector<Index> block_of_hex(mesh_.hexes.size(), nobody);
-    // The smallest last, of equal ones the first.
-    std::vector<Index> order(blocks.size());
-    std::iota(order.rbegin(), order.rend(), 0);
-    std::ranges::stable_sort(order, std::ranges::greater{}, [&](Index b) { return blocks[b].hexes.size(); });
-    std::vector<std::size_t> n_left(blocks.size(), 0);
-    for (const Index b : order)
-      for (const Index h : blocks[b].hexes) {
-        if (block_of_hex[h] != nobody) --n_left[block_of_hex[h]];
-        ++n_left[b];
-        block_of_hex[h] = b;
-      }
+    std::vector<Index> block_of_hex;
+    if (of_whole_) {
+      counts_ = of_whole_->blocks;
+      block_of_hex = element_blocks(mesh_, counts_.hexes);
+    } else {
+      counts_ = counts_of(mesh_, {}, block_of_hex);
+    }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const Block& block = blocks[b];
       ExodusPart part{block.id, in_file(Of::block, block.id), block.name, block.hexes};
-      if (n_left[b] < block.hexes.size()) {
+      if (counts_.own[b] < counts_.hexes[b]) {
         std::ranges::copy_if(block.hexes, std::back_inserter(part.own),
                              [&](Index h) { return block_of_hex[h] == static_cast<Index>(b); });
         part.hexes = part.own;
         whole_.push_back(&block);
-        tell_overlap(block, part.own.size(), block_of_hex);
+        if (!of_whole_) tell_overlap(block, part.own.size(), block_of_hex);
       }
-      if (!part.hexes.empty() || block.hexes.empty()) parts_.push_back(std::move(part));
+      part.in_whole = counts_.own[b];
+      if (counts_.own[b] > 0 || counts_.hexes[b] == 0) parts_.push_back(std::move(part));
     }
     const int id = free_id(blocks);
     ExodusPart rest{id, id, exodus_rest_block, {}};
     for (Index h = 0; h < mesh_.n_hexes(); ++h)
       if (block_of_hex[h] == nobody) rest.own.push_back(h);
     rest.hexes = rest.own;
-    if (!rest.hexes.empty() && !blocks.empty())
+    rest.in_whole = counts_.rest;
+    if (!rest.hexes.empty() && !blocks.empty() && !of_whole_)
       notices_.push_back(std::to_string(rest.own.size()) + " hexes that are in no block are in " +
                          named("element block", id, rest.name));
-    if (!rest.hexes.empty()) parts_.push_back(std::move(rest));
+    if (counts_.rest > 0) parts_.push_back(std::move(rest));
   }
 
   void tell_overlap(const Block& block, std::size_t n_own, std::span<const Index> block_of_hex) {
@@ -120,8 +150,9 @@ class Writer {
   }
 
   void create() {
-    const std::int64_t highest = std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
-                                          mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
+    const std::int64_t highest = of_whole_ ? of_whole_->highest_id
+                                           : std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
+                                                      mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     wide_ =
         highest > most ||
@@ -241,6 +272,27 @@ class Writer {
     put_name(type, id, name);
   }
 
+  ExodusTarget target() {
+    return {id_, mesh_, parts_, [this](int status) { check(status); }, notices_};
+  }
+  ExodusGlobals globals() const {
+    ExodusGlobals result;
+    for (const ExodusPart& part : parts_) {
+      result.block_ids.push_back(part.in_file);
+      result.block_counts.push_back(part.in_whole);
+    }
+    const auto sets = [&](Of of, const auto& all, const std::vector<std::int64_t>& members, int factors_each,
+                          std::vector<std::int64_t>& ids, std::vector<std::int64_t>& factors) {
+      for (std::size_t s = 0; s < all.size(); ++s) {
+        ids.push_back(in_file(of, all[s].id));
+        factors.push_back(values_.has_factors(all[s]) ? factors_each * members[s] : 0);
+      }
+    };
+    sets(Of::node_set, mesh_.node_sets, of_whole_->node_sets, 1, result.node_set_ids, result.node_factors);
+    sets(Of::side_set, mesh_.side_sets, of_whole_->side_sets, 4, result.side_set_ids, result.side_factors);
+    return result;
+  }
+
   /// Per hex its 1-based place in the file.
   Ints elements_of_hexes() const {
     Ints element_of_hex;
@@ -278,9 +330,11 @@ class Writer {
   const Replacement& replacement_;
   const Mesh& mesh_;
   const SecondOrder* second_;
+  const FilePart* of_whole_;
   std::vector<std::string>& notices_;
   ExodusValues values_;
   const FileResults* extras_ = nullptr;
+  BlockCounts counts_;
   std::vector<ExodusPart> parts_;
   std::vector<const Block*> whole_;  // written as element sets
   int id_ = -1;
@@ -293,8 +347,22 @@ void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Wri
                   std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
   if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
-  Writer(replacement, mesh, options.second, notices).write();
+  Writer(replacement, mesh, options.second, nullptr, notices).write();
   replacement.commit();
 }
 
 }  // namespace hextwist::io
+
+namespace hextwist {
+
+BlockCounts block_counts(const Mesh& mesh, std::span<const std::int64_t> sizes) {
+  std::vector<Index> block_of_hex;
+  return io::counts_of(mesh, sizes, block_of_hex);
+}
+
+void write_part(const Replacement& to, const Mesh& mesh, const FilePart& part, std::vector<std::string>& notices) {
+  if (to.direct()) to.fail("is not an ordinary file, as Exodus II needs");
+  io::Writer(to, mesh, nullptr, &part, notices).write();
+}
+
+}  // namespace hextwist

@@ -3,6 +3,10 @@
 
 #include "hextwist/io/exodus/exodus_internal.h"
 
+namespace hextwist {
+struct FilePart;  // io/file_part.h
+}
+
 namespace hextwist::io {
 
 /// An element block of the file.
@@ -12,6 +16,7 @@ struct ExodusPart {
   std::string name;
   std::span<const Index> hexes;
   std::vector<Index> own = {};  ///< what `hexes` is where it is no list of the mesh
+  std::int64_t in_whole = 0;    ///< hexes, also of the other files that a mesh is split into
 };
 
 struct ExodusTarget {
@@ -31,6 +36,12 @@ class ExodusValues {
   /// Distribution factors of a set: none where it has none, one per node, four per side.
   std::vector<double> factors(const NodeSet& set);
   std::vector<double> factors(const SideSet& set);
+  /// Has it factors, though perhaps no members here?
+  template <class Set>
+  bool has_factors(const Set& set) const {
+    const SetExtras* of = extras_of(set);
+    return of && !of->factors.empty() && (of->factors.size() == 1 || has_places_);
+  }
   std::vector<std::string> attributes(const ExodusPart& part) const;
   std::vector<double> attribute(const ExodusPart& part, const std::string& name) const;
   std::size_t longest_name() const;
@@ -61,6 +72,14 @@ class ExodusValues {
   std::vector<double> times_;
   std::vector<Variable> on_nodes_, on_hexes_;
 };
+
+/// Of the whole that a file is a part of: ids in the file, and how many there are.
+struct ExodusGlobals {
+  std::vector<std::int64_t> block_ids, block_counts, node_set_ids, node_factors, side_set_ids, side_factors;
+};
+/// To be called when the sizes are written and nothing else is: the library moves what is there already.
+void write_exodus_part(const ExodusTarget& to, const FilePart& part, const ExodusGlobals& globals,
+                       std::span<const int> element_of_hex);
 
 /// At most as long as the library takes.
 std::string exodus_name(const std::string& name);

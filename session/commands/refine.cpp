@@ -4,7 +4,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/histogram.h"
-#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/request.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
 #include "hextwist/sizing/targets.h"
@@ -120,6 +120,8 @@ void check_nodes(const Execution& run, const Target& target) {
   run.note(ids + ": nothing is refined there");
 }
 
+}  // namespace
+
 Request request_of(const Execution& run) {
   const Command& command = run.command;
   Request request{
@@ -149,6 +151,8 @@ Request request_of(const Execution& run) {
   }
   return request;
 }
+
+namespace {
 
 std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
   std::string line = std::to_string(report.hexes_before) + " -> " + counted(report.hexes_after, EntityKind::hex);

@@ -9,7 +9,7 @@ namespace hextwist::test {
 
 /// Layers from the bottom up: a file may include files of its own layer and of those before it.
 inline const std::vector<std::string> layers = {"base",  "geom",    "mesh",    "io",    "refine", "sizing",
-                                                "patch", "command", "session", "embed", "app"};
+                                                "patch", "command", "session", "embed", "parts",  "app"};
 
 /// Root of the source tree.
 std::filesystem::path source_folder();

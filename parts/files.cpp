@@ -1,0 +1,130 @@
+#include "hextwist/parts/files.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "hextwist/base/text.h"
+#include "hextwist/io/results.h"
+#include "hextwist/parts/join.h"
+#include "hextwist/parts/split.h"
+
+namespace hextwist {
+namespace {
+
+/// The number behind the last dot, -1 where there is none.
+int number_behind_dot(const std::string& text, std::size_t& dot) {
+  dot = text.rfind('.');
+  if (dot == std::string::npos || dot + 1 == text.size()) return -1;
+  int number = -1;
+  const char *begin = text.data() + dot + 1, *end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  return error == std::errc() && stop == end && *begin != '-' ? number : -1;
+}
+
+void refuse_second_order(const MeshFile& file, const std::filesystem::path& path) {
+  if (file.middles.empty()) return;
+  throw Error(path.string() + ": hexes of " + std::to_string(file.middles.nodes_per_hex) +
+              " nodes are not split or joined; write it with 'set order 1' first");
+}
+
+}  // namespace
+
+SplitName split_name(const std::filesystem::path& part) {
+  std::string text = part.string();
+  std::size_t dot = 0;
+  const int number = number_behind_dot(text, dot);
+  if (number < 0) return {};
+  text.resize(dot);
+  const int n_parts = number_behind_dot(text, dot);
+  if (n_parts < 1 || number >= n_parts) return {};
+  text.resize(dot);
+  return {text, n_parts};
+}
+
+MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
+  const auto [name, n_parts] = split_name(any_part);
+  if (n_parts == 0) throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...");
+  std::vector<MeshedModel> pieces;
+  std::vector<std::string> notices;
+  const auto file_of = [&](int p) { return part_name(name, n_parts, p); };
+  PartHead first;
+  for (int p = 0; p < n_parts; ++p) {
+    const std::filesystem::path file = file_of(p);
+    if (!std::filesystem::exists(file))
+      throw Error(file.string() + ": this part of " + std::to_string(n_parts) + " is missing");
+    const PartHead head = read_part_head(file);
+    if (head.n_parts == 0) throw Error(file.string() + ": does not say what it is a part of");
+    if (head.n_parts != n_parts)
+      throw Error(file.string() + ": is one of " + std::to_string(head.n_parts) + " parts, not of " +
+                  std::to_string(n_parts));
+    if (p == 0) first = head;
+    if (head != first)
+      throw Error(file.string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
+                  std::to_string(head.n_nodes) + " nodes, " + file_of(0).string() + " of one of " +
+                  std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
+    MeshFile read = read_mesh(file, "exodus", fence);
+    refuse_second_order(read, file);
+    for (std::string& line : read.notices)
+      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
+    if (read.mesh.results)
+      if (const std::string lost = extras_text(*read.mesh.results); !lost.empty())
+        notices.push_back(file.string() + ": parts are joined without " + lost);
+    pieces.push_back({std::move(read.mesh), nullptr, {}});
+  }
+  MeshFile result;
+  result.notices = std::move(notices);
+  result.mesh = join(pieces, [&](std::size_t p) { return file_of(static_cast<int>(p)).string(); }).mesh;
+  if (result.mesh.n_hexes() != first.n_hexes || result.mesh.n_nodes() != first.n_nodes)
+    throw Error(name.string() + ": its parts have " + std::to_string(result.mesh.n_hexes()) + " hexes and " +
+                std::to_string(result.mesh.n_nodes()) + " nodes together, and say " + std::to_string(first.n_hexes) +
+                " and " + std::to_string(first.n_nodes));
+  return result;
+}
+
+PartFiles::PartFiles(const std::filesystem::path& name, int n_parts) {
+  for (int p = 0; p < n_parts; ++p) files_.push_back(std::make_unique<Replacement>(part_name(name, n_parts, p), true));
+}
+
+void PartFiles::commit() {
+  for (const auto& file : files_) file->commit();
+}
+
+std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
+                                    PartitionBy by, const Fence& fence) {
+  MeshFile file = split_name(mesh).n_parts ? read_parts(mesh, fence) : read_mesh(mesh, {}, fence);
+  refuse_second_order(file, mesh);
+  std::vector<std::string> notices = std::move(file.notices);
+  if (!file.tags.empty()) notices.push_back("Exodus files have no place for owners: left out");
+  const MeshedModel whole{std::move(file.mesh), nullptr, {}};
+  const std::vector<int> part_of_hex = partition(whole.mesh, n_parts, by);
+  const Splitting splitting(whole, part_of_hex, n_parts);
+  if (splitting.n_loose_nodes())
+    notices.push_back("left out " + counted(splitting.n_loose_nodes(), "node") + " of no hex");
+  PartFiles files(name, n_parts);
+  std::int64_t largest = 0, n_shared = 0;
+  for (int p = 0; p < n_parts; ++p) {
+    const MeshPart part = splitting.part(p);
+    std::vector<std::string> told;
+    write_part(files[p], part.mesh, part.file, told);
+    for (std::string& line : told)
+      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
+    largest = std::max<std::int64_t>(largest, part.mesh.n_hexes());
+    for (const auto& shared : part.file.sides) n_shared += std::ssize(shared.sides);
+  }
+  files.commit();
+  notices.push_back(std::to_string(whole.mesh.n_hexes()) + " hexes in " + counted(n_parts, "part") + " of at most " +
+                    std::to_string(largest) + ", " + counted(n_shared / 2, "face") + " between them");
+  return notices;
+}
+
+std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,
+                                    const Fence& fence) {
+  MeshFile file = read_parts(any_part, fence);
+  std::vector<std::string> notices = std::move(file.notices);
+  for (std::string& line : write_mesh(to, file.mesh, nullptr, {})) notices.push_back(std::move(line));
+  notices.push_back(std::to_string(file.mesh.n_hexes()) + " hexes and " + std::to_string(file.mesh.n_nodes()) +
+                    " nodes of " + counted(split_name(any_part).n_parts, "part"));
+  return notices;
+}
+
+}  // namespace hextwist

@@ -1,0 +1,46 @@
+// Meshes that are split into files, and how they become one file or several.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hextwist/base/fence.h"
+#include "hextwist/base/replacement.h"
+#include "hextwist/io/io.h"
+#include "hextwist/parts/partition.h"
+
+namespace hextwist {
+
+/// The name of a split mesh from that of any of its parts: "mesh.e" of "mesh.e.8.3". n_parts 0: it is no such name.
+struct SplitName {
+  std::filesystem::path name;
+  int n_parts = 0;
+};
+SplitName split_name(const std::filesystem::path& part);
+
+/// Reads all parts. Throws Error naming the file: one is missing, belongs to another mesh, has another number of parts,
+/// or the parts do not make up what they say they are parts of.
+MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence = {});
+
+/// Files that are written together: all are renamed when all are complete.
+class PartFiles {
+ public:
+  PartFiles(const std::filesystem::path& name, int n_parts);
+  const Replacement& operator[](int part) const { return *files_[part]; }
+  void commit();
+
+ private:
+  std::vector<std::unique_ptr<Replacement>> files_;
+};
+
+/// Reads a mesh and writes it in parts name.n.0, name.n.1, ... Returns what is to be said, one line each; throws Error,
+/// then no part was written.
+std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
+                                    PartitionBy by, const Fence& fence = {});
+/// Reads parts and writes one file.
+std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,
+                                    const Fence& fence = {});
+
+}  // namespace hextwist

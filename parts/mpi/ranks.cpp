@@ -1,0 +1,124 @@
+#include "hextwist/parts/mpi/ranks.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <new>
+
+#include "hextwist/base/types.h"
+
+namespace hextwist {
+namespace {
+
+constexpr int tag = 1;
+/// A message holds at most so many bytes; longer ones are sent in pieces.
+constexpr std::size_t longest_message = std::size_t{1} << 30;
+
+std::int64_t reduced(std::int64_t value, MPI_Op op) {
+  std::int64_t result = 0;
+  MPI_Allreduce(&value, &result, 1, MPI_INT64_T, op, MPI_COMM_WORLD);
+  return result;
+}
+
+}  // namespace
+
+Ranks::Ranks(int& argc, char**& argv) {
+  int level = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+Ranks::~Ranks() {
+  MPI_Finalize();
+}
+
+std::int64_t Ranks::sum(std::int64_t value) {
+  return reduced(value, MPI_SUM);
+}
+std::int64_t Ranks::least(std::int64_t value) {
+  return reduced(value, MPI_MIN);
+}
+std::int64_t Ranks::largest(std::int64_t value) {
+  return reduced(value, MPI_MAX);
+}
+
+std::vector<std::int64_t> Ranks::sum(std::vector<std::int64_t> values) {
+  std::vector<std::int64_t> result(values.size());
+  MPI_Allreduce(values.data(), result.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return result;
+}
+
+std::int64_t Ranks::sum_before(std::int64_t value) {
+  std::int64_t result = 0;
+  MPI_Exscan(&value, &result, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return rank_ == 0 ? 0 : result;
+}
+
+void Ranks::share(std::span<int> values) {
+  constexpr std::size_t piece = std::size_t{1} << 28;
+  for (std::size_t at = 0; at < values.size(); at += piece)
+    MPI_Bcast(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)), MPI_INT, 0, MPI_COMM_WORLD);
+}
+
+std::string Ranks::text_of(int rank, const std::string& text) {
+  std::string result = text;
+  auto size = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, rank, MPI_COMM_WORLD);
+  result.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(result.data(), static_cast<int>(size), MPI_CHAR, rank, MPI_COMM_WORLD);
+  return result;
+}
+
+void Ranks::exchange_bytes(const std::vector<std::span<const std::byte>>& to,
+                           const std::function<std::byte*(std::size_t, std::size_t)>& room) {
+  const auto n = static_cast<std::size_t>(size_);
+  std::vector<std::int64_t> to_size(n), from_size(n);
+  for (std::size_t r = 0; r < n; ++r) to_size[r] = std::ssize(to[r]);
+  MPI_Alltoall(to_size.data(), 1, MPI_INT64_T, from_size.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  std::vector<MPI_Request> requests;
+  const auto in_messages = [&](std::size_t size, const auto& start) {
+    for (std::size_t at = 0; at < size; at += longest_message) {
+      requests.emplace_back();
+      start(at, static_cast<int>(std::min(longest_message, size - at)), &requests.back());
+    }
+  };
+  for (std::size_t r = 0; r < n; ++r) {
+    const auto size = static_cast<std::size_t>(from_size[r]);
+    std::byte* const place = room(r, size);
+    if (r == static_cast<std::size_t>(rank_)) {
+      std::ranges::copy(to[r], place);
+      continue;
+    }
+    in_messages(size, [&](std::size_t at, int bytes, MPI_Request* request) {
+      MPI_Irecv(place + at, bytes, MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD, request);
+    });
+  }
+  for (std::size_t r = 0; r < n; ++r) {
+    if (r == static_cast<std::size_t>(rank_)) continue;
+    in_messages(to[r].size(), [&](std::size_t at, int bytes, MPI_Request* request) {
+      MPI_Isend(to[r].data() + at, bytes, MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD, request);
+      ++n_messages_;
+      n_bytes_ += bytes;
+    });
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void Ranks::together(const std::function<void()>& work) {
+  std::string error;
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    error = "out of memory";
+  } catch (const std::exception& problem) {
+    error = problem.what();
+    if (error.empty()) error = "an error without a text";
+  }
+  const std::int64_t first = least(error.empty() ? size_ : rank_);
+  if (first == size_) return;
+  error = text_of(static_cast<int>(first), error);
+  throw Error("rank " + std::to_string(first) + ": " + error);
+}
+
+}  // namespace hextwist

@@ -1,0 +1,133 @@
+// Refinements by several processes, against those by one: the joined parts are the same file, byte for byte.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "hextwist/io/file_part.h"
+#include "hextwist/parts/files.h"
+#include "hextwist/session/session.h"
+#include "io/io_support.h"
+#include "split_judge.h"
+
+namespace hextwist {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+/// A session of several processes: arguments as a shell sees them.
+Outcome run_ranks(int n, const std::string& arguments) {
+  const auto folder = std::filesystem::path(HEXTWIST_TEST_OUTPUT) /
+                      (std::string("mpi.") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::filesystem::create_directories(folder);
+  const std::string out = (folder / "stdout").string(), err = (folder / "stderr").string();
+  const std::string command = std::string("'") + HEXTWIST_MPIEXEC + "' --oversubscribe --allow-run-as-root -n " +
+                              std::to_string(n) + " '" + HEXTWIST_MPI_PROGRAM + "' " + arguments + " > '" + out +
+                              "' 2> '" + err + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::text_of(out), test::text_of(err)};
+}
+
+std::string model(const std::string& name) {
+  return std::string(HEXTWIST_SOURCE_DIR) + "/models/" + name;
+}
+
+struct Case {
+  std::string mesh, cad, commands;
+};
+
+void expect_same_file(const Case& each, int n, const std::string& by, const std::string& more = "") {
+  SCOPED_TRACE(each.commands + " of " + each.mesh + " by " + std::to_string(n) + " ranks, " + by);
+  const auto folder = test::output_folder();
+  Session session;
+  if (!each.cad.empty()) session.import_cad(each.cad);
+  session.import_mesh(each.mesh);
+  session.run(each.commands);
+  session.export_mesh(folder / "serial.e");
+  const std::string cad = each.cad.empty() ? "" : "--cad '" + each.cad + "' ";
+  const Outcome outcome = run_ranks(n, cad + "'" + each.mesh + "' --by " + by + " " + more + " -c '" + each.commands +
+                                           "' -o '" + (folder / "parts.e").string() + "'");
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  std::string faults;
+  for (const std::string& line : test::split_faults(folder / "parts.e", n)) faults += line + "\n";
+  EXPECT_EQ(faults, "");
+  join_files(part_name(folder / "parts.e", n, 0), folder / "joined.e");
+  EXPECT_TRUE(test::same_mesh(read_mesh(folder / "serial.e").mesh, read_mesh(folder / "joined.e").mesh));
+  EXPECT_EQ(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"), true) << outcome.out;
+}
+
+/// Written once per test.
+std::string brick(const std::string& interval) {
+  const auto file = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / ("brick." + interval + ".msh");
+  Session session;
+  session.run("create brick x 4 y 3 z 2 interval " + interval);
+  session.export_mesh(file);
+  return file.string();
+}
+
+TEST(InRanks, a_curve_of_a_model_is_refined_by_three_as_by_one) {
+  expect_same_file({model("cam.msh"), model("cam.brep"), "refine curve 1 depth 1"}, 3, "slabs", "--rings 3");
+}
+TEST(InRanks, hexes_of_a_grid_are_refined_by_two_as_by_one) {
+  expect_same_file({brick("20 8 6"), "", "refine hex 1 to 400 by 7"}, 2, "ids");
+}
+
+TEST(InRanks, ids_beyond_two_to_the_31_go_on_from_there) {
+  Mesh mesh = read_mesh(brick("8 4 4")).mesh;
+  constexpr std::int64_t far = 5'000'000'000'000;
+  for (Index n = 0; n < mesh.n_nodes(); ++n) mesh.node_ids.push_back(far + 3 * n);
+  for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.hex_ids.push_back(far + 2 * h);
+  const auto file = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "far.e";
+  write_mesh(file, mesh, nullptr);
+  expect_same_file({file.string(), "", "refine hex 5000000000002 5000000000040"}, 3, "random", "--rings 2");
+}
+
+/// Grids so large that halos do not cover them, models where they must become wider.
+TEST(SlowInRanks, every_kind_of_target_by_every_number_of_ranks) {
+  const std::string grid = brick("24 10 8");
+  const std::string cam = model("cam.msh"), cad = model("cam.brep");
+  const std::vector<Case> cases = {{grid, "", "refine hex 1 to 1900 by 13"},
+                                   {grid, "", "refine node 40 77 900 to 1300"},
+                                   {grid, "", "refine surface 1 depth 2"},
+                                   {grid, "", "refine volume all"},
+                                   {grid, "", "refine hex 5 80 to 200 1000 to 1100 numsplit 2"},
+                                   {grid, "", "refine hex 1 to 1900 by 17 concave fill"},
+                                   {cam, cad, "refine curve 1"},
+                                   {cam, cad, "refine vertex 1; refine surface 2"},
+                                   {cam, cad, "refine surface 3 depth 1; refine surface 1"}};
+  const char* const by[] = {"scotch", "slabs", "ids", "random"};
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (const int n : {1, 2, 3, 4, 8})
+      expect_same_file(
+          cases[i], n,
+          by[(i + static_cast<std::size_t>(n)) % 4 == 0 && !has_scotch() ? 1 : (i + static_cast<std::size_t>(n)) % 4],
+          i % 2 ? "--rings 3" : "");
+}
+
+TEST(InRanks, an_error_of_one_is_one_line_with_its_rank_and_nothing_is_written) {
+  const auto folder = test::output_folder();
+  const std::string mesh = brick("6 4 4");
+  std::filesystem::create_directory(folder / "a.e.2.1");
+  const Outcome outcome = run_ranks(2, "'" + mesh + "' -c 'refine hex 1' -o '" + (folder / "a.e").string() + "'");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("error: rank 1: " + (folder / "a.e.2.1").string()), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.e.2.0"));
+}
+
+TEST(InRanks, what_is_not_done_in_parts_is_refused_by_name) {
+  const std::string mesh = brick("6 4 4");
+  const auto said = [&](const std::string& commands) {
+    const Outcome outcome = run_ranks(2, "'" + mesh + "' -c '" + commands + "'");
+    EXPECT_EQ(outcome.status, 1);
+    return outcome.err.substr(0, outcome.err.find('\n'));
+  };
+  EXPECT_NE(said("refine curve 1 size 0.1").find("a size is not done in parts"), std::string::npos);
+  EXPECT_NE(said("refine hex 1; coarsen hex 1").find("'coarsen' is not done in parts"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hextwist
