@@ -83,8 +83,7 @@ void record_levels(const Levelling& levelling, const Mesh& input, PassRecorder& 
   }
 }
 
-/// Levels leave out what lies between: where each hex of the result is in the mesh of the last pass is the same place,
-/// as levelled meshes of a base stand level by level.
+/// Throws Error where a whole mesh would be refused, or the result depends on the whole.
 void check_result(const LocalMesh& local, const MeshedModel& result, const Report& report,
                   std::span<const std::uint8_t> is_own) {
   for (const std::string& line : report.notices)

@@ -86,26 +86,36 @@ TEST(InRanks, ids_beyond_two_to_the_31_go_on_from_there) {
   expect_same_file({file.string(), "", "refine hex 5000000000002 5000000000040"}, 3, "random", "--rings 2");
 }
 
-/// Grids so large that halos do not cover them, models where they must become wider.
-TEST(SlowInRanks, every_kind_of_target_by_every_number_of_ranks) {
+/// By all kinds of partitions in turn.
+void expect_same_files(const std::vector<Case>& cases, const std::string& more) {
+  std::vector<std::string> by = {"slabs", "ids", "random"};
+  if (has_scotch()) by.push_back("scotch");
+  std::size_t i = 0;
+  for (const Case& each : cases)
+    for (const int n : {1, 2, 3, 4, 8}) expect_same_file(each, n, by[i++ % by.size()], more);
+}
+
+/// So large that halos do not cover it.
+TEST(SlowInRanks, hexes_nodes_and_surfaces_of_a_grid) {
   const std::string grid = brick("24 10 8");
+  expect_same_files({{grid, "", "refine hex 1 to 1900 by 13"},
+                     {grid, "", "refine node 40 77 900 to 1300"},
+                     {grid, "", "refine surface 1 depth 2"}},
+                    "--rings 3");
+}
+TEST(SlowInRanks, all_of_a_grid_and_levels_and_filled_regions) {
+  const std::string grid = brick("24 10 8");
+  expect_same_files({{grid, "", "refine volume all"},
+                     {grid, "", "refine hex 5 80 to 200 1000 to 1100 numsplit 2"},
+                     {grid, "", "refine hex 1 to 1900 by 17 concave fill"}},
+                    "");
+}
+TEST(SlowInRanks, curves_and_surfaces_of_a_model_where_halos_become_wider) {
   const std::string cam = model("cam.msh"), cad = model("cam.brep");
-  const std::vector<Case> cases = {{grid, "", "refine hex 1 to 1900 by 13"},
-                                   {grid, "", "refine node 40 77 900 to 1300"},
-                                   {grid, "", "refine surface 1 depth 2"},
-                                   {grid, "", "refine volume all"},
-                                   {grid, "", "refine hex 5 80 to 200 1000 to 1100 numsplit 2"},
-                                   {grid, "", "refine hex 1 to 1900 by 17 concave fill"},
-                                   {cam, cad, "refine curve 1"},
-                                   {cam, cad, "refine vertex 1; refine surface 2"},
-                                   {cam, cad, "refine surface 3 depth 1; refine surface 1"}};
-  const char* const by[] = {"scotch", "slabs", "ids", "random"};
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    for (const int n : {1, 2, 3, 4, 8})
-      expect_same_file(
-          cases[i], n,
-          by[(i + static_cast<std::size_t>(n)) % 4 == 0 && !has_scotch() ? 1 : (i + static_cast<std::size_t>(n)) % 4],
-          i % 2 ? "--rings 3" : "");
+  expect_same_files({{cam, cad, "refine curve 1"},
+                     {cam, cad, "refine vertex 1; refine surface 2"},
+                     {cam, cad, "refine surface 3 depth 1; refine surface 1"}},
+                    "--rings 2");
 }
 
 TEST(InRanks, an_error_of_one_is_one_line_with_its_rank_and_nothing_is_written) {
