@@ -243,8 +243,12 @@ TEST(mesh_files, missing_empty_and_unknown_files_are_refused) {
     EXPECT_EQ(test::refusal(file), file.string() + ": is a folder");
   }
   EXPECT_EQ(test::refusal("a.stl"), "a.stl: meshes of this kind cannot be read; known are " + readable_extensions());
-  EXPECT_EQ(readable_extensions(), ".msh .e .exo .g .gen .inp .mesh .vtk .vtu");
-  EXPECT_EQ(writable_extensions(), ".msh .e .exo .g .gen .inp .mesh .vtu");
+  const auto without_med = [](std::string list) {  // MED may be left out of a build
+    if (const auto at = list.find(" .med"); at != std::string::npos) list.erase(at, 5);
+    return list;
+  };
+  EXPECT_EQ(without_med(readable_extensions()), ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .vtk .vtu");
+  EXPECT_EQ(without_med(writable_extensions()), ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .vtu");
 }
 
 std::string write_refusal(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options = {}) {
