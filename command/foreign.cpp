@@ -16,7 +16,8 @@ struct Row {
 
 constexpr bool skipped = true, refused = false;
 
-constexpr std::string_view shown = "nothing is shown here; 'draw ... to \"part.html\"' makes a page, or a picture";
+constexpr std::string_view needs_no_display =
+    "nothing is shown here; 'draw ... to \"part.html\"' makes a page, or a picture";
 constexpr std::string_view logged = "'record \"part.jou\"' writes a journal, '--json' a report";
 constexpr std::string_view measured = "'list' prints lengths, areas, radii and places";
 constexpr std::string_view meshing =
@@ -38,26 +39,26 @@ constexpr Row foreign_words[] = {
     {"volume|surface|curve|vertex|body * smooth", refused, {}},
     {"block * element|name", refused, {}},
     {"rotate volume|model", refused, {}},
-    {"rotate", skipped, shown},
+    {"rotate", skipped, needs_no_display},
 
-    {"graphics", skipped, shown},
-    {"display", skipped, shown},
-    {"draw", skipped, shown},
-    {"view", skipped, shown},
-    {"zoom", skipped, shown},
-    {"pan", skipped, shown},
-    {"color|colour", skipped, shown},
-    {"label", skipped, shown},
-    {"highlight", skipped, shown},
-    {"transparent", skipped, shown},
-    {"hardcopy", skipped, shown},
-    {"from", skipped, shown},
-    {"at", skipped, shown},
-    {"up", skipped, shown},
-    {"camera", skipped, shown},
-    {"mouse", skipped, shown},
-    {"visibility", skipped, shown},
-    {"volume|surface|curve|vertex|body|node|hex|group|block * visibility|color|label", skipped, shown},
+    {"graphics", skipped, needs_no_display},
+    {"display", skipped, needs_no_display},
+    {"draw", skipped, needs_no_display},
+    {"view", skipped, needs_no_display},
+    {"zoom", skipped, needs_no_display},
+    {"pan", skipped, needs_no_display},
+    {"color|colour", skipped, needs_no_display},
+    {"label", skipped, needs_no_display},
+    {"highlight", skipped, needs_no_display},
+    {"transparent", skipped, needs_no_display},
+    {"hardcopy", skipped, needs_no_display},
+    {"from", skipped, needs_no_display},
+    {"at", skipped, needs_no_display},
+    {"up", skipped, needs_no_display},
+    {"camera", skipped, needs_no_display},
+    {"mouse", skipped, needs_no_display},
+    {"visibility", skipped, needs_no_display},
+    {"volume|surface|curve|vertex|body|node|hex|group|block * visibility|color|label", skipped, needs_no_display},
     {"locate", skipped, measured},
     {"measure", skipped, measured},
     {"cd", skipped, "the working folder stays where the program was started"},

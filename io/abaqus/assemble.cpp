@@ -10,9 +10,9 @@
 namespace hextwist::io {
 namespace {
 
-class Assembly {
+class AbaqusAssembly {
  public:
-  Assembly(const AbaqusContents& contents, MeshFile& out) : in_(contents), out_(out) {}
+  AbaqusAssembly(const AbaqusContents& contents, MeshFile& out) : in_(contents), out_(out) {}
 
   AbaqusParts result() {
     place();
@@ -246,7 +246,7 @@ class Assembly {
 }  // namespace
 
 AbaqusParts place_abaqus(const AbaqusContents& contents, MeshFile& out) {
-  return Assembly(contents, out).result();
+  return AbaqusAssembly(contents, out).result();
 }
 
 }  // namespace hextwist::io

@@ -48,11 +48,11 @@ BlockCounts counts_of(const Mesh& mesh, std::span<const std::int64_t> sizes, std
   return counts;
 }
 
-class Writer {
+class ExodusWriter {
  public:
   /// of_whole: null unless it is a part of one.
-  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, const FilePart* of_whole,
-         std::vector<std::string>& notices)
+  ExodusWriter(const Replacement& file, const Mesh& mesh, const SecondOrder* second, const FilePart* of_whole,
+               std::vector<std::string>& notices)
       : replacement_(file),
         mesh_(mesh),
         second_(second),
@@ -79,11 +79,11 @@ class Writer {
     if (ex_close(id) < 0) fail();
   }
 
-  ~Writer() {
+  ~ExodusWriter() {
     if (id_ >= 0) ex_close(id_);
   }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  ExodusWriter(const ExodusWriter&) = delete;
+  ExodusWriter& operator=(const ExodusWriter&) = delete;
 
  private:
   [[noreturn]] void fail() const { replacement_.fail("cannot be written (disk full?)"); }
@@ -347,7 +347,7 @@ void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const Wri
                   std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
   if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
-  Writer(replacement, mesh, options.second, nullptr, notices).write();
+  ExodusWriter(replacement, mesh, options.second, nullptr, notices).write();
   replacement.commit();
 }
 
@@ -362,7 +362,7 @@ BlockCounts block_counts(const Mesh& mesh, std::span<const std::int64_t> sizes) 
 
 void write_part(const Replacement& to, const Mesh& mesh, const FilePart& part, std::vector<std::string>& notices) {
   if (to.direct()) to.fail("is not an ordinary file, as Exodus II needs");
-  io::Writer(to, mesh, nullptr, &part, notices).write();
+  io::ExodusWriter(to, mesh, nullptr, &part, notices).write();
 }
 
 }  // namespace hextwist

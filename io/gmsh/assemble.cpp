@@ -41,9 +41,9 @@ std::vector<Index> first_copies(const GmshElements& elements, std::span<const He
   return any ? first : std::vector<Index>{};
 }
 
-class Assembly {
+class GmshAssembly {
  public:
-  Assembly(GmshContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
+  GmshAssembly(GmshContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
 
   MeshFile result() {
     nodes();
@@ -310,7 +310,7 @@ class Assembly {
 }  // namespace
 
 MeshFile assemble_gmsh(GmshContents&& contents, const Cursor& cursor) {
-  return Assembly(std::move(contents), cursor).result();
+  return GmshAssembly(std::move(contents), cursor).result();
 }
 
 }  // namespace hextwist::io

@@ -22,9 +22,9 @@ constexpr GeoType dropped[] = {{001, 1, "POINT1"}, {102, 2, "SEG2"},  {103, 3, "
 constexpr GeoType hexes[] = {{MED_HEXA8, 8, ""}, {MED_HEXA20, 20, ""}, {MED_HEXA27, 27, ""}};
 constexpr GeoType quads[] = {{MED_QUAD4, 4, ""}, {MED_QUAD8, 8, ""}, {MED_QUAD9, 9, ""}};
 
-class Reader {
+class MedReader {
  public:
-  explicit Reader(const std::filesystem::path& path)
+  explicit MedReader(const std::filesystem::path& path)
       : name_(path.string()), most_(std::filesystem::file_size(path)), file_(path, MED_ACC_RDONLY), listing_(cursor_) {
     if (file_.id() < 0) fail("cannot be opened as MED (damaged or another format)");
   }
@@ -268,7 +268,7 @@ MeshFile read_med(const std::filesystem::path& file, const Fence& fence) {
   const Bytes bytes = read_bytes(file);
   if (!std::string_view(bytes.data.get(), bytes.size).starts_with("\x89HDF"))
     throw Error(file.string() + ": not a MED file: it is not HDF5");
-  return unchanged_by(bytes, [&] { return Reader(file).result(); });
+  return unchanged_by(bytes, [&] { return MedReader(file).result(); });
 }
 
 }  // namespace hextwist::io

@@ -8,9 +8,9 @@ namespace {
 
 constexpr const char* mesh_name = "mesh";
 
-class Writer {
+class MedWriter {
  public:
-  Writer(const Replacement& file, const Mesh& mesh, const SecondOrder* second, std::vector<std::string>& notices)
+  MedWriter(const Replacement& file, const Mesh& mesh, const SecondOrder* second, std::vector<std::string>& notices)
       : replacement_(file), mesh_(mesh), second_(second), notices_(notices), file_(file.temporary(), MED_ACC_CREAT) {
     if (file_.id() < 0) fail();
   }
@@ -180,7 +180,7 @@ void write_med(const std::filesystem::path& file, const Mesh& mesh, const WriteO
                std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
   if (replacement.direct()) replacement.fail("is not an ordinary file, as MED needs");
-  Writer(replacement, mesh, options.second, notices).write();
+  MedWriter(replacement, mesh, options.second, notices).write();
   replacement.commit();
 }
 

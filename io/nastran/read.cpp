@@ -14,9 +14,9 @@ constexpr std::string_view dropped[] = {"CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   
                                         "CBUSH",  "CONM1",  "CONM2",  "CELAS1", "CELAS2", "RBE2",   "RBE3",   "CGAP",
                                         "PLOTEL", "CSHEAR", "CBEND",  "CMASS1", "CMASS2", "CDAMP1", "CDAMP2"};
 
-class Reader {
+class NastranReader {
  public:
-  explicit Reader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
+  explicit NastranReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
     to_bulk_data();
@@ -192,7 +192,7 @@ class Reader {
 }  // namespace
 
 MeshFile read_nastran(const Bytes& bytes) {
-  return Reader(bytes).result();
+  return NastranReader(bytes).result();
 }
 
 }  // namespace hextwist::io

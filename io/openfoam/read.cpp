@@ -143,9 +143,9 @@ void in_file(const std::filesystem::path& file, F&& f) {
   });
 }
 
-class Reader {
+class FoamReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : folder_(poly_mesh_of(file)), name_(file.string()) {}
+  explicit FoamReader(const std::filesystem::path& file) : folder_(poly_mesh_of(file)), name_(file.string()) {}
 
   MeshFile result() {
     points();
@@ -413,7 +413,7 @@ std::filesystem::path poly_mesh_of(const std::filesystem::path& file) {
 }
 
 MeshFile read_openfoam(const std::filesystem::path& file, const Fence&) {
-  return Reader(file).result();
+  return FoamReader(file).result();
 }
 
 }  // namespace hextwist::io

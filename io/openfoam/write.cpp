@@ -17,10 +17,10 @@ struct Patch {
   std::vector<Face> faces;
 };
 
-class Writer {
+class OpenfoamWriter {
  public:
-  Writer(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
-         std::vector<std::string>& notices)
+  OpenfoamWriter(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                 std::vector<std::string>& notices)
       : file_(file), folder_(poly_mesh_of(file)), mesh_(mesh), options_(options), notices_(notices) {}
 
   void write() {
@@ -222,7 +222,7 @@ class Writer {
 
 void write_openfoam(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
                     std::vector<std::string>& notices) {
-  Writer(file, mesh, options, notices).write();
+  OpenfoamWriter(file, mesh, options, notices).write();
 }
 
 }  // namespace hextwist::io

@@ -8,9 +8,9 @@
 namespace hextwist::io {
 namespace {
 
-class Reader {
+class UnvReader {
  public:
-  explicit Reader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
+  explicit UnvReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
     while (cursor_.more()) {
@@ -143,7 +143,7 @@ class Reader {
 }  // namespace
 
 MeshFile read_unv(const Bytes& bytes) {
-  return Reader(bytes).result();
+  return UnvReader(bytes).result();
 }
 
 }  // namespace hextwist::io

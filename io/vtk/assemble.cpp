@@ -34,9 +34,9 @@ std::string type_name(std::int64_t type) {
 constexpr std::string_view group_arrays[] = {"MaterialID",    "CellEntityIds",    "medit:ref",
                                              "gmsh:physical", "gmsh:geometrical", "BlockId"};
 
-class Assembly {
+class VtkAssembly {
  public:
-  Assembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
+  VtkAssembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
 
   MeshFile result() {
     cells();
@@ -379,7 +379,7 @@ class Assembly {
 }  // namespace
 
 MeshFile assemble_vtk(VtkContents&& contents, const Cursor& cursor) {
-  return Assembly(std::move(contents), cursor).result();
+  return VtkAssembly(std::move(contents), cursor).result();
 }
 
 }  // namespace hextwist::io

@@ -42,14 +42,14 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Numbers of one value of an array: itself, or those of a std::array.
+/// VtkNumbers of one value of an array: itself, or those of a std::array.
 template <class T>
-struct Numbers {
+struct VtkNumbers {
   using Type = T;
   static std::span<const T> of(const T& value) { return {&value, 1}; }
 };
 template <class T, std::size_t n>
-struct Numbers<std::array<T, n>> {
+struct VtkNumbers<std::array<T, n>> {
   using Type = T;
   static std::span<const T> of(const std::array<T, n>& value) { return value; }
 };
@@ -60,7 +60,7 @@ class Arrays {
  public:
   Arrays(Output& out, bool binary) : out_(out), binary_(binary) {}
 
-  /// Numbers as they lie in memory. `more`: attributes.
+  /// VtkNumbers as they lie in memory. `more`: attributes.
   template <class T>
   void add(const std::string& name, std::span<const T> values, int components, const std::string& more = "") {
     declare<T>(name, values.size(), components, more);
@@ -75,7 +75,7 @@ class Arrays {
   template <class F>
   void add_each(const std::string& name, std::size_t n, int components, F value, const std::string& more = "") {
     using Value = decltype(value(n));
-    using T = typename Numbers<Value>::Type;
+    using T = typename VtkNumbers<Value>::Type;
     declare<T>(name, n * sizeof(Value) / sizeof(T), components, more);
     if (binary_)
       appended_.emplace_back([this, n, value] { out_.put_each(n, value); });
@@ -83,7 +83,7 @@ class Arrays {
       text([&](auto&& put) {
         for (std::size_t i = 0; i < n; ++i) {
           const Value one = value(i);
-          for (const T number : Numbers<Value>::of(one)) put(number);
+          for (const T number : VtkNumbers<Value>::of(one)) put(number);
         }
       });
   }
