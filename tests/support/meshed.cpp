@@ -33,15 +33,6 @@ void expect_sound(const RefineResult& result) {
   EXPECT_TRUE(broken.empty()) << broken.front();
 }
 
-std::string refusal(const MeshedModel& input, const Request& request) {
-  try {
-    refine(input, request);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
 std::vector<int> levels(const Mesh& mesh) {
   std::vector<int> result(mesh.hexes.size(), 0);
   for (const Field& field : mesh.fields)

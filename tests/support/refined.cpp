@@ -1,8 +1,19 @@
 #include "support/refined.h"
 
 #include "hextwist/refine/templates/trisect.h"
+#include "support/meshed.h"
 
 namespace hextwist::test {
+
+// Here, and not with the meshes: those are also for tests of rooms that know nothing of refining.
+std::string refusal(const MeshedModel& input, const Request& request) {
+  try {
+    refine(input, request);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
 
 Mesh refined(const Mesh& mesh, const Split& split) {
   Mesh result;
