@@ -20,8 +20,10 @@ std::vector<Index> keep_groups_only(GmshPlan& plan, const Mesh& mesh, bool split
       kept.runs.push_back(run);
     }
     elements = std::move(kept);
-    for (std::size_t k = 0; k < elements.size; ++k)
-      for (const Index n : gmsh_nodes(mesh, elements, dim, k, second).all()) used[n] = 1;
+    for (std::size_t k = 0; k < elements.size; ++k) {
+      const auto nodes = gmsh_nodes(mesh, elements, dim, k, second);
+      for (const Index n : nodes.all()) used[n] = 1;
+    }
   }
   std::vector<Index> nodes;
   for (Index n = 0; n < mesh.n_nodes(); ++n)
