@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/geom/facet/newton_internal.h"
 #include "hextwist/geom/segment.h"
 
 namespace hextwist {
@@ -50,7 +51,8 @@ double cone_volume(const BilinearPatch& patch, const Vec3& apex) {
 
 PatchFoot closest(const BilinearPatch& x, const Vec3& p) {
   PatchFoot best;
-  const auto try_point = [&](double s, double t) { best.offer(s, t, (point(x, s, t) - p).squaredNorm()); };
+  const auto offset = [&](double s, double t) -> Vec3 { return point(x, s, t) - p; };
+  const auto try_point = [&](double s, double t) { best.offer(s, t, offset(s, t).squaredNorm()); };
   try_point(closest_fraction(x[0], x[1], p), 0);
   try_point(closest_fraction(x[3], x[2], p), 1);
   try_point(0, closest_fraction(x[0], x[3], p));
@@ -58,7 +60,7 @@ PatchFoot closest(const BilinearPatch& x, const Vec3& p) {
 
   const Vec3 twist = x[0] - x[1] + x[2] - x[3];
   double s = 0.5, t = 0.5;
-  Vec3 r = point(x, s, t) - p;
+  Vec3 r = offset(s, t);
   for (int iteration = 0; iteration < 30; ++iteration) {
     const Vec3 ds = x[1] - x[0] + t * twist;
     const Vec3 dt = x[3] - x[0] + s * twist;
@@ -66,32 +68,7 @@ PatchFoot closest(const BilinearPatch& x, const Vec3& p) {
     const double ss = ds.squaredNorm(), tt = dt.squaredNorm();
     double st = ds.dot(dt) + r.dot(twist);
     if (st * st > 0.999 * ss * tt) st = ds.dot(dt);  // not convex here: without the curvature term
-    // On the rim, a direction that leads out of the square is not taken.
-    const bool free_s = !((s <= 0 && gs > 0) || (s >= 1 && gs < 0));
-    const bool free_t = !((t <= 0 && gt > 0) || (t >= 1 && gt < 0));
-    double step_s = 0, step_t = 0;
-    const double det = ss * tt - st * st;
-    if (free_s && free_t && det > 1e-12 * ss * tt) {
-      step_s = (st * gt - tt * gs) / det;
-      step_t = (st * gs - ss * gt) / det;
-    } else if (free_s && ss > 0 && (!free_t || gs * gs * tt >= gt * gt * ss)) {
-      step_s = -gs / ss;
-    } else if (free_t && tt > 0) {
-      step_t = -gt / tt;
-    }
-    const double before = r.squaredNorm();
-    double new_s = s, new_t = t;
-    for (double damping = 1; damping > 1e-3; damping *= 0.25) {
-      new_s = std::clamp(s + damping * step_s, 0.0, 1.0);
-      new_t = std::clamp(t + damping * step_t, 0.0, 1.0);
-      r = point(x, new_s, new_t) - p;
-      if (r.squaredNorm() <= before) break;
-    }
-    const double moved = std::max(std::abs(new_s - s), std::abs(new_t - t));
-    s = new_s;
-    t = new_t;
-    best.offer(s, t, r.squaredNorm());
-    if (moved < 1e-14) break;
+    if (newton_in_square({gs, gt, ss, st, tt}, offset, s, t, r, best) < 1e-14) break;
   }
   return best;
 }

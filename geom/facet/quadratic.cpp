@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hextwist/geom/facet/newton_internal.h"
+
 namespace hextwist {
 namespace {
 
@@ -30,7 +32,8 @@ Vec3 sum(const QuadraticPatch& x, const std::array<double, 3>& a, const std::arr
 
 /// Newton's method for the closest point of a patch, from a place in it, kept in the square.
 void improve_from(const QuadraticPatch& x, const Vec3& p, double s, double t, PatchFoot& best) {
-  Vec3 r = point(x, s, t) - p;
+  const auto offset = [&](double at_s, double at_t) -> Vec3 { return point(x, at_s, at_t) - p; };
+  Vec3 r = offset(s, t);
   for (int iteration = 0; iteration < 30; ++iteration) {
     const auto bs = bernstein(s), bt = bernstein(t), ds = bernstein_slopes(s), dt = bernstein_slopes(t);
     const Vec3 xs = sum(x, ds, bt), xt = sum(x, bs, dt);
@@ -40,34 +43,11 @@ void improve_from(const QuadraticPatch& x, const Vec3& p, double s, double t, Pa
     double st = xs.dot(xt) + r.dot(sum(x, ds, dt));
     if (!(ss > 0 && tt > 0 && st * st < 0.999 * ss * tt))  // not convex here: without the curvature terms
       ss = xs.squaredNorm(), tt = xt.squaredNorm(), st = xs.dot(xt);
-    const bool free_s = !((s <= 0 && gs > 0) || (s >= 1 && gs < 0));
-    const bool free_t = !((t <= 0 && gt > 0) || (t >= 1 && gt < 0));
-    double step_s = 0, step_t = 0;
-    const double det = ss * tt - st * st;
-    if (free_s && free_t && det > 1e-12 * ss * tt) {
-      step_s = (st * gt - tt * gs) / det;
-      step_t = (st * gs - ss * gt) / det;
-    } else if (free_s && ss > 0 && (!free_t || gs * gs * tt >= gt * gt * ss)) {
-      step_s = -gs / ss;
-    } else if (free_t && tt > 0) {
-      step_t = -gt / tt;
-    }
-    const double before = r.squaredNorm();
-    double new_s = s, new_t = t;
-    for (double damping = 1; damping > 1e-3; damping *= 0.25) {
-      new_s = std::clamp(s + damping * step_s, 0.0, 1.0);
-      new_t = std::clamp(t + damping * step_t, 0.0, 1.0);
-      r = point(x, new_s, new_t) - p;
-      if (r.squaredNorm() <= before) break;
-    }
-    const double moved = std::max(std::abs(new_s - s), std::abs(new_t - t));
-    s = new_s, t = new_t;
-    best.offer(s, t, r.squaredNorm());
-    if (moved < 1e-14) break;
+    if (newton_in_square({gs, gt, ss, st, tt}, offset, s, t, r, best) < 1e-14) break;
   }
 }
 
-/// The four quarters of a patch.
+/// The halves of a patch in s (step 1) or t (step 3).
 std::array<QuadraticPatch, 2> halves(const QuadraticPatch& x, int step) {
   std::array<QuadraticPatch, 2> half;
   const int other = step == 1 ? 3 : 1;

@@ -57,16 +57,23 @@ const Entry& entry(Metric metric) {
   return table[static_cast<std::size_t>(metric)];
 }
 
-std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double average) {
+/// Of the hexes hex_of(0) to hex_of(n - 1).
+template <class HexOf>
+std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double average, std::size_t n,
+                             const HexOf& hex_of) {
   std::vector<double> values;
-  resize_for_overwrite(values, mesh.hexes.size());
-  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    Index h = begin;
-    for (; h + n_lanes <= end; h += n_lanes)
-      Eigen::Map<Lanes<n_lanes>>(values.data() + h) = kernel.some(load<n_lanes>(mesh, h), average);
-    for (; h < end; ++h) values[h] = kernel.one(load<1>(mesh, h), average)[0];
+  resize_for_overwrite(values, n);
+  parallel_ranges(static_cast<Index>(n), [&](Index begin, Index end) {
+    Index i = begin;
+    for (; i + n_lanes <= end; i += n_lanes)
+      Eigen::Map<Lanes<n_lanes>>(values.data() + i) =
+          kernel.some(load<n_lanes>(mesh, [&](int lane) { return hex_of(i + lane); }), average);
+    for (; i < end; ++i) values[i] = kernel.one(load<1>(mesh, hex_of(i)), average)[0];
   });
   return values;
+}
+std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double average) {
+  return evaluate(kernel, mesh, average, mesh.hexes.size(), [](Index h) { return h; });
 }
 
 /// Lower-case words of a name.
@@ -182,16 +189,7 @@ std::vector<double> quality(Metric metric, const Mesh& mesh) {
 }
 std::vector<double> quality(Metric metric, const Mesh& mesh, std::span<const Index> hexes) {
   const double average = metric == Metric::relative_size ? average_volume(mesh, hexes) : 1;
-  const Kernel& kernel = *entry(metric).kernel;
-  std::vector<double> values(hexes.size());
-  parallel_ranges(static_cast<Index>(hexes.size()), [&](Index begin, Index end) {
-    Index i = begin;
-    for (; i + n_lanes <= end; i += n_lanes)
-      Eigen::Map<Lanes<n_lanes>>(values.data() + i) =
-          kernel.some(load<n_lanes>(mesh, [&](int lane) { return hexes[i + lane]; }), average);
-    for (; i < end; ++i) values[i] = quality(metric, mesh, hexes[i], average);
-  });
-  return values;
+  return evaluate(*entry(metric).kernel, mesh, average, hexes.size(), [&](Index i) { return hexes[i]; });
 }
 
 double average_volume(const Mesh& mesh) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/quality/bernstein_internal.h"
 #include "hextwist/mesh/quality/kernels_internal.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -59,82 +60,21 @@ Lanes<N> clearance(const LaneEdges<N>& edges) {
 }
 
 constexpr double rounding = 1e-14;  // of the product above
-constexpr int max_pieces = 4096;
-
-struct Piece {
-  std::array<double, 27> coefficient;
-  Vec3 low = Vec3::Zero(), size = Vec3::Ones();
-};
-
-/// Corner c of a piece has this coefficient.
-constexpr int at_corner(int c) {
-  return 2 * (c & 1) + 3 * (c & 2) + 18 * (c >> 2 & 1);
-}
-
-/// Calls f(first, step) for the nine rows of three coefficients along an axis.
-template <class F>
-void for_rows(int axis, F f) {
-  const int step = axis == 0 ? 1 : axis == 1 ? 3 : 9;
-  for (int i = 0; i < 27; ++i)
-    if (i / step % 3 == 0) f(i, step);
-}
-
-/// The axis along which the determinant bends most: halving it brings the coefficients nearest to the values.
-int most_bent(const Piece& piece) {
-  std::array<double, 3> bend{};
-  for (int axis = 0; axis < 3; ++axis)
-    for_rows(axis, [&](int i, int step) {
-      const auto& c = piece.coefficient;
-      bend[axis] = std::max(bend[axis], std::abs(c[i] - 2 * c[i + step] + c[i + 2 * step]));
-    });
-  return static_cast<int>(std::ranges::max_element(bend) - bend.begin());
-}
-
-/// Halves of a piece along an axis (de Casteljau).
-std::array<Piece, 2> halves(const Piece& whole, int axis) {
-  std::array<Piece, 2> half = {whole, whole};
-  for_rows(axis, [&](int i, int step) {
-    const double a = whole.coefficient[i], b = whole.coefficient[i + step], c = whole.coefficient[i + 2 * step];
-    const double ab = (a + b) / 2, bc = (b + c) / 2, middle = (ab + bc) / 2;
-    half[0].coefficient[i + step] = ab;
-    half[0].coefficient[i + 2 * step] = half[1].coefficient[i] = middle;
-    half[1].coefficient[i + step] = bc;
-  });
-  for (Piece& piece : half) piece.size[axis] /= 2;
-  half[1].low[axis] += half[1].size[axis];
-  return half;
-}
-
-/// Looks for a place where the determinant is not above `least`.
-HexVerdict search(const Piece& hex, double least) {
-  std::vector<Piece> open = {hex};
-  for (std::size_t next = 0; next < open.size(); ++next) {
-    const Piece piece = open[next];
-    for (int c = 0; c < 8; ++c)
-      if (const double value = piece.coefficient[at_corner(c)]; !(value > least))
-        return {HexFault::inside, value, piece.low + piece.size.cwiseProduct(Vec3(c & 1, c >> 1 & 1, c >> 2 & 1))};
-    if (std::ranges::all_of(piece.coefficient, [&](double value) { return value > least; })) continue;
-    if (open.size() >= max_pieces) return {HexFault::inside, 0, piece.low + piece.size / 2};
-    const auto both = halves(piece, most_bent(piece));
-    open.insert(open.end(), both.begin(), both.end());
-  }
-  return {};
-}
 
 HexVerdict judge(const LaneHex<1>& x) {
   const LaneEdges<1> edges(x);
   const Coefficients<1> all = coefficients(edges);
-  Piece hex;
+  BernsteinPiece<2> hex;
   for (int i = 0; i < 27; ++i) hex.coefficient[i] = all[i][0];
   HexVerdict worst{HexFault::corner, std::numeric_limits<double>::infinity(), Vec3::Zero()};
   for (int c = 0; c < 8; ++c)
-    if (const double value = hex.coefficient[at_corner(c)]; !(value >= worst.value))
+    if (const double value = hex.coefficient[hex.at_corner(c)]; !(value >= worst.value))
       worst = {HexFault::corner, value, Vec3(c & 1, c >> 1 & 1, c >> 2 & 1)};
   if (!(worst.value > 0)) return worst;
   // The scaled Jacobian first: a corner that is flat by rounding is that, and not inverted nearby.
   const double scaled = scaled_jacobian_kernel.one(x, 1)[0];
-  const HexVerdict inside = search(hex, rounding * longest_product(edges)[0]);
-  if (inside.fault != HexFault::none && !(scaled > 0 && scaled < least_scaled_jacobian)) return inside;
+  const auto inside = not_above(hex, rounding * longest_product(edges)[0]);
+  if (inside && !(scaled > 0 && scaled < least_scaled_jacobian)) return {HexFault::inside, inside->value, inside->at};
   if (!(scaled >= least_scaled_jacobian)) return {HexFault::flat, scaled, worst.at};
   return {};
 }

@@ -28,6 +28,15 @@ Parameters seed_between(const Association& association, const Model& model, Owne
   return (model.point(owner, sum) - from).norm() < most_bent * size ? sum : Parameters{};
 }
 
+/// From halfway to its place on the owner; far: how far that is, where it is too far to be meant.
+void displace(const Vec3& from, const Vec3& place, double size, Vec3& displacement, double& far) {
+  const double way = (place - from).norm();
+  if (way >= most_bent * size)
+    far = way;
+  else if (way > straight * size)
+    displacement = place - from;
+}
+
 /// Projects items with owners of a dimension; take(item, projection).
 template <class From, class Seed, class Take>
 void project_items(const Model& model, int dim, const std::vector<Owner>& owners, From&& from, Seed&& seed,
@@ -117,11 +126,7 @@ void displace_edges(const Mesh& mesh, const Association& association, const Mode
         },
         [&](Index e, const Vec3& from, const Projection& place) {
           out.edge_parameters[e] = place.parameters;
-          const double way = (place.point - from).norm();
-          if (way >= most_bent * length(e))
-            out.edge_far[e] = way;
-          else if (way > straight * length(e))
-            out.edge[e] = place.point - from;
+          displace(from, place.point, length(e), out.edge[e], out.edge_far[e]);
         });
   fade_inwards(edges, mesh.n_hexes(), out);
 }
@@ -140,11 +145,7 @@ void displace_faces(const Mesh& mesh, const Association& association, const Mode
       },
       [&](Index f, const Vec3& from, const Projection& place) {
         out.face_parameters[f] = place.parameters;
-        const double way = (place.point - from).norm();
-        if (way >= most_bent * size(f))
-          out.face_far[f] = way;
-        else if (way > straight * size(f))
-          out.face[f] = place.point - from;
+        displace(from, place.point, size(f), out.face[f], out.face_far[f]);
       });
 }
 

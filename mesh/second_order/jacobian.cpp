@@ -3,14 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "hextwist/mesh/quality/bernstein_internal.h"
 
 namespace hextwist {
 namespace {
 
-constexpr int degree = 5, n_rows = degree + 1, n_coefficients = n_rows * n_rows * n_rows;
+using Piece = BernsteinPiece<5>;
+constexpr int n_rows = Piece::n_rows;
 constexpr double rounding = 1e-13;  // of the product of the longest derivatives
-constexpr int max_pieces = 4096;
 
 constexpr std::array<double, 6> choose_5 = {1, 5, 10, 10, 5, 1};
 constexpr std::array<double, 3> choose_2 = {1, 2, 1};
@@ -58,10 +59,6 @@ double longest(const Scaled<Vec3, nx, ny, nz>& d) {
   return std::sqrt(most);
 }
 
-struct Piece {
-  std::array<double, n_coefficients> c;
-};
-
 struct Determinant {
   Piece whole;
   double scale;
@@ -81,7 +78,7 @@ Determinant determinant(const QuadraticHex& hex) {
           for (int m = 0; m < 3; ++m)
             for (int l = 0; l < 3; ++l) area.at(i + l, j + m, k + n) += dy.at(i, j, k).cross(dz.at(l, m, n));
   Determinant result{{}, longest(dx) * longest(dy) * longest(dz)};
-  std::array<double, n_coefficients>& c = result.whole.c;
+  auto& c = result.whole.coefficient;
   c.fill(0);
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j)
@@ -94,42 +91,6 @@ Determinant determinant(const QuadraticHex& hex) {
     for (int j = 0; j < n_rows; ++j)
       for (int i = 0; i < n_rows; ++i) c[i + n_rows * (j + n_rows * k)] /= choose_5[i] * choose_5[j] * choose_5[k];
   return result;
-}
-
-/// Calls f(first, step) for the rows of six coefficients along an axis.
-template <class F>
-void for_rows(int axis, F f) {
-  const int step = axis == 0 ? 1 : axis == 1 ? n_rows : n_rows * n_rows;
-  for (int i = 0; i < n_coefficients; ++i)
-    if (i / step % n_rows == 0) f(i, step);
-}
-
-/// The axis along which the coefficients bend most: halving it brings them nearest to the values.
-int most_bent(const Piece& piece) {
-  std::array<double, 3> bend{};
-  for (int axis = 0; axis < 3; ++axis)
-    for_rows(axis, [&](int i, int step) {
-      for (int r = 1; r < degree; ++r) {
-        const double* c = &piece.c[i + r * step];
-        bend[axis] = std::max(bend[axis], std::abs(c[-step] - 2 * c[0] + c[step]));
-      }
-    });
-  return static_cast<int>(std::ranges::max_element(bend) - bend.begin());
-}
-
-/// Halves of a piece along an axis (de Casteljau).
-std::array<Piece, 2> halves(const Piece& whole, int axis) {
-  std::array<Piece, 2> half = {whole, whole};
-  for_rows(axis, [&](int i, int step) {
-    std::array<double, n_rows> row;
-    for (int r = 0; r < n_rows; ++r) row[r] = whole.c[i + r * step];
-    for (int level = 0; level < n_rows; ++level) {
-      half[0].c[i + level * step] = row[0];
-      half[1].c[i + (degree - level) * step] = row[degree - level];
-      for (int r = 0; r < degree - level; ++r) row[r] = (row[r] + row[r + 1]) / 2;
-    }
-  });
-  return half;
 }
 
 /// Lagrange's basis at 0, 1/2, 1, and its derivatives.
@@ -162,20 +123,7 @@ std::array<Vec3, 3> jacobian(const QuadraticHex& hex, const Vec3& at) {
 
 bool is_positive_everywhere(const QuadraticHex& hex) {
   const Determinant det = determinant(hex);
-  const double least = rounding * det.scale;
-  std::vector<Piece> open = {det.whole};
-  for (std::size_t next = 0; next < open.size(); ++next) {
-    const Piece piece = open[next];
-    for (int corner = 0; corner < 8; ++corner) {
-      const int at = degree * ((corner & 1) + n_rows * ((corner >> 1 & 1) + n_rows * (corner >> 2)));
-      if (!(piece.c[at] > least)) return false;
-    }
-    if (std::ranges::all_of(piece.c, [&](double value) { return value > least; })) continue;
-    if (open.size() >= max_pieces) return false;
-    const auto both = halves(piece, most_bent(piece));
-    open.insert(open.end(), both.begin(), both.end());
-  }
-  return true;
+  return !not_above(det.whole, rounding * det.scale);
 }
 
 void blend_faces(QuadraticHex& hex) {
