@@ -169,6 +169,12 @@ constexpr int face_of_file_corners(const std::array<int, 4>& corners) {
 inline std::int64_t id_of(std::span<const std::int64_t> ids, Index index) {
   return ids.empty() ? std::int64_t{index} + 1 : ids[index];
 }
+/// Ids as a file has them: those of the mesh, or counted from 1 (empty, and a notice) where they are too large.
+/// highest, limit: the largest that fits, and that in words. many: "nodes".
+std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind, const char* many,
+                                          std::int64_t highest, const char* limit, std::vector<std::string>& notices);
+/// A name without line ends and the like.
+std::string one_line(std::string name);
 /// Where a name can't be written as it is. what: "block 3", "field".
 void say_renamed(const std::string& what, const std::string& name, const std::string& written,
                  std::vector<std::string>& notices);

@@ -128,6 +128,20 @@ std::string component_name(const std::string& name, int c, int n) {
 
 }  // namespace
 
+std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind, const char* many,
+                                          std::int64_t highest, const char* limit, std::vector<std::string>& notices) {
+  if (ids.empty() || ids.back() <= highest) return ids;
+  notices.push_back(std::string(kind) + " id " + std::to_string(ids.back()) + " " + limit + ": " + many +
+                    " are counted from 1 in the file");
+  return {};
+}
+
+std::string one_line(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return name;
+}
+
 void say_renamed(const std::string& what, const std::string& name, const std::string& written,
                  std::vector<std::string>& notices) {
   if (!name.empty() && name != written)

@@ -25,9 +25,11 @@ void Listing::add_hex(std::int64_t id, int part, std::span<const std::int64_t> n
   hexes_.at.push_back(at);
   hexes_.nodes.insert(hexes_.nodes.end(), nodes.begin(), nodes.begin() + 8);
   if (std::ranges::all_of(nodes.subspan(8), [](std::int64_t node) { return node == 0; })) return;
-  std::vector<std::int64_t> middles(FoundMiddles::width, 0);
-  for (std::size_t i = 8; i < nodes.size(); ++i) middles[static_cast<std::size_t>(order[i - 8])] = nodes[i];
-  hex_middles_.emplace_back(hexes_.ids.size() - 1, std::move(middles));
+  bent_hexes_.push_back(hexes_.ids.size() - 1);
+  const std::size_t first = middle_nodes_.size();
+  middle_nodes_.resize(first + FoundMiddles::width, 0);
+  for (std::size_t i = 8; i < nodes.size(); ++i)
+    middle_nodes_[first + static_cast<std::size_t>(order[i - 8])] = nodes[i];
 }
 
 void Listing::add_quad(std::int64_t id, int part, std::span<const std::int64_t> corners, const char* at) {
@@ -63,24 +65,7 @@ MeshFile Listing::result(bool parts_count_always) {
   assemble_quads();
   assemble_groups(parts_count_always);
   for (const auto& [type, n] : n_dropped_) note("dropped " + counted(n, "element") + " of type " + type);
-  if (!hex_middles_.empty()) {
-    FoundMiddles found;
-    std::vector<std::vector<Index>> in_order(hexes_.ids.size());
-    constexpr MiddleOrder as_it_is = [] {
-      MiddleOrder order{};
-      for (int i = 0; i < 19; ++i) order[i] = i;
-      return order;
-    }();
-    for (const auto& [hex, ids] : hex_middles_) {
-      std::vector<Index> nodes;
-      for (const std::int64_t id : ids) nodes.push_back(id == 0 ? -1 : node(id, hexes_.ids[hex], hexes_.at[hex]));
-      const bool faces = std::ranges::any_of(std::span(nodes).subspan(12), [](Index n) { return n >= 0; });
-      const auto place = hex_ids_.place().empty() ? hex : static_cast<std::size_t>(hex_ids_.place()[hex]);
-      found.add(place, std::span(nodes).first(faces ? 19 : 12), as_it_is);
-    }
-    found.finish(hexes_.ids.size());
-    take_middles(out_, found);
-  }
+  if (!bent_hexes_.empty()) assemble_middles();
   return std::move(out_);
 }
 
@@ -96,6 +81,28 @@ void Listing::assemble_hexes() {
   hex_ids_.sort(mesh.hexes);
   hex_ids_.sort(part_of_hex_);
   mesh.hex_ids = hex_ids_.stored();
+}
+
+void Listing::assemble_middles() {
+  constexpr MiddleOrder as_it_is = [] {
+    MiddleOrder order{};
+    for (int i = 0; i < 19; ++i) order[i] = i;
+    return order;
+  }();
+  FoundMiddles found;
+  std::array<Index, FoundMiddles::width> nodes{};
+  for (std::size_t i = 0; i < bent_hexes_.size(); ++i) {
+    const std::size_t hex = bent_hexes_[i];
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const std::int64_t id = middle_nodes_[FoundMiddles::width * i + k];
+      nodes[k] = id == 0 ? -1 : node(id, hexes_.ids[hex], hexes_.at[hex]);
+    }
+    const bool faces = std::ranges::any_of(std::span(nodes).subspan(12), [](Index n) { return n >= 0; });
+    const auto place = hex_ids_.place().empty() ? hex : static_cast<std::size_t>(hex_ids_.place()[hex]);
+    found.add(place, std::span(nodes).first(faces ? 19 : 12), as_it_is);
+  }
+  found.finish(hexes_.ids.size());
+  take_middles(out_, found);
 }
 
 void Listing::assemble_quads() {

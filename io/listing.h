@@ -42,7 +42,7 @@ class Listing {
   void name_part(int part, const std::string& name) { part_names_[part] = name; }
   void note(const std::string& line) { out_.notices.push_back(line); }
 
-  /// once: parts are blocks and side sets even where groups have hexes or quads.
+  /// parts_count_always: parts are blocks and side sets even where groups have hexes or quads.
   MeshFile result(bool parts_count_always);
 
  private:
@@ -54,6 +54,7 @@ class Listing {
   [[noreturn]] void fail(const char* at, const std::string& what) const;
   Index node(std::int64_t id, std::int64_t element, const char* at) const;
   void assemble_hexes();
+  void assemble_middles();
   void assemble_quads();
   void assemble_groups(bool parts_count_always);
 
@@ -62,7 +63,8 @@ class Listing {
   std::vector<std::int64_t> node_ids_;
   std::vector<const char*> node_at_;
   Elements hexes_, quads_;
-  std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> hex_middles_;  // as MiddleOrder counts them
+  std::vector<std::size_t> bent_hexes_;     // those with middle nodes, as they were added
+  std::vector<std::int64_t> middle_nodes_;  // of each, as MiddleOrder counts them; 0: there is none
   std::map<std::string, std::int64_t> n_dropped_;
   std::vector<std::int64_t> dropped_ids_;
   std::deque<Group> groups_;

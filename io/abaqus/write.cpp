@@ -35,25 +35,10 @@ class Labels {
 /// By Reference::Kind.
 using AllLabels = std::array<Labels, 3>;
 
-std::string one_line(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return name;
-}
-
 /// CalculiX reads 20 characters of a number and takes the rest for blanks; Abaqus as many.
 constexpr std::size_t number_width = 20;
 /// The highest id that Abaqus takes; CalculiX reads ten characters of one into 32 bits.
 constexpr std::int64_t highest_id = 999'999'999;
-
-/// Ids as the file has them: those of the mesh, or counted from 1 where they are too large.
-std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind,
-                                          std::vector<std::string>& notices) {
-  if (ids.empty() || ids.back() <= highest_id) return ids;
-  notices.push_back(std::string(kind) + " id " + std::to_string(ids.back()) + " is more than Abaqus takes: " + kind +
-                    (kind[0] == 'n' ? "s" : "es") + " are counted from 1 in the file");
-  return {};
-}
 
 /// Numbers, sixteen in a line, as many as Abaqus takes.
 template <class Id>
@@ -148,8 +133,9 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
   static const FileExtras nothing;
   const FileExtras& extras = options.extras ? *options.extras : nothing;
   say_no_fields(mesh, "Abaqus", notices);
-  const auto node_ids = ids_in_file(mesh.node_ids, "node", notices);
-  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", notices);
+  constexpr const char* limit = "is more than Abaqus takes";
+  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_id, limit, notices);
+  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_id, limit, notices);
   AllLabels labels;
   std::vector<std::string> changed;
   for (const Block& block : mesh.blocks)

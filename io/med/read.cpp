@@ -39,7 +39,6 @@ class MedReader {
              "; only hexes of 8, 20 or 27 nodes are accepted");
     if (count(MED_CELL, MED_POLYHEDRON) > 0) fail("there are polyhedra; only hexes of 8, 20 or 27 nodes are accepted");
     for (const GeoType& type : hexes) elements(type, true);
-    n_hexes_ = next_;
     for (const GeoType& type : quads) elements(type, false);
     for (const GeoType& type : dropped)
       for (std::int64_t i = count(MED_CELL, type.type); i > 0; --i) listing_.drop(0, type.name);
@@ -256,7 +255,7 @@ class MedReader {
   std::map<med_geometry_type, std::vector<std::int64_t>> hex_ids_;
   std::map<med_int, std::vector<std::string>> groups_of_family_;
   std::map<med_int, std::vector<std::int64_t>> nodes_of_family_, elements_of_family_;
-  std::int64_t next_ = 0, n_hexes_ = 0;
+  std::int64_t next_ = 0;
 };
 
 }  // namespace

@@ -35,9 +35,7 @@ std::vector<int> write_references(Output& out, const ReferenceKinds& kinds, cons
     for (const int g : in) of_group[g].push_back(reference[c]);
   }
   const auto comment = [&](const char* kind, int id, const std::vector<int>& references, const std::string& name) {
-    std::string plain = name;
-    for (char& c : plain)
-      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    const std::string plain = one_line(name);
     say_renamed(std::string(kind) + " " + std::to_string(id), name, plain, notices);
     out << "# hextwist " << kind << ' ' << id << ' ' << references.size();
     for (const int r : references) out << ' ' << r;

@@ -7,12 +7,6 @@ namespace {
 
 constexpr std::int64_t highest_id = 99'999'999;  // eight characters
 
-std::string one_line(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return name;
-}
-
 /// Fields of eight characters, eight in a line.
 class SmallFields {
  public:
@@ -43,21 +37,14 @@ std::string large(const std::string& field) {
   return std::string(16 - std::min<std::size_t>(16, field.size()), ' ') + field;
 }
 
-std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind, const char* many,
-                                          std::vector<std::string>& notices) {
-  if (ids.empty() || ids.back() <= highest_id) return ids;
-  notices.push_back(std::string(kind) + " id " + std::to_string(ids.back()) + " has more than eight digits: " + many +
-                    " are counted from 1 in the file");
-  return {};
-}
-
 }  // namespace
 
 void write_nastran(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
                    std::vector<std::string>& notices) {
   say_no_fields(mesh, "Nastran's bulk data", notices);
-  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", notices);
-  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", notices);
+  constexpr const char* limit = "has more than eight digits";
+  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_id, limit, notices);
+  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_id, limit, notices);
   if (mesh.n_nodes() > highest_id) throw Error("more nodes than eight digits can count");
   const std::vector<int> block_of_hex = first_block_of_hexes(mesh, "Nastran", notices);
   // A property has a positive id.

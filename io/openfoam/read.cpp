@@ -5,6 +5,7 @@
 // zones node sets; they are numbered as they come.
 #include <limits>
 
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/openfoam/openfoam_internal.h"
 
 namespace hextwist::io {
@@ -153,38 +154,32 @@ class FoamReader {
     cells();
     boundary();
     zones("cellZones", "cellLabels", [&](int id, const std::string& name, const std::vector<std::int64_t>& labels) {
-      Block block{id, name, {}};
-      if (const int own = generated_id(name, "block"); own >= 0 && is_free(out_.mesh.blocks, own))
-        block = {own, "", {}};
+      Block block = named(out_.mesh.blocks, "block", id, name);
       for (const std::int64_t label : labels) {
         if (label < 0 || label >= n_cells_) fail("cell zone " + name + " names cell " + std::to_string(label));
         block.hexes.push_back(static_cast<Index>(label));
       }
-      sort_members(block.hexes);
+      sort_unique(block.hexes);
       out_.mesh.blocks.push_back(std::move(block));
     });
     zones("faceZones", "faceLabels", [&](int, const std::string& name, const std::vector<std::int64_t>& labels) {
-      SideSet set{free_id(out_.mesh.side_sets), name, {}};
-      if (const int own = generated_id(name, "sideset"); own >= 0 && is_free(out_.mesh.side_sets, own))
-        set = {own, "", {}};
+      SideSet set = named(out_.mesh.side_sets, "sideset", free_id(out_.mesh.side_sets), name);
       for (const std::int64_t label : labels) {
         if (label < 0 || label >= static_cast<std::int64_t>(owner_.size()))
           fail("face zone " + name + " names face " + std::to_string(label));
         set.sides.push_back(side_of_face_[static_cast<std::size_t>(label)]);
       }
-      sort_members(set.sides);
+      sort_unique(set.sides);
       out_.mesh.side_sets.push_back(std::move(set));
     });
     zones("pointZones", "pointLabels", [&](int id, const std::string& name, const std::vector<std::int64_t>& labels) {
-      NodeSet set{id, name, {}};
-      if (const int own = generated_id(name, "nodeset"); own >= 0 && is_free(out_.mesh.node_sets, own))
-        set = {own, "", {}};
+      NodeSet set = named(out_.mesh.node_sets, "nodeset", id, name);
       for (const std::int64_t label : labels) {
         if (label < 0 || label >= out_.mesh.n_nodes())
           fail("point zone " + name + " names point " + std::to_string(label));
         set.nodes.push_back(static_cast<Index>(label));
       }
-      sort_members(set.nodes);
+      sort_unique(set.nodes);
       out_.mesh.node_sets.push_back(std::move(set));
     });
     std::ranges::sort(out_.mesh.blocks, {}, &Block::id);
@@ -199,10 +194,11 @@ class FoamReader {
   static bool is_free(const std::vector<Group>& groups, int id) {
     return std::ranges::find(groups, id, &Group::id) == groups.end();
   }
-  template <class T>
-  static void sort_members(std::vector<T>& members) {
-    std::ranges::sort(members);
-    members.erase(std::ranges::unique(members).begin(), members.end());
+  /// Empty; of the id that it was written by, where its name is one that writers make and nobody else has it.
+  template <class Group>
+  static Group named(const std::vector<Group>& groups, const char* kind, int id, const std::string& name) {
+    const int own = generated_id(name, kind);
+    return own >= 0 && is_free(groups, own) ? Group{own, "", {}} : Group{id, name, {}};
   }
   std::filesystem::path file(const char* name) const {
     const auto path = folder_ / name;
@@ -265,34 +261,35 @@ class FoamReader {
       fail("owner has " + std::to_string(owner_.size()) + " cells for " + std::to_string(faces_.size()) + " faces");
   }
 
+  /// Faces of a cell, and whether they turn out of it; n may be more.
+  struct CellFaces {
+    std::array<std::pair<Index, bool>, 6> faces{};
+    std::size_t n = 0;
+  };
+
   void cells() {
     if (n_cells_ == 0) fail("there is no hex in the file");
-    std::vector<std::vector<std::pair<Index, bool>>> faces_of(static_cast<std::size_t>(n_cells_));  // face, turns out
+    std::vector<CellFaces> faces_of(static_cast<std::size_t>(n_cells_));
+    const auto add = [&](Index cell, std::size_t face, bool turns_out) {
+      CellFaces& own = faces_of[cell];
+      if (own.n < own.faces.size()) own.faces[own.n] = {static_cast<Index>(face), turns_out};
+      ++own.n;
+    };
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       if (owner_[f] < 0) fail("face " + std::to_string(f) + " has no owner");
-      faces_of[owner_[f]].emplace_back(static_cast<Index>(f), true);
-      if (f < neighbour_.size() && neighbour_[f] >= 0)
-        faces_of[neighbour_[f]].emplace_back(static_cast<Index>(f), false);
+      add(owner_[f], f, true);
+      if (f < neighbour_.size() && neighbour_[f] >= 0) add(neighbour_[f], f, false);
     }
     out_.mesh.hexes.resize(static_cast<std::size_t>(n_cells_));
     side_of_face_.assign(faces_.size(), {});
-    for (Index c = 0; c < n_cells_; ++c) {
-      hex(c, faces_of[c]);
-      for (const auto& [f, turns_out] : faces_of[c]) {
-        if (!turns_out) continue;
-        for (int face = 0; face < n_hex_faces; ++face) {
-          Quad a = face_nodes(out_.mesh.hexes[c], face), b = faces_[f];
-          std::ranges::sort(a), std::ranges::sort(b);
-          if (a == b) side_of_face_[f] = {c, face};
-        }
-      }
-    }
+    for (Index c = 0; c < n_cells_; ++c) hex(c, faces_of[c]);
   }
 
   /// From six faces: the first, and along edges of four others to the one across.
-  void hex(Index cell, const std::vector<std::pair<Index, bool>>& own) {
+  void hex(Index cell, const CellFaces& all) {
     const auto wrong = [&](const std::string& what) { fail("cell " + std::to_string(cell) + " " + what); };
-    if (own.size() != 6) wrong("has " + std::to_string(own.size()) + " faces; hexes have 6");
+    const auto& own = all.faces;
+    if (all.n != own.size()) wrong("has " + std::to_string(all.n) + " faces; hexes have 6");
     Quad lower = faces_[own[0].first];
     // Counter-clockwise seen from inside: the order of the lower corners.
     if (own[0].second) std::swap(lower[1], lower[3]);
@@ -317,9 +314,9 @@ class FoamReader {
     for (const auto& [f, turns_out] : own) {
       bool found = false;
       for (int face = 0; face < n_hex_faces; ++face) {
-        Quad a = face_nodes(out_.mesh.hexes[cell], face), b = faces_[f];
-        std::ranges::sort(a), std::ranges::sort(b);
-        found = found || a == b;
+        if (ascending(face_nodes(out_.mesh.hexes[cell], face)) != ascending(faces_[f])) continue;
+        found = true;
+        if (turns_out) side_of_face_[f] = {cell, face};
       }
       if (!found) wrong("is no hex: its faces do not fit together");
     }
@@ -353,16 +350,14 @@ class FoamReader {
           kept += ";";
         }
       }
-      if (const int own = generated_id(set.name, "sideset"); own >= 0 && is_free(out_.mesh.side_sets, own))
-        set = {own, "", {}};
-      else if (!is_free(out_.mesh.side_sets, set.id))
-        set.id = free_id(out_.mesh.side_sets);
+      set = named(out_.mesh.side_sets, "sideset", set.id, set.name);
+      if (!is_free(out_.mesh.side_sets, set.id)) set.id = free_id(out_.mesh.side_sets);
       if (first < 0 || n_faces < 0 || n_faces > std::ssize(faces_) || first > std::ssize(faces_) - n_faces)
         fail("patch " + set.name + " has " + std::to_string(n_faces) + " faces from " + std::to_string(first) +
              " on, of " + std::to_string(faces_.size()));
       for (std::int64_t f = first; f < first + n_faces; ++f)
         set.sides.push_back(side_of_face_[static_cast<std::size_t>(f)]);
-      sort_members(set.sides);
+      sort_unique(set.sides);
       if (set.name == default_patch && kept == "type patch;") continue;
       if (kept != "type patch;") out_.extras.patches[set.id] = kept;
       out_.mesh.side_sets.push_back(std::move(set));

@@ -94,7 +94,7 @@ class UnvReader {
     }
     if (kind == unv_hex_20) {
       expect(20);
-      std::vector<std::int64_t> sorted(20);
+      std::array<std::int64_t, 20> sorted{};
       for (std::size_t i = 0; i < 20; ++i) sorted[unv_place[i]] = nodes[i];
       return listing_.add_hex(id, part, sorted, vtk_middles, at);
     }

@@ -23,16 +23,6 @@ std::string real(double value) {
   return result;
 }
 
-/// The ids fit ten characters.
-std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind, const char* many,
-                                          std::vector<std::string>& notices) {
-  constexpr std::int64_t highest = 999'999'999;
-  if (ids.empty() || ids.back() <= highest) return ids;
-  notices.push_back(std::string(kind) + " id " + std::to_string(ids.back()) + " has more than nine digits: " + many +
-                    " are counted from 1 in the file");
-  return {};
-}
-
 class Groups {
  public:
   Groups(Output& out, std::vector<std::string>& notices) : out_(out), notices_(notices) {}
@@ -50,9 +40,7 @@ class Groups {
     out_ << field(number);
     for (int i = 0; i < 6; ++i) out_ << field(0);
     out_ << field(static_cast<std::int64_t>(n)) << '\n';
-    std::string line = name.empty() ? std::string(kind) + "_" + std::to_string(id) : name;
-    for (char& c : line)
-      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    std::string line = name.empty() ? std::string(kind) + "_" + std::to_string(id) : one_line(name);
     if (line.size() > 40) line.resize(40);
     say_renamed(std::string(kind) + " " + std::to_string(id), name, name.empty() ? name : line, notices_);
     out_ << line << '\n';
@@ -76,8 +64,10 @@ class Groups {
 void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
                std::vector<std::string>& notices) {
   say_no_fields(mesh, "I-deas' universal format", notices);
-  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", notices);
-  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", notices);
+  constexpr std::int64_t highest_id = 999'999'999;  // with a blank before it
+  constexpr const char* limit = "has more than nine digits";
+  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_id, limit, notices);
+  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_id, limit, notices);
   const SecondOrder* const second = options.second;
 
   out << "    -1\n  2411\n";
@@ -94,9 +84,10 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
   };
   for (Index h = 0; h < mesh.n_hexes(); ++h) {
     const FileHex hex = file_hex(mesh, second, h, vtk_middles);
-    std::vector<std::int64_t> nodes(static_cast<std::size_t>(hex.n));
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = id_of(node_ids, hex.nodes[second ? unv_place[i] : i]);
-    element(id_of(hex_ids, h), second ? unv_hex_20 : unv_hex, nodes);
+    std::array<std::int64_t, 27> nodes{};
+    const auto n = static_cast<std::size_t>(hex.n);
+    for (std::size_t i = 0; i < n; ++i) nodes[i] = id_of(node_ids, hex.nodes[second ? unv_place[i] : i]);
+    element(id_of(hex_ids, h), second ? unv_hex_20 : unv_hex, std::span(nodes).first(n));
   }
   // Quads follow the hexes, each once.
   std::vector<Side> sides;

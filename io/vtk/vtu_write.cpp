@@ -42,7 +42,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// VtkNumbers of one value of an array: itself, or those of a std::array.
+/// Numbers of one value of an array: itself, or those of a std::array.
 template <class T>
 struct VtkNumbers {
   using Type = T;
@@ -60,7 +60,7 @@ class Arrays {
  public:
   Arrays(Output& out, bool binary) : out_(out), binary_(binary) {}
 
-  /// VtkNumbers as they lie in memory. `more`: attributes.
+  /// Numbers as they lie in memory. `more`: attributes.
   template <class T>
   void add(const std::string& name, std::span<const T> values, int components, const std::string& more = "") {
     declare<T>(name, values.size(), components, more);
