@@ -7,6 +7,7 @@
 #include "hextwist/mesh/entity.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/parts/local_mesh.h"
+#include "hextwist/patch/patch_refine.h"
 #include "hextwist/refine/split.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/loop.h"
@@ -14,45 +15,6 @@
 
 namespace hextwist {
 namespace {
-
-/// The request with nodes and hexes, edges and faces by their numbers here.
-Request request_here(const LocalMesh& local, const Asked& asked) {
-  Request here = asked.request;
-  const auto node = [&](Index n) { return position_in(local.base.node, n); };
-  here.finish.fixed.clear();
-  for (const Index n : asked.request.finish.fixed)
-    if (const Index there = node(n); there >= 0) here.finish.fixed.push_back(there);
-  const auto renumber = [&](const auto& items, const auto& number) {
-    here.target.ids.clear();
-    for (const auto& item : items)
-      if (const Index at = number(item); at >= 0) here.target.ids.push_back(at);
-    std::ranges::sort(here.target.ids);
-  };
-  const Mesh& mesh = local.meshed.mesh;
-  switch (here.target.kind) {
-    case EntityKind::node:
-      renumber(asked.request.target.ids, node);
-      break;
-    case EntityKind::hex:
-      renumber(asked.request.target.ids, [&](Index h) { return position_in(local.base.hex, h); });
-      break;
-    case EntityKind::edge: {
-      const Edges all = edges(mesh);
-      renumber(asked.edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });
-      break;
-    }
-    case EntityKind::face: {
-      const Faces all = faces(mesh);
-      renumber(asked.faces, [&](const Quad& q) {
-        return find_face(all, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
-      });
-      break;
-    }
-    default:
-      break;
-  }
-  return here;
-}
 
 /// Is anything of the target here? What the whole has of it was checked before.
 bool has_target(const MeshedModel& meshed, const Target& target) {
@@ -86,9 +48,8 @@ void record_levels(const Levelling& levelling, const Mesh& input, PassRecorder& 
 /// Throws Error where a whole mesh would be refused, or the result depends on the whole.
 void check_result(const LocalMesh& local, const MeshedModel& result, const Report& report,
                   std::span<const std::uint8_t> is_own) {
-  for (const std::string& line : report.notices)
-    if (line.starts_with("smoothed"))
-      throw Error("new hexes came out so flat that they need smoothing, which goes across parts; run it with hextwist");
+  if (report.has_smoothed)
+    throw Error("new hexes came out so flat that they need smoothing, which goes across parts; run it with hextwist");
   const std::vector<Index> own = indices_where(result.mesh.n_hexes(), [&](Index h) { return is_own[h] != 0; });
   if (const std::vector<Index> wrong = inverted_hexes(result.mesh, own); !wrong.empty())
     throw Error(counted(std::ssize(wrong), "hex", "hexes") + " would be inverted in hex " +
@@ -133,7 +94,8 @@ std::vector<std::uint64_t> digests(const LocalMesh& local) {
 }  // namespace
 
 LocalRun run_locally(LocalMesh& local, const Asked& asked) {
-  const Request request = request_here(local, asked);
+  const Request request =
+      request_in_part(asked.request, local.meshed.mesh, local.base.node, local.base.hex, asked.edges, asked.faces);
   std::vector<std::uint8_t> is_own(local.base_of.size());
   for (std::size_t h = 0; h < is_own.size(); ++h) is_own[h] = local.base.ring[local.base_of[h]] == 0;
   LocalRun run;

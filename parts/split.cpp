@@ -78,8 +78,7 @@ MeshPart Splitting::part(int number) const {
   const Patch patch = make_patch(whole_, hexes_[number]);
   MeshPart part{patch.meshed.mesh, of_all_};
   part.file.number = number;
-  for (const Index n : patch.nodes) part.mesh.node_ids.push_back(node_id(whole_.mesh, n));
-  for (const Index h : patch.hexes) part.mesh.hex_ids.push_back(hex_id(whole_.mesh, h));
+  set_ids(whole_.mesh, patch, part.mesh);
   std::map<int, std::vector<Index>> nodes;
   for (auto at = borders_.nodes.begin(); at != borders_.nodes.end();) {
     const auto end =

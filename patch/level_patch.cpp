@@ -104,11 +104,6 @@ std::vector<Index> hexes_in(const HandedHexes& hexes, std::span<const Index> roo
   return result;
 }
 
-void set_ids(const Mesh& whole, const Patch& patch, Mesh& part) {
-  for (const Index n : patch.nodes) part.node_ids.push_back(node_id(whole, n));
-  for (const Index h : patch.hexes) part.hex_ids.push_back(hex_id(whole, h));
-}
-
 /// The patch with its part of the forest.
 struct ForestPatch {
   Patch patch;

@@ -100,4 +100,9 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   return patch;
 }
 
+void set_ids(const Mesh& whole, const Patch& patch, Mesh& part) {
+  for (const Index n : patch.nodes) part.node_ids.push_back(node_id(whole, n));
+  for (const Index h : patch.hexes) part.hex_ids.push_back(hex_id(whole, h));
+}
+
 }  // namespace hextwist

@@ -56,5 +56,7 @@ struct Patch {
   Index local_node(Index node) const;
 };
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes);
+/// Gives the mesh of a patch, which has none, the ids of the whole.
+void set_ids(const Mesh& whole, const Patch& patch, Mesh& part);
 
 }  // namespace hextwist

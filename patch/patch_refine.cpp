@@ -36,35 +36,6 @@ Around around_target(const MeshedModel& input, const Target& target) {
   return around;
 }
 
-/// The request with nodes and hexes, edges and faces by their numbers in the patch.
-Request request_in(const Patch& patch, const Request& request, const Around& around) {
-  Request local = request;
-  const auto node = [&](Index n) { return patch.local_node(n); };
-  local.finish.fixed.clear();
-  local.levelling = nullptr;
-  for (const Index n : request.finish.fixed)
-    if (const Index there = node(n); there >= 0) local.finish.fixed.push_back(there);
-  const auto renumber = [&](const auto& items, const auto& number) {
-    local.target.ids.clear();
-    for (const auto& item : items) local.target.ids.push_back(number(item));
-    std::ranges::sort(local.target.ids);
-  };
-  if (request.target.kind == EntityKind::node) renumber(request.target.ids, node);
-  if (request.target.kind == EntityKind::hex)
-    renumber(request.target.ids, [&](Index h) { return position_in(patch.hexes, h); });
-  if (request.target.kind == EntityKind::edge) {
-    const Edges all = edges(patch.meshed.mesh);
-    renumber(around.target.edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });
-  }
-  if (request.target.kind == EntityKind::face) {
-    const Faces all = faces(patch.meshed.mesh);
-    renumber(around.target.faces, [&](const Quad& q) {
-      return find_face(all, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
-    });
-  }
-  return local;
-}
-
 bool verify_patch(const MeshedModel& input, const Measured& known, const PatchResult& made, const PatchNumbers& numbers,
                   Report& report) {
   const Mesh& after = made.result.refined.mesh;
@@ -105,6 +76,37 @@ PatchResult nothing_done(const MeshedModel& input, const Measured& known, const 
 }
 
 }  // namespace
+
+Request request_in_part(const Request& request, const Mesh& part, std::span<const Index> nodes,
+                        std::span<const Index> hexes, std::span<const Edge> target_edges,
+                        std::span<const Quad> target_faces) {
+  Request local = request;
+  local.levelling = nullptr;
+  const auto node = [&](Index n) { return position_in(nodes, n); };
+  local.finish.fixed.clear();
+  for (const Index n : request.finish.fixed)
+    if (const Index there = node(n); there >= 0) local.finish.fixed.push_back(there);
+  const auto renumber = [&](const auto& items, const auto& number) {
+    local.target.ids.clear();
+    for (const auto& item : items)
+      if (const Index there = number(item); there >= 0) local.target.ids.push_back(there);
+    std::ranges::sort(local.target.ids);
+  };
+  if (request.target.kind == EntityKind::node) renumber(request.target.ids, node);
+  if (request.target.kind == EntityKind::hex)
+    renumber(request.target.ids, [&](Index h) { return position_in(hexes, h); });
+  if (request.target.kind == EntityKind::edge) {
+    const Edges all = edges(part);
+    renumber(target_edges, [&](const Edge& e) { return find_edge(all, node(e[0]), node(e[1])); });
+  }
+  if (request.target.kind == EntityKind::face) {
+    const Faces all = faces(part);
+    renumber(target_faces, [&](const Quad& q) {
+      return find_face(all, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
+    });
+  }
+  return local;
+}
 
 bool is_by_places(const Request& request) {
   return std::holds_alternative<Sizes>(request.how) || request.target.radius;
@@ -147,7 +149,8 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
     if (!rings) return std::nullopt;
     PatchResult made;
     made.patch = make_patch(input, std::move(rings->hexes));
-    const Request local = request_in(made.patch, asked, around);
+    const Request local = request_in_part(asked, made.patch.meshed.mesh, made.patch.nodes, made.patch.hexes,
+                                          around.target.edges, around.target.faces);
     stages.close();
     {
       State run(made.patch.meshed, local, report, progress);

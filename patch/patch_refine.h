@@ -32,6 +32,13 @@ inline constexpr int enough_rings = 4;
 /// Do sizes or distances decide between passes what is cut? Then a dry run is a whole run whose mesh is thrown away.
 bool is_by_places(const Request& request);
 
+/// The request for a part of its mesh, with nodes and hexes, edges and faces by their numbers there; what is not there
+/// is left out. nodes, hexes: those of the part, in the whole, ascending. target_edges, target_faces: what the target
+/// names of these kinds, by nodes of the whole.
+Request request_in_part(const Request& request, const Mesh& part, std::span<const Index> nodes,
+                        std::span<const Index> hexes, std::span<const Edge> target_edges,
+                        std::span<const Quad> target_faces);
+
 /// Nothing where the request's plan has no reach or it asks for too much: then the passes over the whole mesh are to be
 /// run. Throws what they throw.
 std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured& known, const Request& request,

@@ -129,6 +129,7 @@ void State::smooth_band(bool fix_boundary) {
 
 void State::smooth_around(std::vector<Index> hexes, bool fix_boundary) {
   begin("smooth");
+  report.has_smoothed = true;
   Mesh& mesh = result_.refined.mesh;
   const std::vector<Vec3> before = mesh.points;
   SmoothOptions options;

@@ -71,6 +71,7 @@ struct Report {
   bool off_nodes_allowed = false;     ///< the request said so; else each is a violation
   std::vector<Index> flat_hexes;      ///< flat compared with the input (outcome.h): each is a violation
   PoorHexes poor;                     ///< count 0: there are none
+  bool has_smoothed = false;          ///< because it was asked for, or shapes were too poor
   std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
   std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
   std::vector<std::string> notices;   ///< decisions taken, one line each
