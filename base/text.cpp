@@ -28,6 +28,12 @@ std::string short_number(double value, int digits) {
   return text.data();
 }
 
+std::string markup_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return result;
+}
+
 std::string error_text(int number) {
   return std::generic_category().message(number);
 }

@@ -28,6 +28,9 @@ std::string point_text(const Vec3& point, int digits = 4);
 /// "1 node", "3 hexes". many: empty for the regular plural of `one`.
 std::string counted(std::int64_t n, std::string_view one, std::string_view many = {});
 
+/// Text within HTML and SVG: < > and & as they are written there.
+std::string markup_text(std::string_view text);
+
 /// What the system says of an error number (errno).
 std::string error_text(int number);
 

@@ -170,7 +170,6 @@ std::string LiveSession::events(std::size_t since, std::chrono::milliseconds pat
   // While something runs, its progress is news.
   if (was_running) patience = std::min<std::chrono::milliseconds>(patience, 250ms);
   changed_.wait_for(lock, patience, [&] { return n_dropped_ + events_.size() > since || running_ != was_running; });
-  Json events = Json::array();
   const std::size_t first = std::max(since, n_dropped_);
   std::string list;
   for (std::size_t i = first; i < n_dropped_ + events_.size(); ++i)
@@ -193,12 +192,7 @@ PackedBlock LiveSession::made(const std::string& name) {
   if (name == "inside") return inside_block(source);
   if (name == "sets") return sets_block(source);
   const std::vector<Channel> all = channels(source);
-  if (name == "skin") {
-    PackedBlock skin = skin_block(source);
-    const std::string meta = scene_meta(source, all, {}, {});
-    skin.arrays.insert(skin.arrays.begin(), packed("meta", std::vector<std::uint8_t>(meta.begin(), meta.end())));
-    return skin;
-  }
+  if (name == "skin") return skin_block(source, scene_meta(source, all, {}, {}));
   if (name.starts_with('c') && name.size() < 9 && name.find_first_not_of("0123456789", 1) == std::string::npos &&
       name.size() > 1) {
     const auto i = static_cast<std::size_t>(std::stol(name.substr(1)));

@@ -4,10 +4,10 @@ import { Colouring } from './colouring.js';
 import { fillHelp } from './help.js';
 import { labelPlaces } from './labels.js';
 import { EntityList } from './list.js';
-import { boundsOf } from './pane.js';
+import { boundsOf, Pane } from './pane.js';
 import { commands, Picks, rangeText } from './picks.js';
 import { short } from './scene.js';
-import { Pane, Stage } from './stage.js';
+import { Stage } from './stage.js';
 
 const element = (id) => document.getElementById(id);
 const kindsToPick = [['geometry', 'auto'], ['vertex'], ['curve'], ['surface'], ['volume'], ['node'], ['edge'], ['face'], ['hex'], ['block'], ['sheet'], ['nodeset'], ['sideset']];
@@ -91,21 +91,18 @@ export class App {
     await this.rebuild();
   }
 
-  /** Runs a task that may take a moment, one after the other. */
-  busy(what, task) {
-    const run = async () => {
-      const timer = setTimeout(() => { element('busy').textContent = what; element('busy').hidden = false; }, 120);
-      try {
-        return await task();
-      } catch (error) {
-        this.say(error.message);
-        throw error;
-      } finally {
-        clearTimeout(timer);
-        element('busy').hidden = true;
-      }
-    };
-    return run();
+  /** Runs a task that may take a moment, and says so if it does. */
+  async busy(what, task) {
+    const timer = setTimeout(() => { element('busy').textContent = what; element('busy').hidden = false; }, 120);
+    try {
+      return await task();
+    } catch (error) {
+      this.say(error.message);
+      throw error;
+    } finally {
+      clearTimeout(timer);
+      element('busy').hidden = true;
+    }
   }
 
   // What is picked.

@@ -2,7 +2,6 @@
 import * as THREE from 'three';
 import { Eye } from './camera.js';
 import { find, hexesWithin } from './find.js';
-import { Pane } from './pane.js';
 
 const most = { labels: 400, tried: 4000 };
 
@@ -274,5 +273,3 @@ export class Stage {
     });
   }
 }
-
-export { Pane };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 
 #ifdef HEXTWIST_PAGE
 // The bundled page as it is, without a detour through an array of numbers.
@@ -26,12 +27,6 @@ namespace {
 
 constexpr std::string_view data_mark = "<!--scene-->", title_mark = "<title>hextwist</title>";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return result;
-}
-
 std::string script(const std::string& id, const std::string& content) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + content + "</script>\n";
 }
@@ -40,7 +35,6 @@ std::string script(const std::string& id, const std::string& content) {
 std::string scripts(const SceneSource& source, const SceneStart& start, const std::string& prefix, std::size_t& room,
                     std::vector<std::string>& left_out) {
   const std::vector<Channel> all = channels(source);
-  PackedBlock skin = skin_block(source);
   std::vector<std::pair<std::string, PackedBlock>> blocks;
   blocks.emplace_back("inside", inside_block(source));
   blocks.emplace_back("cad", cad_block(source));
@@ -65,10 +59,9 @@ std::string scripts(const SceneSource& source, const SceneStart& start, const st
     result += script(prefix + id, texts[i]);
     texts[i] = {};
   }
-  const std::string meta = scene_meta(source, all, start, missing);
-  skin.arrays.insert(skin.arrays.begin(), packed("meta", std::vector<std::uint8_t>(meta.begin(), meta.end())));
   left_out.insert(left_out.end(), missing.begin(), missing.end());
-  return script(prefix + "skin", base64(deflated(skin))) + result;
+  return script(prefix + "skin", base64(deflated(skin_block(source, scene_meta(source, all, start, missing))))) +
+         result;
 }
 
 }  // namespace
@@ -104,7 +97,7 @@ Page page(const SceneSource& source, const SceneStart& start, const SceneSource*
     throw Error("the page of this program has no place for a scene");
   result.text.reserve(frame.size() + data.size() + 1000);
   result.text += frame.substr(0, title);
-  result.text += "<title>" + escaped(source.title) + "</title>\n";
+  result.text += "<title>" + markup_text(source.title) + "</title>\n";
   result.text += alone;
   result.text += frame.substr(title + title_mark.size(), at - title - title_mark.size());
   result.text += data;

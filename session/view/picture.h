@@ -54,6 +54,13 @@ struct PictureFrame {
   std::array<Vec3, 3> axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   Vec3 middle = Vec3::Zero();
   double scale = 1;
+  int width = 0, height = 0;
+
+  /// Pixels from the left, from the top, and towards the eye.
+  Vec3 on_screen(const Vec3& p) const {
+    return {width / 2.0 + scale * (axes[0].dot(p) - middle.x()), height / 2.0 - scale * (axes[1].dot(p) - middle.y()),
+            scale * (axes[2].dot(p) - middle.z())};
+  }
 };
 PictureFrame frame_of(const Picture& picture, int width, int height);
 double shade_of(const Picture& picture, const Picture::Facet& facet, const PictureFrame& frame);

@@ -32,13 +32,8 @@ class Canvas {
         width_(width),
         height_(height),
         pixels_(static_cast<std::size_t>(width) * height, background),
-        depth_(pixels_.size(), -std::numeric_limits<float>::infinity()) {
-    const PictureFrame frame = frame_of(picture, width, height);
-    axes_ = frame.axes;
-    middle_ = frame.middle;
-    scale_ = frame.scale;
-    frame_ = frame;
-  }
+        depth_(pixels_.size(), -std::numeric_limits<float>::infinity()),
+        frame_(frame_of(picture, width, height)) {}
 
   void draw() {
     std::vector<Point2> screen(picture_.points.size());
@@ -60,14 +55,11 @@ class Canvas {
   int width_, height_;
   std::vector<Colour> pixels_;
   std::vector<float> depth_;
-  std::array<Vec3, 3> axes_ = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  Vec3 middle_ = Vec3::Zero();
-  double scale_ = 1;
-  PictureFrame frame_;
+  const PictureFrame frame_;
 
   Point2 project(const Vec3& p) const {
-    return {width_ / 2.0 + scale_ * (axes_[0].dot(p) - middle_.x()),
-            height_ / 2.0 - scale_ * (axes_[1].dot(p) - middle_.y()), scale_ * (axes_[2].dot(p) - middle_.z())};
+    const Vec3 at = frame_.on_screen(p);
+    return {at.x(), at.y(), at.z()};
   }
 
   void set(int x, int y, double z, const Colour& colour, double shade, double opacity = 1) {
@@ -235,6 +227,8 @@ const char* row_colour_name(std::size_t i) {
 
 PictureFrame frame_of(const Picture& picture, int width, int height) {
   PictureFrame frame;
+  frame.width = width;
+  frame.height = height;
   const Vec3 eye = picture.view.normalized();
   Vec3 right = picture.up.cross(eye);
   if (right.norm() < 1e-6) right = (std::abs(eye.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY()).cross(eye);

@@ -12,12 +12,6 @@ namespace {
 
 constexpr int text_size = 13, row_height = 18;
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return result;
-}
-
 std::string colour_text(const Colour& colour, double shade = 1) {
   std::array<char, 8> text;
   std::array<unsigned, 3> c;
@@ -33,7 +27,7 @@ std::string number(double value) {
 }
 
 std::string text_at(double x, double y, const std::string& text) {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\">" + escaped(text) + "</text>\n";
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\">" + markup_text(text) + "</text>\n";
 }
 
 /// Swatches with their texts, or the scale with its numbers.
@@ -63,14 +57,14 @@ std::string svg(const Picture& picture, int width, int height) {
   const PictureFrame frame = frame_of(picture, width, height);
   const auto depth = [&](const Vec3& p) { return frame.axes[2].dot(p); };
   const auto place = [&](const Vec3& p) {
-    return number(width / 2.0 + frame.scale * (frame.axes[0].dot(p) - frame.middle.x())) + "," +
-           number(height / 2.0 - frame.scale * (frame.axes[1].dot(p) - frame.middle.y()));
+    const Vec3 at = frame.on_screen(p);
+    return number(at.x()) + "," + number(at.y());
   };
   const std::string size = "width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"";
   std::string result = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + std::to_string(width) +
                        " " + std::to_string(height) + "\" font-family=\"sans-serif\" font-size=\"" +
                        std::to_string(text_size) + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
-                       escaped(picture.title) + "</title>\n<rect " + size + " fill=\"white\"/>\n";
+                       markup_text(picture.title) + "</title>\n<rect " + size + " fill=\"white\"/>\n";
 
   // Facets and lines by the depth of their middles; lines a little nearer, as they lie on facets.
   struct Piece {

@@ -58,7 +58,7 @@ std::vector<Channel> channels(const SceneSource& source);
 /// left_out: names of channels, and "inside", that are not to be had.
 std::string scene_meta(const SceneSource& source, const std::vector<Channel>& channels, const SceneStart& start,
                        const std::vector<std::string>& left_out);
-PackedBlock skin_block(const SceneSource& source);  ///< without "meta"
+PackedBlock skin_block(const SceneSource& source, const std::string& meta);
 PackedBlock cad_block(const SceneSource& source);
 PackedBlock inside_block(const SceneSource& source);
 PackedBlock sets_block(const SceneSource& source);

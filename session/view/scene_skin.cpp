@@ -51,7 +51,7 @@ Vec3 scene_origin(const Mesh& mesh) {
   return all.empty() ? Vec3(Vec3::Zero()) : Vec3((all.min + all.max) / 2);
 }
 
-PackedBlock skin_block(const SceneSource& source) {
+PackedBlock skin_block(const SceneSource& source, const std::string& meta) {
   const MeshedModel& meshed = source.selector.meshed;
   const Mesh& mesh = meshed.mesh;
   const Vec3 origin = scene_origin(mesh);
@@ -94,7 +94,8 @@ PackedBlock skin_block(const SceneSource& source) {
   }
 
   PackedBlock block{"skin", {}};
-  block.arrays = {packed("node", nodes),
+  block.arrays = {packed("meta", std::vector<std::uint8_t>(meta.begin(), meta.end())),
+                  packed("node", nodes),
                   packed("point", points, 3),
                   packed("owner_dim", owner_dim),
                   packed("owner_id", owner_id),
