@@ -57,17 +57,20 @@ class Eight : public Technique {
     for (;;) {
       if (round_) {
         if (auto cut = round_->next(state)) return cut;
-        targets_ = round_->take_targets();
         round_.reset();
       }
       if (n_done_ == n_rounds_) return std::nullopt;
       state.begin("close");
-      EightPlan plan = plan_eight(state.mesh(), targets_);
-      tell(plan, state.mesh(), n_done_++, state.report.notices);
-      round_.emplace(std::move(plan), std::move(targets_));
+      // Levels: the transition of each round but the last lies one hex further out, where no later round cuts.
+      const bool grows = is_regular(state.request) && n_done_ + 1 < n_rounds_;
+      const std::vector<Index> around = grows ? with_layers(state.mesh(), targets_, 1) : targets_;
+      EightStart start = plan_eight_around(state.mesh(), targets_, around);
+      tell(start.plan, state.mesh(), n_done_++, state.report.notices);
+      round_.emplace(std::move(start.plan), std::move(start.region));
     }
   }
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
+    targets_ = children_of(lineage, targets_);
     round_->follow(lineage, before, after);
   }
 
@@ -78,6 +81,19 @@ class Eight : public Technique {
 };
 
 }  // namespace
+
+EightStart plan_eight_around(const Mesh& mesh, const std::vector<Index>& targets, const std::vector<Index>& around) {
+  EightStart start{{}, union_of(targets, around)};
+  start.plan = plan_eight(mesh, start.region);
+  if (start.region.size() == targets.size()) return start;
+  const auto n_trisected = [&](const EightPlan& plan) {
+    return targets.size() - difference(targets, plan.trisected).size();
+  };
+  const std::size_t lost = n_trisected(start.plan);
+  if (lost == 0) return start;
+  EightPlan alone = plan_eight(mesh, targets);
+  return n_trisected(alone) < lost ? EightStart{std::move(alone), targets} : start;
+}
 
 std::optional<Cut> EightRound::next(State& state) {
   const Mesh& mesh = state.mesh();
@@ -96,7 +112,7 @@ std::optional<Cut> EightRound::next(State& state) {
   std::vector<std::uint8_t> marked(mesh.points.size(), 0);
   mark_nodes(mesh.hexes, plan_.trisected, marked);
   if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-  const std::vector<Index> halved = difference(targets_, plan_.trisected);
+  const std::vector<Index> halved = difference(region_, plan_.trisected);
   Cut cut{trisect_table(), thirds_codes(mesh, halved, plan_.thirds, marked)};
   plan_.trisected.clear();
   plan_.thirds.clear();
@@ -104,7 +120,7 @@ std::optional<Cut> EightRound::next(State& state) {
 }
 
 void EightRound::follow(const Lineage& lineage, const Mesh& before, const Mesh& after) {
-  targets_ = children_of(lineage, targets_);
+  region_ = children_of(lineage, region_);
   plan_.trisected = children_of(lineage, plan_.trisected);
   for (std::size_t p = next_pass_; p < plan_.passes.size(); ++p)
     carry_marks(lineage, before.hexes, after.n_nodes(), plan_.passes[p]);

@@ -23,9 +23,8 @@ double distance_left(double ratio) {
   return std::abs(std::log(ratio));
 }
 
-/// Regions of too large hexes that come nearer to the wish when they are halved now, and that can be one into eight.
-std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish,
-                                  EightPlan& plan) {
+/// The hexes of regions of too large ones that come nearer to the wish when they are halved now.
+std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish) {
   std::vector<Index> wanted;
   for (const std::vector<Index>& region : connected_regions(mesh, too_large)) {
     const std::vector<double> size = actual_sizes(mesh, region), wished = wished_sizes(mesh, region, wish);
@@ -37,11 +36,16 @@ std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_l
     if (after_two < after_three) wanted.insert(wanted.end(), region.begin(), region.end());
   }
   std::ranges::sort(wanted);
-  if (wanted.empty()) return {};
-  plan = plan_eight(mesh, wanted);
-  std::vector<Index> halved = difference(wanted, plan.trisected);
-  plan.trisected.clear();
-  return halved;
+  return wanted;
+}
+
+/// Those that are to be cut more than once, and one layer around: cut now, no later pass cuts a piece of a transition.
+std::vector<Index> around_those_cut_again(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish) {
+  const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, wish);
+  std::vector<Index> again;
+  for (std::size_t i = 0; i < too_large.size(); ++i)
+    if (plan_factors(size[i] / wished[i]).size() > 1) again.push_back(too_large[i]);
+  return with_layers(mesh, std::move(again), 1);
 }
 
 /// Nodes, edges and faces of the target at these hexes.
@@ -97,6 +101,7 @@ class ByThrees : public SizeTechnique {
         unmet_ = std::move(too_large);
         return std::nullopt;
       }
+      mark_more(mesh, too_large, marked);
       if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
       return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), n_passes_++ > 0};
     }
@@ -127,6 +132,8 @@ class ByThrees : public SizeTechnique {
   virtual std::optional<Cut> go_on(State&) { return std::nullopt; }
   /// Begins such a round for what is too large, where that comes nearer to the wish.
   virtual bool begin_round(const Mesh&, const std::vector<Index>&) { return false; }
+  /// Marks what is to be trisected for the sake of later passes.
+  virtual void mark_more(const Mesh&, const std::vector<Index>& /*too_large*/, std::vector<std::uint8_t>&) {}
 
   const SizeWish wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;
@@ -137,10 +144,11 @@ class ByThrees : public SizeTechnique {
   std::vector<Index> unmet_;
 };
 
-/// One into eight in regions that come nearer to the wish by factors of two, where that can be.
+/// One into eight in regions that come nearer to the wish by factors of two, where that can be. By levels, as twos come
+/// first and what is cut again is known then.
 class ByHalves : public ByThrees {
  public:
-  using ByThrees::ByThrees;
+  explicit ByHalves(State& state) : ByThrees(state), by_levels_(is_regular(state.request)) {}
 
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
     ByThrees::follow(lineage, before, after);
@@ -155,14 +163,23 @@ class ByHalves : public ByThrees {
     return cut;
   }
   bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
-    EightPlan plan;
-    std::vector<Index> halved = hexes_to_halve(mesh, too_large, wish_.field(), plan);
+    const std::vector<Index> wanted = hexes_to_halve(mesh, too_large, wish_.field());
+    if (wanted.empty()) return false;
+    std::vector<Index> around;
+    if (by_levels_) around = difference(around_those_cut_again(mesh, wanted, wish_.field()), too_large);
+    EightStart start = plan_eight_around(mesh, wanted, around);
+    std::vector<Index> halved = difference(start.region, start.plan.trisected);
+    start.plan.trisected.clear();
     if (halved.empty()) return false;
-    round_.emplace(std::move(plan), std::move(halved));
+    round_.emplace(std::move(start.plan), std::move(halved));
     return true;
+  }
+  void mark_more(const Mesh& mesh, const std::vector<Index>& too_large, std::vector<std::uint8_t>& marked) override {
+    if (by_levels_) mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field()), marked);
   }
 
  private:
+  const bool by_levels_;
   std::optional<EightRound> round_;
 };
 

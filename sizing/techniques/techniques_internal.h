@@ -30,19 +30,25 @@ std::unique_ptr<SizeTechnique> size_technique(State& state, Approach approach);
 /// Approach::nearest_size: tries threes and what else there is, goes on with what is better.
 void run_nearest_size(State& state);
 
+/// One into eight of targets and, where they lose nothing by it, of hexes around that later rounds need: both
+/// ascending.
+struct EightStart {
+  EightPlan plan;
+  std::vector<Index> region;  ///< what it is made for
+};
+EightStart plan_eight_around(const Mesh& mesh, const std::vector<Index>& targets, const std::vector<Index>& around);
+
 /// One round of one into eight as planned.
 class EightRound {
  public:
-  /// targets: what the plan was made for, ascending.
-  EightRound(EightPlan plan, std::vector<Index> targets) : plan_(std::move(plan)), targets_(std::move(targets)) {}
+  /// region: the hexes that the plan was made for, ascending.
+  EightRound(EightPlan plan, std::vector<Index> region) : plan_(std::move(plan)), region_(std::move(region)) {}
   std::optional<Cut> next(State& state);
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after);
-  /// What has become of them.
-  std::vector<Index> take_targets() { return std::move(targets_); }
 
  private:
   EightPlan plan_;
-  std::vector<Index> targets_;
+  std::vector<Index> region_;
   std::size_t next_pass_ = 0;
 };
 

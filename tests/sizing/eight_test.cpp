@@ -10,6 +10,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/patch/refine.h"
 #include "support/analytic_model.h"
 #include "support/checkers.h"
@@ -143,6 +144,44 @@ TEST(one_into_eight, numsplit_halves_again) {
     expect_exact(result.refined.mesh, size, targets, 1 << n);
     EXPECT_NEAR(volume(result.refined.mesh), 180, 1e-9);
   }
+}
+
+double worst_scaled_jacobian(const Mesh& mesh) {
+  return summarize(quality(Metric::scaled_jacobian, mesh)).min;
+}
+
+/// Boxes in a grid, inside it and at its sides: what one round has, later ones keep. (With an odd number of layers a
+/// plane of nodes beside the box is enclosed, whose end has 0.306.)
+TEST(one_into_eight, levels_of_halves_have_the_quality_of_one) {
+  const Box size = {8, 7, 7};
+  const MeshedModel input = on_own_skin(test::grid(8, 7, 7));
+  for (const Box n : {Box{1, 1, 1}, Box{2, 2, 2}, Box{3, 2, 3}, Box{4, 2, 2}})
+    for (const Box low : {Box{2, 3, 3}, Box{0, 0, 3}}) {
+      SCOPED_TRACE(testing::Message() << n[0] << " " << n[1] << " " << n[2] << " at " << low[0] << low[1] << low[2]);
+      const auto targets = block(size, low, {low[0] + n[0], low[1] + n[1], low[2] + n[2]});
+      const Target target{.kind = EntityKind::hex, .ids = targets};
+      const double wanted = std::ranges::all_of(n, [](int layers) { return layers % 2 == 0; }) ? 0.316 : 0.305;
+      for (const int numsplit : {1, 2, 3}) {
+        const RefineResult result = checked(input, {.target = target, .how = Cuts{numsplit}});
+        expect_exact(result.refined.mesh, size, targets, 1 << numsplit);
+        EXPECT_GE(worst_scaled_jacobian(result.refined.mesh), wanted) << numsplit;
+      }
+      const RefineResult by_size = checked(input, {.target = target, .how = Sizes{.size = 1 / 6.0}});  // 2, then 3
+      EXPECT_EQ(by_size.report.sizes->met(), 1);
+      EXPECT_GE(worst_scaled_jacobian(by_size.refined.mesh), wanted);
+    }
+}
+
+TEST(one_into_eight, a_nested_transition_cuts_what_is_there) {
+  const MeshedModel input = on_own_skin(test::grid(9, 9, 9));
+  const auto targets = block({9, 9, 9}, {3, 3, 3}, {5, 5, 5});
+  const Request regular{.target = {.kind = EntityKind::hex, .ids = targets}, .how = Cuts{3}};
+  Request nested = regular;
+  nested.transition = Transition::nested;
+  const Mesh fewer = checked(input, nested).refined.mesh, more = checked(input, regular).refined.mesh;
+  expect_exact(fewer, {9, 9, 9}, targets, 8);
+  EXPECT_LT(fewer.n_hexes(), more.n_hexes());
+  EXPECT_LT(worst_scaled_jacobian(fewer), 0.2);
 }
 
 TEST(one_into_eight, the_order_of_nodes_and_hexes_does_not_matter_for_the_counts_and_threads_for_nothing) {
