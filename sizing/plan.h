@@ -21,6 +21,7 @@ enum class Approach {
   size_by_levels,       ///< to wished sizes, by levels
   size_by_threes,       ///< by trisecting whatever is too large
   size_by_halves,       ///< and one into eight where that comes nearer
+  size_by_directions,   ///< and what is too long in some directions only in these alone, before
   size_by_combination,  ///< and by the combination at the target
   nearest_size,         ///< whichever of two of these comes nearer to the wish
 };

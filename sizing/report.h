@@ -24,6 +24,12 @@ struct StageTime {
   double seconds = 0;  ///< wall clock, all passes together
 };
 
+/// Edges of hexes compared with the wish, direction by direction (the longest of four counts).
+struct DirectionSizes {
+  Index n_longer = 0;   ///< by more than sqrt(3)
+  Index n_shorter = 0;  ///< by more than sqrt(3)
+};
+
 /// How well a request for sizes was met. The zone: the hexes at which it was wished for (with a bias: the hexes that it
 /// made and those at the target). The actual size of a hex is the cube root of its volume; the wished one that at its
 /// centroid.
@@ -35,6 +41,8 @@ struct SizeReport {
   Index n_finer = 0;          ///< below 1 / sqrt(3)
   Index n_much_finer = 0;     ///< below 1 / 3
   std::vector<Index> unmet;   ///< hexes that would be cut again if there were passes left, ascending
+  /// Of hexes that were too long in some directions only, when the request came.
+  std::optional<DirectionSizes> directions;
   /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
   double met() const {
     const auto n = static_cast<double>(hexes.size());

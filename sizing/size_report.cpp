@@ -1,9 +1,11 @@
 #include "hextwist/sizing/size_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -19,6 +21,27 @@ std::vector<double> wished_sizes(const Mesh& mesh, std::span<const Index> hexes,
   std::vector<double> wished(hexes.size());
   wish.evaluate(centres, wished);
   return wished;
+}
+
+std::array<double, 3> lengths(const Mesh& mesh, Index hex) {
+  std::array<double, 3> longest{};
+  const Hex& nodes = mesh.hexes[hex];
+  for (int e = 0; e < n_hex_edges; ++e) {
+    double& length = longest[e >> 2];
+    length = std::max(length, (mesh.points[nodes[edge_corner(e, 1)]] - mesh.points[nodes[edge_corner(e, 0)]]).norm());
+  }
+  return longest;
+}
+
+DirectionSizes direction_sizes(const Mesh& mesh, std::span<const Index> hexes, const SizeField& wish) {
+  DirectionSizes sizes;
+  const std::vector<double> wished = wished_sizes(mesh, hexes, wish);
+  for (std::size_t i = 0; i < hexes.size(); ++i)
+    for (const double length : lengths(mesh, hexes[i])) {
+      sizes.n_longer += length > std::numbers::sqrt3 * wished[i];
+      sizes.n_shorter += length < wished[i] / std::numbers::sqrt3;
+    }
+  return sizes;
 }
 
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish) {

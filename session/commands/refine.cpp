@@ -51,6 +51,10 @@ std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
       std::to_string(sizes.n_coarser) + " coarser, " + std::to_string(sizes.n_finer) + " finer (" +
       std::to_string(sizes.n_much_finer) + " by more than 3)\n" + histogram(sizes.ratio);
   if (text.ends_with('\n')) text.pop_back();
+  if (sizes.directions)
+    text += "\nof the " + std::to_string(3 * sizes.hexes.size()) + " directions of these hexes " +
+            std::to_string(sizes.directions->n_longer) + " are longer than wished by more than sqrt(3), " +
+            std::to_string(sizes.directions->n_shorter) + " shorter";
   if (!sizes.unmet.empty())
     text += "\n" + counted(static_cast<std::int64_t>(sizes.unmet.size()), EntityKind::hex) +
             " are still too large, the first: hex " + std::to_string(hex_id(mesh, sizes.unmet.front()));

@@ -8,7 +8,11 @@
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
+#include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/long_directions_internal.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
+#include "hextwist/sizing/techniques/wish_internal.h"
 
 namespace hextwist {
 namespace {
@@ -19,6 +23,9 @@ constexpr double near_tie = 0.05;
 
 /// Levels that bring so many hexes so near are taken without looking for anything nearer.
 constexpr double well_met = 0.6;
+
+/// Cuts of single directions go on through thin layers: not where that makes so many times more hexes.
+constexpr int most_times_more = 8;
 
 /// Nobody should compute on shapes below this where others can be had.
 constexpr double poor_shape = 0.1;
@@ -59,6 +66,11 @@ void judge(Candidate& candidate) {
       candidate.report.off_nodes.empty() && candidate.report.sizes->unmet.empty() && inverted_hexes(mesh).empty();
 }
 
+/// So that nothing nearer needs to be looked for.
+bool is_well_met(const Candidate& candidate) {
+  return candidate.sound && candidate.worst_shape >= poor_shape && candidate.report.sizes->met() >= well_met;
+}
+
 bool is_better(const Candidate& a, const Candidate& b) {
   if (a.sound != b.sound) return a.sound;
   const double shape = std::max(a.worst_shape, b.worst_shape);
@@ -75,20 +87,48 @@ std::string rounded(double value) {
   return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") + std::to_string(hundredths % 100);
 }
 
-/// The better one of two, which says why it was taken.
-Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* says_b, const Report& start) {
-  const bool takes_a = is_better(a, b);
-  Candidate& better = takes_a ? a : b;
-  const Candidate& other = takes_a ? b : a;
+/// The better one, which says why it was taken and how long the other took.
+Candidate preferred(Candidate better, const Candidate& other, const char* says, const Report& start) {
   Report& report = better.report;
   const double wasted = other.report.total_seconds - start.total_seconds;
   report.seconds.push_back({"other technique", wasted});
   report.total_seconds += wasted;
-  report.notices.push_back(std::string(takes_a ? says_a : says_b) + ": on average sizes are off by a factor of " +
+  report.notices.push_back(std::string(says) + ": on average sizes are off by a factor of " +
                            rounded(std::exp(better.distance)) + " (" + rounded(std::exp(other.distance)) +
                            " the other way), the worst shape is " + rounded(better.worst_shape) + " (" +
                            rounded(other.worst_shape) + ")");
-  return std::move(better);
+  return better;
+}
+Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* says_b, const Report& start) {
+  if (is_better(a, b)) return preferred(std::move(a), b, says_a, start);
+  return preferred(std::move(b), a, says_b, start);
+}
+
+/// Part of the directions of the hexes that were asked for that are within a factor sqrt(3) of the wish.
+double part_of_directions(const Candidate& candidate, const SizeWish& wish) {
+  const std::vector<Index>& hexes = candidate.report.sizes->hexes;
+  const DirectionSizes off = direction_sizes(candidate.result.refined.mesh, hexes, wish.field());
+  return 1 - (off.n_longer + off.n_shorter) / (3.0 * static_cast<double>(std::max<std::size_t>(hexes.size(), 1)));
+}
+
+/// What is too long in some directions only may be cut in these first: where hexes are that uneven, and sizes and
+/// shapes come out better, or directions do and sizes well.
+Candidate or_by_directions(Candidate taken, const State& state, const Report& start) {
+  const Request& request = state.request;
+  const Mesh& mesh = state.input.mesh;
+  if (request.method != Method::automatic || !is_regular(request)) return taken;
+  const SizeWish wish(state.input, request);
+  std::vector<std::string> told;
+  std::vector<std::uint8_t> in_zone(mesh.hexes.size(), wish.is_everywhere());
+  for (const Index h : region_target(state.input, request.target, told)) in_zone[h] = 1;
+  if (!are_uneven(mesh, in_zone, wish.field(), is_well_met(taken) ? 2 : 1)) return taken;
+  Candidate directions = attempt(state, start, Approach::size_by_directions);
+  judge(directions);
+  if (directions.result.refined.mesh.n_hexes() > most_times_more * taken.result.refined.mesh.n_hexes()) return taken;
+  const bool are_nearer = part_of_directions(directions, wish) > part_of_directions(taken, wish) + near_tie;
+  if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions))) return taken;
+  return preferred(std::move(directions), taken, "directions that are too long by themselves first, then whole hexes",
+                   start);
 }
 
 /// By threes: by levels, nested, or whichever is better.
@@ -96,7 +136,7 @@ Candidate by_threes(const State& state, const Report& start) {
   if (!is_regular(state.request)) return attempt(state, start, Approach::size_by_threes);
   Candidate levels = attempt(state, start, Approach::size_by_levels);
   judge(levels);
-  if (levels.sound && levels.worst_shape >= poor_shape && levels.report.sizes->met() >= well_met) return levels;
+  if (is_well_met(levels)) return levels;
   Candidate nested = attempt(state, start, Approach::size_by_threes);
   judge(nested);
   if (levels.result.refined.mesh.hexes == nested.result.refined.mesh.hexes) return levels;
@@ -119,9 +159,9 @@ void run_nearest_size(State& state) {
   const bool cuts_anything = taken.result.refined.mesh.n_hexes() > state.input.mesh.n_hexes();
   if (may_mix && cuts_anything)
     mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
+  judge(taken);
   if (mixed && mixed->has_done) {
     judge(*mixed);
-    judge(taken);
     taken = better_of(std::move(*mixed), std::move(taken),
                       varies ? "the combination for the last passes at the target, else whole hexes"
                              : "one into eight where that comes nearer, else one into 27",
@@ -129,6 +169,7 @@ void run_nearest_size(State& state) {
                              : "one into 27 alone, not one into eight as well",
                       start);
   }
+  if (cuts_anything) taken = or_by_directions(std::move(taken), state, start);
   state.report = std::move(taken.report);
   state.adopt(std::move(taken.result), std::move(taken.straight));
 }

@@ -1,7 +1,9 @@
 // Size-driven refinement: cut, look again, until the elements are as small as wished.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -11,6 +13,7 @@
 #include "hextwist/sizing/factors.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/targets.h"
+#include "hextwist/sizing/techniques/long_directions_internal.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 #include "hextwist/sizing/techniques/wish_internal.h"
 
@@ -40,11 +43,15 @@ std::vector<Index> hexes_to_halve(const Mesh& mesh, std::span<const Index> too_l
 }
 
 /// Those that are to be cut more than once, and one layer around: cut now, no later pass cuts a piece of a transition.
-std::vector<Index> around_those_cut_again(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish) {
+/// By threes alone, or by twos as well.
+std::vector<Index> around_those_cut_again(const Mesh& mesh, std::span<const Index> too_large, const SizeField& wish,
+                                          bool by_twos) {
   const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, wish);
   std::vector<Index> again;
-  for (std::size_t i = 0; i < too_large.size(); ++i)
-    if (plan_factors(size[i] / wished[i]).size() > 1) again.push_back(too_large[i]);
+  for (std::size_t i = 0; i < too_large.size(); ++i) {
+    const double ratio = size[i] / wished[i];
+    if (by_twos ? plan_factors(ratio).size() > 1 : ratio > 3 * std::numbers::sqrt3) again.push_back(too_large[i]);
+  }
   return with_layers(mesh, std::move(again), 1);
 }
 
@@ -103,7 +110,7 @@ class ByThrees : public SizeTechnique {
       }
       mark_more(mesh, too_large, marked);
       if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-      return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), n_passes_++ > 0};
+      return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), n_passes_++ > 0 && cuts_transitions_};
     }
   }
 
@@ -138,6 +145,7 @@ class ByThrees : public SizeTechnique {
   const SizeWish wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;
   int n_passes_ = 0;
+  bool cuts_transitions_ = true;  // those of earlier passes
 
  private:
   bool has_done_ = false;
@@ -148,7 +156,9 @@ class ByThrees : public SizeTechnique {
 /// first and what is cut again is known then.
 class ByHalves : public ByThrees {
  public:
-  explicit ByHalves(State& state) : ByThrees(state), by_levels_(is_regular(state.request)) {}
+  explicit ByHalves(State& state) : ByThrees(state) {
+    cuts_transitions_ = !(is_regular(state.request) && wish_.is_constant());
+  }
 
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
     ByThrees::follow(lineage, before, after);
@@ -166,7 +176,7 @@ class ByHalves : public ByThrees {
     const std::vector<Index> wanted = hexes_to_halve(mesh, too_large, wish_.field());
     if (wanted.empty()) return false;
     std::vector<Index> around;
-    if (by_levels_) around = difference(around_those_cut_again(mesh, wanted, wish_.field()), too_large);
+    if (!cuts_transitions_) around = difference(around_those_cut_again(mesh, wanted, wish_.field(), true), too_large);
     EightStart start = plan_eight_around(mesh, wanted, around);
     std::vector<Index> halved = difference(start.region, start.plan.trisected);
     start.plan.trisected.clear();
@@ -175,12 +185,44 @@ class ByHalves : public ByThrees {
     return true;
   }
   void mark_more(const Mesh& mesh, const std::vector<Index>& too_large, std::vector<std::uint8_t>& marked) override {
-    if (by_levels_) mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field()), marked);
+    if (!cuts_transitions_)
+      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field(), true), marked);
   }
 
  private:
-  const bool by_levels_;
   std::optional<EightRound> round_;
+};
+
+/// Directions that are too long by themselves, then whole hexes, both by threes: so none comes out too short.
+class ByDirections : public ByThrees {
+ public:
+  explicit ByDirections(State& state) : ByThrees(state) { cuts_transitions_ = !wish_.is_constant(); }
+
+  void finish(State& state) override {
+    ByThrees::finish(state);
+    SizeReport& report = *state.report.sizes;
+    report.directions = direction_sizes(state.mesh(), report.hexes, wish_.field());
+  }
+
+ protected:
+  std::optional<Cut> go_on(State&) override {
+    if (masks_.empty()) return std::nullopt;
+    return Cut{trisect_table(), std::exchange(masks_, {})};
+  }
+  bool begin_round(const Mesh& mesh, const std::vector<Index>&) override {
+    if (is_even_) return false;
+    masks_ = cuts_of_long_directions(mesh, in_zone_, wish_.field());
+    is_even_ = masks_.empty();
+    return !is_even_;
+  }
+  void mark_more(const Mesh& mesh, const std::vector<Index>& too_large, std::vector<std::uint8_t>& marked) override {
+    if (!cuts_transitions_)
+      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field(), false), marked);
+  }
+
+ private:
+  bool is_even_ = false;  // no hex needs more cuts in one direction than in another
+  std::vector<std::uint16_t> masks_;
 };
 
 /// At the target, once all that are too large touch it: they are refined towards it only.
@@ -226,6 +268,7 @@ class ByCombination : public ByThrees {
 
 std::unique_ptr<SizeTechnique> size_technique(State& state, Approach approach) {
   if (approach == Approach::size_by_halves) return std::make_unique<ByHalves>(state);
+  if (approach == Approach::size_by_directions) return std::make_unique<ByDirections>(state);
   if (approach == Approach::size_by_combination) return std::make_unique<ByCombination>(state);
   return std::make_unique<ByThrees>(state);
 }

@@ -17,6 +17,8 @@ class SizeWish {
   const SizeField& field() const { return *field_; }
   /// It holds for all of the mesh, not for the hexes of the target alone.
   bool is_everywhere() const { return is_everywhere_; }
+  /// It is the same at all places.
+  bool is_constant() const { return is_constant_; }
 
   /// Hexes of the zone (a byte per hex) whose size is above the wish by more than sqrt(3), ascending.
   std::vector<Index> too_large(const Mesh& mesh, std::span<const std::uint8_t> in_zone) const;
