@@ -94,7 +94,7 @@ constexpr Row foreign_words[] = {
      refused,
      "this format is not read here: CAD comes as .step, .brep or .iges, a mesh as .e, .msh, .inp, .vtk, .vtu or .mesh"},
     {"import sizing", refused, "say 'sizing field \"name\" file \"solution.e\"', then 'refine ... sizing_function'"},
-    {"export acis|step|iges|stl|parasolid|facets|ideas|patran|nastran|fluent|ansys|lsdyna|cubit|avs|sat", refused,
+    {"export acis|step|iges|stl|parasolid|facets|ideas|patran|nastran|fluent|cubit|avs|sat", refused,
      "meshes are written as exodus, gmsh, vtk, abaqus or medit here"},
     {"mesh", refused, meshing},
     {"remesh", refused, meshing},

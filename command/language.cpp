@@ -123,7 +123,7 @@ const std::vector<CommandSpec> table = {
       {"file", Kind::file, 0, 0, false, "file name that ends in .png, .svg, .gif or .html"}},
      {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|med|nastran|unv|openfoam|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
      "something fails, as it was. An existing file is kept unless 'overwrite' is said. 'text' or 'binary' where a format has "
      "both (.msh, .vtu); 'version' of .msh; 'order 2' writes hexes of 20 nodes (27 where the blocks have those); 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
@@ -150,7 +150,7 @@ const std::vector<CommandSpec> table = {
      {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3", "group \"poor\" add quality volume all shape high 0.3"}},
     {"help", "help [<command> [<option>]]", "list the commands, or show one, or one of its options",
      "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}, {"option", Kind::word, 0, 0, false, "one of its options, or 'all' for everything about it"}}, {"help", "help refine", "help refine size", "help refine all"}},
-    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|med|nastran|unv|openfoam|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
+    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
      "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies] [scale <factor>] "
      "[=use] [=nodeset] [=no_nodeset] [=sideset] [=no_sideset] [=linear] [=gradient] [=quadratic] [=spline] [=merge] [=no_merge] "
      "[=merge_nodes] [=unique] [=genesis] [=start_id <start>] [=ids]", "read a mesh or CAD",

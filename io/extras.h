@@ -51,7 +51,9 @@ struct FileExtras {
   std::map<int, std::string> element_types;
   /// Nodes of the hexes of a block, by its id: 8, 20 or 27; at 0 those of all others, 8 where there is none.
   std::map<int, int> nodes_per_hex;
-  std::map<int, std::string> patches;   ///< OpenFOAM: entries of a patch ("type wall;"), by its side set
+  std::map<int, std::string> patches;  ///< OpenFOAM: entries of a patch ("type wall;"), by its side set
+  /// SPECFEM3D: what a material is, by its block: its line of nummaterial_velocity_file but for the number.
+  std::map<int, std::string> materials;
   std::string heading;                  ///< Abaqus: lines below *HEADING
   std::vector<AbaqusCard> cards;        ///< Abaqus: those that are no mesh, in the order of the file
   std::vector<int> node_surfaces;       ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
@@ -61,8 +63,8 @@ struct FileExtras {
 
   /// Does the file say nothing beyond its mesh?
   bool empty() const {
-    return element_types.empty() && nodes_per_hex.empty() && patches.empty() && heading.empty() && cards.empty() &&
-           node_surfaces.empty() && periodic.empty() && curve_groups.empty();
+    return element_types.empty() && nodes_per_hex.empty() && patches.empty() && materials.empty() && heading.empty() &&
+           cards.empty() && node_surfaces.empty() && periodic.empty() && curve_groups.empty();
   }
 };
 

@@ -74,6 +74,35 @@ void check_unchanged(const Bytes& bytes) {
     throw Error(bytes.name + ": was changed by somebody while it was read");
 }
 
+NumberText::NumberText(double value, std::size_t width) {
+  const auto take = [&](const char* begin, const char* end) {
+    size = static_cast<std::size_t>(end - begin);
+    std::copy(begin, end, characters.data());
+  };
+  if (std::abs(value) < 1e-99) value = 0;
+  std::array<char, 128> text;
+  char* const begin = text.data();
+  const auto fits = [&](const char* stop) { return stop <= begin + width; };
+  char* end = std::to_chars(begin, begin + text.size(), value).ptr;
+  if (fits(end)) {
+    take(begin, end);
+    return;
+  }
+  // With an exponent or without, whichever has room for more digits.
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto format : {std::chars_format::scientific, std::chars_format::fixed})
+    for (int digits = 18; digits > 0; --digits) {
+      const auto [stop, error] = std::to_chars(begin, begin + text.size(), value, format, digits);
+      if (error != std::errc{} || !fits(stop)) continue;
+      double rounded = 0;
+      std::from_chars(begin, stop, rounded);
+      if (std::abs(rounded - value) < std::abs(nearest - value)) nearest = rounded;
+      break;
+    }
+  end = std::to_chars(begin, begin + text.size(), nearest).ptr;
+  take(begin, end);
+}
+
 Output::Output(const std::filesystem::path& file, bool overwrite)
     : file_(file, overwrite), buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {
   descriptor_ = ::open(file_.temporary().c_str(), O_WRONLY | O_CLOEXEC);
@@ -90,32 +119,17 @@ Output& Output::operator<<(std::int64_t value) {
   return *this;
 }
 
+Output& Output::operator<<(const Right& field) {
+  std::array<char, 24> text{};
+  const char* const end = std::to_chars(text.begin(), text.end(), field.number).ptr;
+  for (auto n = static_cast<std::size_t>(end - text.begin()); n < field.width; ++n) *this << ' ';
+  return *this << std::string_view(text.begin(), end);
+}
+
 Output& Output::operator<<(double value) {
   char* at = room(32);
   used_ = static_cast<std::size_t>(std::to_chars(at, at + 32, value).ptr - buffer_.get());
   return *this;
-}
-
-Output& Output::number(double value, std::size_t width) {
-  if (std::abs(value) < 1e-99) return *this << '0';
-  std::array<char, 128> text;
-  char* const begin = text.data();
-  const auto fits = [&](const char* stop) { return stop <= begin + width; };
-  char* end = std::to_chars(begin, begin + text.size(), value).ptr;
-  if (fits(end)) return *this << std::string_view(begin, end);
-  // With an exponent or without, whichever has room for more digits.
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto format : {std::chars_format::scientific, std::chars_format::fixed})
-    for (int digits = 18; digits > 0; --digits) {
-      const auto [stop, error] = std::to_chars(begin, begin + text.size(), value, format, digits);
-      if (error != std::errc{} || !fits(stop)) continue;
-      double rounded = 0;
-      std::from_chars(begin, stop, rounded);
-      if (std::abs(rounded - value) < std::abs(nearest - value)) nearest = rounded;
-      break;
-    }
-  end = std::to_chars(begin, begin + text.size(), nearest).ptr;
-  return *this << std::string_view(begin, end);
 }
 
 void Output::raw_large(const void* bytes, std::size_t n) {

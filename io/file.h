@@ -48,6 +48,21 @@ auto unchanged_by(const Bytes& bytes, F&& f) {
   }
 }
 
+/// A number in at most `width` characters (16 to 32) and with an exponent of two digits, as near as that gets; below
+/// 1e-99 it is 0.
+struct NumberText {
+  NumberText(double value, std::size_t width);
+  std::string_view text() const { return {characters.data(), size}; }
+  std::array<char, 32> characters;
+  std::size_t size = 0;
+};
+
+/// An integer right-aligned in a field.
+struct Right {
+  std::int64_t number;
+  std::size_t width;
+};
+
 /// Buffered output. Numbers in text are the shortest that read back to the same bits. Every failed write (full disk)
 /// throws Error.
 class Output {
@@ -71,9 +86,10 @@ class Output {
   Output& operator<<(std::int32_t value) { return *this << std::int64_t{value}; }
   Output& operator<<(std::size_t value) { return *this << static_cast<std::int64_t>(value); }
   Output& operator<<(double value);
+  Output& operator<<(const Right& field);
   /// A number for readers that take at most `width` characters of one (16 or more) and exponents of two digits: as
   /// near to the value as fits, which is the value itself but for some that are small. Below 1e-99 it is 0.
-  Output& number(double value, std::size_t width);
+  Output& number(double value, std::size_t width) { return *this << NumberText(value, width).text(); }
 
   void raw(const void* bytes, std::size_t n) {
     if (n > capacity - used_) return raw_large(bytes, n);

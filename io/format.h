@@ -40,6 +40,19 @@ void write_nastran(Output& out, const Mesh& mesh, const Association& association
 MeshFile read_unv(const Bytes& bytes);
 void write_unv(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                std::vector<std::string>& notices);
+MeshFile read_lsdyna(const Bytes& bytes);
+void write_lsdyna(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                  std::vector<std::string>& notices);
+MeshFile read_ansys(const Bytes& bytes);
+void write_ansys(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                 std::vector<std::string>& notices);
+MeshFile read_nek(const Bytes& bytes);
+void write_nek(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+               std::vector<std::string>& notices);
+/// file: any.specfem, beside mesh_file and the others.
+MeshFile read_specfem(const std::filesystem::path& file, const Fence& fence);
+void write_specfem(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                   std::vector<std::string>& notices);
 /// file: case.foam, beside constant/polyMesh.
 MeshFile read_openfoam(const std::filesystem::path& file, const Fence& fence);
 void write_openfoam(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,

@@ -58,12 +58,17 @@ constexpr Format formats[] = {
     {".g", "genesis", {20, 27}, io::read_exodus, write_exodus},
     {".gen", "genesis", {20, 27}, io::read_exodus, write_exodus},
     {".inp", "abaqus", {20, 27}, io::read_abaqus, write_whole<io::write_abaqus>},
-    {".mesh", "medit", {0, 0}, read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".mesh", "medit", {27, 27}, read_whole<io::read_medit>, write_whole<io::write_medit>},
     {".med", "med", {20, 27}, read_med, write_med},
     {".bdf", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
     {".nas", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
     {".unv", "unv", {20, 20}, read_whole<io::read_unv>, write_whole<io::write_unv>},
     {".foam", "openfoam", {0, 0}, io::read_openfoam, write_file<io::write_openfoam>},
+    {".k", "lsdyna", {20, 20}, read_whole<io::read_lsdyna>, write_whole<io::write_lsdyna>},
+    {".key", "lsdyna", {20, 20}, read_whole<io::read_lsdyna>, write_whole<io::write_lsdyna>},
+    {".cdb", "ansys", {20, 20}, read_whole<io::read_ansys>, write_whole<io::write_ansys>},
+    {".re2", "nek", {20, 20}, read_whole<io::read_nek>, write_whole<io::write_nek>},
+    {".specfem", "specfem", {27, 27}, io::read_specfem, write_file<io::write_specfem>},
     {".vtk", "vtk", {0, 0}, read_whole<io::read_vtk>, nullptr},
     {".vtu", "vtk", {20, 27}, read_whole<io::read_vtu>, write_whole<io::write_vtu>},
 };
@@ -85,6 +90,9 @@ void say_left_out(const FileExtras& extras, std::string_view extension, Notices&
       notices.push_back(counted(std::ssize(extras.cards), "card") +
                         " left out, which only .inp has: " + joined(what, ", "));
   }
+  if (extension != ".specfem" && !extras.materials.empty())
+    notices.push_back("properties of " + counted(std::ssize(extras.materials), "material") +
+                      " left out, which only .specfem has");
   if (extension != ".msh" && !extras.periodic.empty())
     notices.push_back("pairs of nodes of " +
                       counted(std::ssize(extras.periodic), "periodic entity", "periodic entities") +

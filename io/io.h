@@ -21,6 +21,10 @@
 //   .bdf .nas   Nastran bulk data: properties are blocks, SET1 node sets, PLOAD4 side sets; other cards are left out
 //   .unv        I-deas universal: groups
 //   .foam       OpenFOAM: constant/polyMesh beside it, text; patches and zones
+//   .k .key     LS-DYNA: parts and sets of solids are blocks, sets of nodes and segments
+//   .cdb        ANSYS archives: materials and components are blocks, components node sets, those of SURF154 side sets
+//   .re2        Nek5000, NekRS, binary: groups are blocks, conditions on sides side sets. Nodes are merged by place
+//   .specfem    SPECFEM3D: mesh_file and the others beside it; materials are blocks, files of sides side sets
 //   .mesh       MEDIT (Medit, Mmg, Hexotic), text; references are blocks, side sets and node sets. No ids, no fields
 //
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
@@ -59,10 +63,10 @@ struct MeshFile {
 /// elements, which count other elements too), nodes and hexes sorted by id; a notice says where they are not.
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
-/// format: "gmsh", "exodus", "genesis", "abaqus", "medit", "vtk", "med", "nastran", "unv" or "openfoam", whatever the
-/// file's name is. Default: by extension, and where that is none of those below by content, which tells Exodus
-/// (out.e-s002, mesh.e.4.0). fence: where Exodus files in the form of HDF5 are read, a library that damaged files can
-/// crash. Default: in this process.
+/// format: "gmsh", "exodus", "genesis", "abaqus", "medit", "vtk", "med", "nastran", "unv", "openfoam", "lsdyna",
+/// "ansys", "nek" or "specfem", whatever the file's name is. Default: by extension, and where that is none of those
+/// below by content, which tells Exodus (out.e-s002, mesh.e.4.0). fence: where Exodus files in the form of HDF5 are
+/// read, a library that damaged files can crash. Default: in this process.
 MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
 /// How a file is written; what its format does not have is ignored.

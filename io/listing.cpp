@@ -5,6 +5,36 @@
 #include "hextwist/base/sorted.h"
 
 namespace hextwist::io {
+namespace {
+
+using IdRange = std::pair<std::int64_t, std::int64_t>;
+
+/// Ascending, none in another: so that no id is looked at twice, whatever a file says.
+std::vector<IdRange> united(std::vector<IdRange> ranges) {
+  std::ranges::sort(ranges);
+  std::vector<IdRange> result;
+  for (const IdRange& range : ranges)
+    if (!result.empty() && range.first <= result.back().second)
+      result.back().second = std::max(result.back().second, range.second);
+    else if (range.first <= range.second)
+      result.push_back(range);
+  return result;
+}
+
+/// Positions of all ids within ranges. ids: ascending; empty: 1 .. n.
+void add_within(std::vector<Index>& to, const std::vector<IdRange>& ranges, std::span<const std::int64_t> ids,
+                Index n) {
+  for (const auto& [first, last] : united(ranges)) {
+    std::int64_t begin = std::max<std::int64_t>(first, 1) - 1, end = std::min<std::int64_t>(last, n);
+    if (!ids.empty()) {
+      begin = std::ranges::lower_bound(ids, first) - ids.begin();
+      end = std::ranges::upper_bound(ids, last) - ids.begin();
+    }
+    for (std::int64_t i = begin; i < end; ++i) to.push_back(static_cast<Index>(i));
+  }
+}
+
+}  // namespace
 
 void Listing::fail(const char* at, const std::string& what) const {
   if (!at) throw Error(std::string(cursor_.name) + ": " + what);
@@ -136,9 +166,38 @@ void Listing::assemble_groups(bool parts_count_always) {
     if (!generated) group.name = from.name;
     return group;
   };
+  // Sides by corners, of all groups at once.
+  std::vector<Quad> cycles;
+  std::int64_t n_lost = 0;
+  for (const Group& from : groups_)
+    for (const auto& corners : from.quads) {
+      Quad& cycle = cycles.emplace_back();
+      for (std::size_t c = 0; c < 4; ++c) cycle[c] = nodes_.find(corners[c]);
+      if (const auto none = std::ranges::find(cycle, -1); none != cycle.end()) {
+        missing(corners[static_cast<std::size_t>(none - cycle.begin())]);
+        cycles.pop_back();
+      }
+    }
+  const std::vector<Side> sides_of_cycles = oriented_sides(mesh, cycles);
+  auto next_side = sides_of_cycles.begin();
   for (const Group& from : groups_) {
     std::vector<Index> members, hexes;
     std::vector<Side> sides;
+    for (const auto& corners : from.quads) {
+      if (!std::ranges::all_of(corners, [&](std::int64_t id) { return nodes_.find(id) >= 0; })) continue;
+      if (next_side->hex >= 0)
+        sides.push_back(*next_side);
+      else
+        ++n_lost;
+      ++next_side;
+    }
+    add_within(members, from.node_ranges, mesh.node_ids, mesh.n_nodes());
+    add_within(hexes, from.element_ranges, mesh.hex_ids, mesh.n_hexes());
+    if (!from.hexes_only)
+      for (const auto& [first, last] : united(from.element_ranges))
+        for (auto q = std::ranges::lower_bound(quad_of_id_, std::pair(first, Index{0}));
+             q != quad_of_id_.end() && q->first <= last; ++q)
+          if (quad_sides_[q->second].hex >= 0) sides.push_back(quad_sides_[q->second]);
     for (const std::int64_t id : from.nodes)
       if (const Index n = nodes_.find(id); n >= 0)
         members.push_back(n);
@@ -148,7 +207,7 @@ void Listing::assemble_groups(bool parts_count_always) {
       if (const Index h = hex_ids_.find(id); h >= 0) {
         hexes.push_back(h);
       } else if (const auto q = std::ranges::lower_bound(quad_of_id_, std::pair(id, Index{0}));
-                 q != quad_of_id_.end() && q->first == id) {
+                 !from.hexes_only && q != quad_of_id_.end() && q->first == id) {
         if (quad_sides_[q->second].hex >= 0) sides.push_back(quad_sides_[q->second]);
       } else if (!std::ranges::binary_search(dropped_ids_, id)) {
         missing(id);
@@ -181,6 +240,8 @@ void Listing::assemble_groups(bool parts_count_always) {
     if (!hexes.empty() || from.empty_block) put(mesh.blocks, from, "block").hexes = std::move(hexes);
     if (!sides.empty() || from.empty_side_set) put(mesh.side_sets, from, "sideset").sides = std::move(sides);
   }
+  if (n_lost > 0)
+    note("dropped " + counted(n_lost, "side") + " of sets that" + (n_lost == 1 ? " is" : " are") + " no side of a hex");
   if (n_missing > 0)
     note("groups name " + counted(n_missing, "node or element", "nodes or elements") +
          " that are not there; the first is " + std::to_string(first_missing));
@@ -192,7 +253,13 @@ void Listing::assemble_groups(bool parts_count_always) {
     std::map<int, std::vector<Index>> of_part;
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       if (part_of_hex_[h] > 0) of_part[part_of_hex_[h]].push_back(h);
-    for (auto& [part, hexes] : of_part) put(mesh.blocks, {part, name(part)}, "block").hexes = std::move(hexes);
+    for (auto& [part, hexes] : of_part) {
+      // A group of the same id and name that has all of it is the whole of a block that overlaps others.
+      const Index same = position_in(mesh.blocks, part, &Block::id);
+      if (same >= 0 && mesh.blocks[same].name == name(part) && std::ranges::includes(mesh.blocks[same].hexes, hexes))
+        continue;
+      put(mesh.blocks, {part, name(part)}, "block").hexes = std::move(hexes);
+    }
   }
   if (!quads_grouped || parts_count_always) {
     std::map<int, std::vector<Side>> of_part;
@@ -219,6 +286,24 @@ std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std:
                       counted(n_more, "hex", "hexes") + (n_more == 1 ? " is" : " are") +
                       " in the first of their blocks");
   return block;
+}
+
+const char* degenerate_hex(std::span<const std::int64_t> corners) {
+  std::array<std::int64_t, 8> sorted{};
+  std::ranges::copy(corners.first(8), sorted.begin());
+  std::ranges::sort(sorted);
+  switch (std::ranges::unique(sorted).begin() - sorted.begin()) {
+    case 8:
+      return nullptr;
+    case 6:
+      return "wedge (a hex with repeated nodes)";
+    case 5:
+      return "pyramid (a hex with repeated nodes)";
+    case 4:
+      return "tetrahedron (a hex with repeated nodes)";
+    default:
+      return "hex with repeated nodes";
+  }
 }
 
 int generated_id(const std::string& name, std::string_view kind) {

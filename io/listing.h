@@ -35,6 +35,10 @@ class Listing {
     std::vector<std::int64_t> nodes = {}, elements = {};
     std::vector<std::pair<std::int64_t, int>> sides = {};                             ///< hex and face (corners.h)
     std::vector<std::pair<std::int64_t, std::array<std::int64_t, 2>>> opposite = {};  ///< hex, two opposite corners
+    std::vector<std::array<std::int64_t, 4>> quads = {};                              ///< sides by their corners
+    /// All between a first and a last id that are there.
+    std::vector<std::pair<std::int64_t, std::int64_t>> node_ranges = {}, element_ranges = {};
+    bool hexes_only = false;                                                   ///< elements are no quads
     bool empty_block = false, empty_node_set = false, empty_side_set = false;  ///< is one, even if without members
   };
   Group& add_group(int id, const std::string& name) { return groups_.emplace_back(Group{id, name}); }
@@ -78,6 +82,8 @@ class Listing {
 /// For writers of formats where a hex is in one group only: per hex the position of its first block, -1 none; a notice
 /// where hexes are in several.
 std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
+/// What a hex with repeated corners is, by how many different ones it has; null where none is repeated.
+const char* degenerate_hex(std::span<const std::int64_t> corners);
 /// What writers call groups without a name, "block_3": its id; -1 for all else.
 int generated_id(const std::string& name, std::string_view kind);
 /// A name on one line, of letters that every program takes.

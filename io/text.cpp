@@ -101,6 +101,33 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+bool integer_in_field(std::string_view field, std::int64_t& value) {
+  field = trimmed(field);
+  value = 0;
+  if (field.empty()) return true;
+  if (field.front() == '+') field.remove_prefix(1);
+  const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  return error == std::errc{} && stop == field.data() + field.size();
+}
+
+bool real_in_field(std::string_view field, double& value) {
+  field = trimmed(field);
+  value = 0;
+  if (field.empty()) return true;
+  if (field.front() == '+') field.remove_prefix(1);
+  const char* const end = field.data() + field.size();
+  auto [stop, error] = std::from_chars(field.data(), end, value);
+  if (error == std::errc{} && stop == end) return std::isfinite(value);
+  // What from_chars() does not know: other letters of an exponent, or none.
+  std::string text(field);
+  for (char& c : text)
+    if (c == 'd' || c == 'D' || c == 'E') c = 'e';
+  const auto sign = text.find_first_of("+-", 1);
+  if (sign != std::string::npos && text.find('e') == std::string::npos) text.insert(sign, "e");
+  const auto second = std::from_chars(text.data(), text.data() + text.size(), value);
+  return second.ec == std::errc{} && second.ptr == text.data() + text.size() && std::isfinite(value);
+}
+
 std::string shown(std::string_view text) {
   std::string result = "'";
   for (const char c : text.substr(0, 30)) result += static_cast<unsigned char>(c) < ' ' || c == 127 ? '?' : c;

@@ -113,6 +113,10 @@ class Cursor {
 };
 
 std::string_view trimmed(std::string_view text);
+/// The number that fills a field of fixed width, blanks around it; a blank field is 0. False at anything else. Reals as
+/// Fortran has them: "1.5E-3", "1.5D-3", "1.5-3".
+bool integer_in_field(std::string_view field, std::int64_t& value);
+bool real_in_field(std::string_view field, double& value);
 /// What may stand in a message: cut to a few characters, control characters replaced.
 std::string shown(std::string_view text);
 

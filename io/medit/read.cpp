@@ -1,5 +1,8 @@
 // MEDIT's .mesh, text (P. Frey, "Medit: an interactive mesh visualization software", INRIA RT-0253, 2001).
 //
+// HexahedraQ2 (27 nodes), QuadrilateralsQ2 and EdgesP2 with the order of their nodes (L. Marechal, "The LibMeshb
+// library", "GmfSetHONodesOrdering").
+//
 // References of hexes are blocks, of quads side sets, of vertices node sets; the nodes of edges with a reference are a
 // node set, too. Corners, RequiredVertices, Ridges and RequiredEdges are node sets of these names,
 // RequiredQuadrilaterals a side set. In files of our own, comments say which references are owners and which are groups
@@ -43,13 +46,21 @@ class MeditReader {
     if (word.empty() && !done()) cursor_.fail_at(cursor_.end, "the file ends without hexes");
     if (word.empty())
       out_.notices.push_back(cursor_.where(cursor_.end) + ": there is no End; the file may be cut short");
-    if (hexes_.references.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
+    if (hexes_.references.empty() && quadratic_hexes_.references.empty())
+      cursor_.fail_at(cursor_.end, "there is no hex in the file");
+    quadratic();
     assemble();
+    if (found_.any()) {
+      found_.finish(out_.mesh.hexes.size());
+      take_middles(out_, found_);
+    }
     return std::move(out_);
   }
 
  private:
-  bool done() const { return !out_.mesh.points.empty() && !hexes_.references.empty(); }
+  bool done() const {
+    return !out_.mesh.points.empty() && !(hexes_.references.empty() && quadratic_hexes_.references.empty());
+  }
 
   /// Skips blanks and comments.
   void skip() {
@@ -90,6 +101,16 @@ class MeditReader {
     if (same_word(word, "Hexahedra")) return elements(hexes_, 8, "hex");
     if (same_word(word, "Quadrilaterals")) return elements(quads_, 4, "quad");
     if (same_word(word, "Edges")) return elements(edges_, 2, "edge");
+    if (same_word(word, "HexahedraQ2") || same_word(word, "HexahedraP2")) {
+      quadratic_at_ = start_;
+      return elements(quadratic_hexes_, 27, "hex");
+    }
+    if (same_word(word, "QuadrilateralsQ2")) return elements(quadratic_quads_, 9, "quad");
+    if (same_word(word, "EdgesP2")) return elements(quadratic_edges_, 3, "edge");
+    if (same_word(word, "HexahedraQ2Ordering") || same_word(word, "HexahedraP2Ordering"))
+      return ordering(hex_order_, 27, 3);
+    if (same_word(word, "QuadrilateralsQ2Ordering")) return ordering(quad_order_, 9, 2);
+    if (same_word(word, "EdgesP2Ordering")) return ordering(edge_order_, 3, 1);
     if (same_word(word, "Corners")) return list(corners_, "corner");
     if (same_word(word, "RequiredVertices")) return list(required_vertices_, "vertex");
     if (same_word(word, "Ridges")) return list(ridges_, "edge");
@@ -149,6 +170,80 @@ class MeditReader {
       }
       elements.references.push_back(cursor_.small("a reference"));
     }
+  }
+
+  /// Per node of an element its place on axes from 0 to 2; kept as the number x + 3 y + 9 z.
+  void ordering(std::vector<int>& order, std::size_t n_nodes, int n_axes) {
+    const auto n = count("nodes", static_cast<std::size_t>(n_axes));
+    if (n != n_nodes)
+      cursor_.fail_at(start_, "an order of " + std::to_string(n) + " nodes instead of " + std::to_string(n_nodes));
+    for (std::size_t i = 0; i < n; ++i) {
+      skip();
+      const char* at = cursor_.at;
+      int place = 0;
+      for (int axis = 0, step = 1; axis < n_axes; ++axis, step *= 3) {
+        const int x = cursor_.small("the place of a node");
+        if (x < 0 || x > 2) cursor_.fail_at(at, "the place " + std::to_string(x) + " of a node is not 0, 1 or 2");
+        place += step * x;
+      }
+      if (std::ranges::find(order, place) != order.end()) cursor_.fail_at(at, "two nodes at one place");
+      order.push_back(place);
+    }
+  }
+
+  /// Elements of second order become elements of first order, and middle nodes of hexes.
+  void quadratic() {
+    const auto corners = [](const Elements& from, std::size_t width, const std::vector<int>& order,
+                            std::initializer_list<int> places, Elements& to) {
+      for (std::size_t i = 0; i < from.references.size(); ++i) {
+        std::size_t next = 0;
+        for (const int place : places) {
+          // Without an order, corners come first.
+          const auto at =
+              order.empty() ? next : static_cast<std::size_t>(std::ranges::find(order, place) - order.begin());
+          to.nodes.push_back(from.nodes[width * i + at]);
+          ++next;
+        }
+        to.references.push_back(from.references[i]);
+      }
+    };
+    if (!quadratic_hexes_.references.empty() && hex_order_.empty())
+      cursor_.fail_at(quadratic_at_,
+                      "in which order the 27 nodes of a hex are is not said: HexahedraQ2Ordering is missing");
+    const std::size_t n_before = hexes_.references.size();
+    corners(quadratic_hexes_, 27, hex_order_, {0, 2, 8, 6, 18, 20, 26, 24}, hexes_);
+    corners(quadratic_quads_, 9, quad_order_, {0, 2, 8, 6}, quads_);
+    corners(quadratic_edges_, 3, edge_order_, {0, 2}, edges_);
+    constexpr MiddleOrder as_it_is = [] {
+      MiddleOrder order{};
+      for (int i = 0; i < 19; ++i) order[i] = i;
+      return order;
+    }();
+    std::array<Index, FoundMiddles::width> middles{};
+    for (std::size_t i = 0; i < quadratic_hexes_.references.size(); ++i) {
+      for (std::size_t k = 0; k < hex_order_.size(); ++k)
+        if (const int middle = middle_at(hex_order_[k]); middle >= 0)
+          middles[static_cast<std::size_t>(middle)] = quadratic_hexes_.nodes[27 * i + k];
+      found_.add(n_before + i, middles, as_it_is);
+    }
+    quadratic_hexes_ = {};
+  }
+
+  /// The middle (MiddleOrder's number) at a place x + 3 y + 9 z; -1: a corner.
+  static int middle_at(int place) {
+    const std::array<int, 3> at = {place % 3, place / 3 % 3, place / 9};
+    int low = 0, n_ones = 0, axis_of_one = 0, other = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (at[axis] == 1) {
+        ++n_ones;
+        axis_of_one = axis;
+      } else {
+        other = axis;
+        if (at[axis] == 2) low |= 1 << axis;
+      }
+    if (n_ones == 0) return -1;
+    if (n_ones == 1) return edge_between(low, low | 1 << axis_of_one);
+    return n_ones == 2 ? 12 + 2 * other + (at[other] == 2) : 18;
   }
 
   void list(std::vector<Index>& items, const char* kind) {
@@ -323,6 +418,10 @@ class MeditReader {
   Index n_nodes_ = -1;
   std::vector<int> vertex_references_;
   Elements hexes_, quads_, edges_;
+  Elements quadratic_hexes_, quadratic_quads_, quadratic_edges_;
+  std::vector<int> hex_order_, quad_order_, edge_order_;  // per node its place x + 3 y + 9 z
+  const char* quadratic_at_ = nullptr;
+  FoundMiddles found_;
   std::vector<Index> corners_, required_vertices_, ridges_, required_edges_, required_quads_;
 };
 

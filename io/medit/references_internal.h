@@ -7,9 +7,14 @@
 
 #include <map>
 
-#include "hextwist/io/format.h"
+#include "hextwist/io/middles.h"
 
 namespace hextwist::io {
+
+/// Middle nodes of HexahedraQ2 as they are written, beside the section HexahedraQ2Ordering that says so: the lower
+/// ring, the upper ring, the pillars; faces below, above, front, right, back, left; the centre.
+inline constexpr MiddleOrder medit_middles = middle_order(
+    ring_ring_pillars, {{{1, 2, 3, 4}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}});
 
 /// Names of the kinds in comments.
 struct ReferenceKinds {

@@ -49,11 +49,8 @@ class NastranReader {
 
   std::int64_t integer(const NastranCard& card, std::size_t field, const char* what, bool may_be_blank = false) const {
     const std::string& text = card[field];
-    if (text.empty() && may_be_blank) return 0;
     std::int64_t value = 0;
-    const char* from = text.data() + (text.starts_with('+') ? 1 : 0);
-    const auto [stop, error] = std::from_chars(from, text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size())
+    if ((text.empty() && !may_be_blank) || !integer_in_field(text, value))
       cursor_.fail_at(
           card.at, card.name + " has " + (text.empty() ? "nothing" : shown(text)) + " where " + what + " should stand");
     return value;
@@ -66,16 +63,8 @@ class NastranReader {
   }
   /// "1.5", "1.5E-3", "1.5D-3", "1.5-3"; blank is 0.
   double real(const NastranCard& card, std::size_t field) const {
-    std::string text = card[field];
-    if (text.empty()) return 0;
-    for (char& c : text)
-      if (c == 'd' || c == 'D' || c == 'E') c = 'e';
-    const auto sign = text.find_first_of("+-", 1);
-    if (sign != std::string::npos && text.find('e') == std::string::npos) text.insert(sign, "e");
     double value = 0;
-    const char* from = text.data() + (text.starts_with('+') ? 1 : 0);
-    const auto [stop, error] = std::from_chars(from, text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size())
+    if (!real_in_field(card[field], value))
       cursor_.fail_at(card.at, card.name + " has " + shown(card[field]) + " where a number should stand");
     return value;
   }

@@ -39,6 +39,10 @@ std::string_view extensions_of(std::string_view word, bool writing) {
   if (word == "nastran") return ".bdf .nas";
   if (word == "unv") return ".unv";
   if (word == "openfoam") return ".foam";
+  if (word == "lsdyna") return ".k .key";
+  if (word == "ansys") return ".cdb";
+  if (word == "nek") return ".re2";
+  if (word == "specfem") return ".specfem";
   if (word == "step") return ".step .stp";
   if (word == "brep") return ".brep";
   if (word == "iges") return ".iges .igs";

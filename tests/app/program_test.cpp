@@ -241,6 +241,11 @@ TEST(Program, convert_writes_a_mesh_in_another_format) {
   const MeshFile back = read_mesh(path("b.unv"));
   EXPECT_EQ(back.middles.nodes_per_hex, 20);
   EXPECT_EQ(back.mesh.blocks.at(0).name, "rod");
+  for (const char* name : {"c.k", "c.cdb", "c.re2", "MESH/c.specfem", "c.mesh"}) {
+    EXPECT_EQ(run("convert " + path("a.msh") + " " + path(name) + " --order 2").status, 0) << name;
+    EXPECT_EQ(run("convert " + path(name) + " " + path("d.msh")).status, 0) << name;
+    EXPECT_EQ(read_mesh(path("d.msh")).mesh.n_hexes(), back.mesh.n_hexes()) << name;
+  }
   EXPECT_EQ(run("convert " + path("a.msh")).status, 2);
   EXPECT_EQ(run("convert " + path("a.msh") + " " + path("a.stl")).status, 2);
   EXPECT_EQ(run("convert " + path("none.msh") + " " + path("c.unv")).status, 1);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/corners.h"
 #include "support/checkers.h"
@@ -83,6 +85,55 @@ inline Mesh rich_mesh(unsigned seed, bool gaps, const std::array<int, 3>& cells 
     for (std::size_t i = 0; i < mesh.hexes.size(); ++i) mesh.hex_ids.push_back(id += 1 + random() % 2);
   }
   return mesh;
+}
+
+/// Blocks that do not overlap, groups whose ids differ between kinds, and none with a name that a format can't have.
+inline Mesh tidy_mesh(unsigned seed, bool gaps) {
+  Mesh mesh = rich_mesh(seed, gaps);
+  mesh.fields.clear();
+  mesh.blocks = {{2, "steel", {}}, {5, "", {}}};
+  for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.blocks[h % 3 == 0].hexes.push_back(h);
+  mesh.node_sets[0].id = 11, mesh.node_sets[1].id = 12, mesh.node_sets[2].id = 19;
+  mesh.node_sets[1].name = "Fixed_Nodes";
+  return mesh;
+}
+
+/// Groups whatever their ids are, where they have names.
+template <class Groups>
+std::set<std::string> names_and_members(const Groups& groups) {
+  std::set<std::string> result;
+  for (const auto& group : groups) {
+    std::string text = group.name.empty() ? std::to_string(group.id) : group.name;
+    if constexpr (requires { group.hexes; })
+      text += ":" + joined(group.hexes);
+    else if constexpr (requires { group.nodes; })
+      text += ":" + joined(group.nodes);
+    else
+      for (const Side& side : group.sides) text += ":" + std::to_string(side.hex) + "/" + std::to_string(side.face);
+    result.insert(text);
+  }
+  return result;
+}
+
+/// Coordinates of all corners of all hexes, which say the same however nodes are numbered.
+inline std::vector<Vec3> corners_of_hexes(const Mesh& mesh) {
+  std::vector<Vec3> result;
+  for (const Hex& hex : mesh.hexes)
+    for (const Index node : hex) result.push_back(mesh.points[node]);
+  return result;
+}
+
+/// Is this in one of the lines?
+inline bool told(const std::vector<std::string>& notices, const std::string& part) {
+  return std::ranges::any_of(notices, [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+/// Each coordinate as near as this part of it.
+inline void expect_points_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expected, double relative) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t n = 0; n < found.size(); ++n)
+    for (int axis = 0; axis < 3; ++axis)
+      ASSERT_NEAR(found[n][axis], expected[n][axis], relative * std::abs(expected[n][axis]) + 1e-98);
 }
 
 /// Owners of a brick: 2 volumes divided at x = 2 if split, its surfaces, curves and vertices, complete.

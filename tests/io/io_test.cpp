@@ -247,8 +247,10 @@ TEST(mesh_files, missing_empty_and_unknown_files_are_refused) {
     if (const auto at = list.find(" .med"); at != std::string::npos) list.erase(at, 5);
     return list;
   };
-  EXPECT_EQ(without_med(readable_extensions()), ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .vtk .vtu");
-  EXPECT_EQ(without_med(writable_extensions()), ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .vtu");
+  EXPECT_EQ(without_med(readable_extensions()),
+            ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .k .key .cdb .re2 .specfem .vtk .vtu");
+  EXPECT_EQ(without_med(writable_extensions()),
+            ".msh .e .exo .g .gen .inp .mesh .bdf .nas .unv .foam .k .key .cdb .re2 .specfem .vtu");
 }
 
 std::string write_refusal(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options = {}) {

@@ -1,6 +1,5 @@
 // Formats with groups that others work with: Nastran, I-deas universal, OpenFOAM, MED.
 #include <Eigen/Geometry>
-#include <set>
 
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/second_order/second_order.h"
@@ -17,33 +16,6 @@ bool has_med() {
 std::vector<std::string> files() {
   std::vector<std::string> result = {"a.bdf", "a.unv", "a.foam"};
   if (has_med()) result.emplace_back("a.med");
-  return result;
-}
-
-/// Blocks that do not overlap, groups whose ids differ between kinds, and none with a name that a format can't have.
-Mesh tidy_mesh(unsigned seed, bool gaps) {
-  Mesh mesh = test::rich_mesh(seed, gaps);
-  mesh.fields.clear();
-  mesh.blocks = {{2, "steel", {}}, {5, "", {}}};
-  for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.blocks[h % 3 == 0].hexes.push_back(h);
-  mesh.node_sets[0].id = 11, mesh.node_sets[1].id = 12, mesh.node_sets[2].id = 19;
-  mesh.node_sets[1].name = "Fixed_Nodes";
-  return mesh;
-}
-
-template <class Groups>
-std::set<std::string> names_and_members(const Groups& groups) {
-  std::set<std::string> result;
-  for (const auto& group : groups) {
-    std::string text = group.name.empty() ? std::to_string(group.id) : group.name;
-    if constexpr (requires { group.hexes; })
-      text += ":" + joined(group.hexes);
-    else if constexpr (requires { group.nodes; })
-      text += ":" + joined(group.nodes);
-    else
-      for (const Side& side : group.sides) text += ":" + std::to_string(side.hex) + "/" + std::to_string(side.face);
-    result.insert(text);
-  }
   return result;
 }
 
@@ -64,7 +36,7 @@ TEST(listed_files, groups_names_and_ids_come_back) {
   for (unsigned seed = 1; seed < 4; ++seed)
     for (const std::string& name : files()) {
       SCOPED_TRACE(name + " " + std::to_string(seed));
-      const Mesh mesh = tidy_mesh(seed, seed % 2);
+      const Mesh mesh = test::tidy_mesh(seed, seed % 2);
       const auto file = folder / name;
       write_mesh(file, mesh, nullptr);
       const MeshFile read = read_mesh(file);
@@ -82,22 +54,22 @@ TEST(listed_files, groups_names_and_ids_come_back) {
           std::ranges::sort(a), std::ranges::sort(b);
           EXPECT_EQ(a, b);
         }
-        EXPECT_EQ(names_and_members(read.mesh.blocks), names_and_members(mesh.blocks));
-        EXPECT_EQ(names_and_members(read.mesh.node_sets), names_and_members(mesh.node_sets));
+        EXPECT_EQ(test::names_and_members(read.mesh.blocks), test::names_and_members(mesh.blocks));
+        EXPECT_EQ(test::names_and_members(read.mesh.node_sets), test::names_and_members(mesh.node_sets));
         continue;
       }
       EXPECT_EQ(read.mesh.hexes, mesh.hexes);
       EXPECT_EQ(read.mesh.node_ids, mesh.node_ids);
       EXPECT_EQ(read.mesh.hex_ids, mesh.hex_ids);
-      EXPECT_EQ(names_and_members(read.mesh.blocks), names_and_members(mesh.blocks));
-      EXPECT_EQ(names_and_members(read.mesh.node_sets), names_and_members(mesh.node_sets));
+      EXPECT_EQ(test::names_and_members(read.mesh.blocks), test::names_and_members(mesh.blocks));
+      EXPECT_EQ(test::names_and_members(read.mesh.node_sets), test::names_and_members(mesh.node_sets));
       if (name == "a.bdf") {  // sides are named by hex and corners
-        EXPECT_EQ(names_and_members(read.mesh.side_sets), names_and_members(mesh.side_sets));
+        EXPECT_EQ(test::names_and_members(read.mesh.side_sets), test::names_and_members(mesh.side_sets));
         EXPECT_EQ(read.mesh.blocks, mesh.blocks);
         EXPECT_EQ(read.mesh.node_sets, mesh.node_sets);
         EXPECT_EQ(read.mesh.side_sets, mesh.side_sets);
       } else {
-        EXPECT_EQ(names_and_members(by_lower_hex(read.mesh)), names_and_members(by_lower_hex(mesh)));
+        EXPECT_EQ(test::names_and_members(by_lower_hex(read.mesh)), test::names_and_members(by_lower_hex(mesh)));
       }
       EXPECT_TRUE(read.notices.empty()) << read.notices[0];
     }
@@ -404,7 +376,7 @@ TEST(listed_files, patches_of_openfoam_keep_their_types) {
 /// Never a crash: a message of one line, or a mesh whose parts fit together.
 TEST(listed_files, that_are_cut_short_or_changed_are_refused_or_sound) {
   const auto folder = test::output_folder();
-  const Mesh mesh = tidy_mesh(5, true);
+  const Mesh mesh = test::tidy_mesh(5, true);
   std::mt19937 random(7);
   for (const char* name : {"a.bdf", "a.unv"}) {
     write_mesh(folder / name, mesh, nullptr);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <random>
+
 #include "io/io_support.h"
 
 namespace hextwist {
@@ -81,7 +84,15 @@ TEST(medit_files, what_is_wrong_is_said_with_its_line) {
   };
   says("Hexahedra 1\n1 2 3 4 5 6 7 9 2\nEnd\n", ":16: hex 1 names vertex 9 of 8");
   says("Tetrahedra 1\n1 2 3 4 0\n", ":16: element 1 of Tetrahedra is no 8-node hex; only those are accepted");
-  says("HexahedraQ2 1\n1 2 3 4 0\n", ":16: element 1 of HexahedraQ2 is no 8-node hex; only those are accepted");
+  says("HexahedraQ3 1\n1 2 3 4 0\n", ":16: element 1 of HexahedraQ3 is no 8-node hex; only those are accepted");
+  const std::string quadratic = "HexahedraQ2 1\n1 2 3 4 5 6 7 8 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0\n";
+  says(quadratic + "End\n",
+       ":15: in which order the 27 nodes of a hex are is not said: HexahedraQ2Ordering is missing");
+  says("HexahedraQ2Ordering 26\n0 0 0\n" + quadratic + quadratic + quadratic,
+       ":15: an order of 26 nodes instead of 27");
+  says("HexahedraQ2Ordering 27\n0 0 0\n0 0 3\n" + quadratic + quadratic + quadratic,
+       ":17: the place 3 of a node is not 0, 1 or 2");
+  says("HexahedraQ2Ordering 27\n0 0 0\n0 0 0\n" + quadratic + quadratic + quadratic, ":17: two nodes at one place");
   says("End\n", ":16: there is no hex in the file");
   says("Hexahedra 1\n1 2 3 x 5 6 7 8 2\n", ":16: expected a vertex, found 'x'");
   says("Hexahedra 1\n1 2 3 4 5\n", ":15: the file is too short for 1 hexes");
@@ -95,6 +106,53 @@ TEST(medit_files, what_is_wrong_is_said_with_its_line) {
   EXPECT_EQ(test::refusal(other), other.string() + ":1: not a MEDIT file: it does not begin with MeshVersionFormatted");
   const auto binary = test::write_text(folder / "binary.mesh", std::string("\1\0\0\0\2\0\0\0", 8));
   EXPECT_EQ(test::refusal(binary), binary.string() + ":1: a binary MEDIT file (.meshb), only text is read");
+}
+
+/// A file says in which order the nodes of its hexes are, before them or behind; any order will do.
+TEST(medit_files, of_second_order_say_the_order_of_their_nodes) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<std::array<int, 3>> order;
+    for (int i = 0; i < 27; ++i) order.push_back({i % 3, i / 3 % 3, i / 9});
+    std::ranges::shuffle(order, random);
+    std::string nodes, element, places;
+    for (int i = 0; i < 27; ++i) {
+      const auto [x, y, z] = order[static_cast<std::size_t>(i)];
+      // A bulge in the middle of one edge and one face.
+      const double off = (x == 1 && y == 0 && z == 0) || (x == 2 && y == 1 && z == 1) ? 0.125 : 0;
+      nodes += std::to_string(x + off) + " " + std::to_string(y - off) + " " + std::to_string(z) + " 0\n";
+      element += std::to_string(i + 1) + " ";
+      places += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    }
+    const std::string own = "HexahedraQ2Ordering\n27\n" + places, hexes = "HexahedraQ2\n1\n" + element + "5\n";
+    const auto file = test::write_text(test::output_folder() / "a.mesh",
+                                       "MeshVersionFormatted 2\nDimension 3\nVertices\n27\n" + nodes +
+                                           (trial % 2 ? own + hexes : hexes + own) + "End\n");
+    const MeshFile read = read_mesh(file);
+    EXPECT_EQ(read.mesh.n_nodes(), 8);
+    EXPECT_DOUBLE_EQ(volume(read.mesh), 8);
+    EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{5, "", {0}}}));
+    EXPECT_EQ(read.middles.nodes_per_hex, 27);
+    ASSERT_EQ(read.middles.edges.size(), 12U);
+    ASSERT_EQ(read.middles.faces.size(), 6U);
+    int n_off = 0;
+    for (std::size_t e = 0; e < 12; ++e) {
+      const auto [a, b] = read.middles.edges[e];
+      const Vec3 off = read.middles.edge_points[e] - (read.mesh.points[a] + read.mesh.points[b]) / 2;
+      if (off.norm() == 0) continue;
+      ++n_off;
+      EXPECT_EQ(off, Vec3(0.125, -0.125, 0));
+      EXPECT_EQ(read.middles.edge_points[e], Vec3(1.125, -0.125, 0));
+    }
+    for (std::size_t f = 0; f < 6; ++f) {
+      Vec3 sum = Vec3::Zero();
+      for (const Index n : read.middles.faces[f]) sum += read.mesh.points[n] / 4;
+      if (read.middles.face_points[f] == sum) continue;
+      ++n_off;
+      EXPECT_EQ(read.middles.face_points[f], Vec3(2.125, 0.875, 1));
+    }
+    EXPECT_EQ(n_off, 2);
+  }
 }
 
 TEST(medit_files, what_may_be_missing_is_said) {

@@ -278,8 +278,8 @@ TEST(second_order_files, what_a_format_or_the_blocks_do_not_allow_is_said) {
     }
     return std::string("no error");
   };
-  EXPECT_EQ(refusal("a.mesh", of_order_2(meshed, 0)),
-            (folder / "a.mesh").string() + ": .mesh files have no middle nodes here: export with order 1");
+  EXPECT_EQ(refusal("a.foam", of_order_2(meshed, 0)),
+            (folder / "a.foam").string() + ": .foam files have no middle nodes here: export with order 1");
   WriteOptions third;
   third.order = 3;
   EXPECT_EQ(refusal("a.vtu", third), (folder / "a.vtu").string() + ": order 3 is neither 1 nor 2");
@@ -294,8 +294,8 @@ TEST(second_order_files, what_a_format_or_the_blocks_do_not_allow_is_said) {
   extras.nodes_per_hex[2] = 20;
   EXPECT_EQ(refusal("c.vtu", options), "no error");
   EXPECT_EQ(read_mesh(folder / "c.vtu").middles.nodes_per_hex, 20);
-  EXPECT_EQ(write_mesh(folder / "a.mesh", meshed.mesh, nullptr, options).front(),
-            ".mesh files have no middle nodes here: they are left out");
+  EXPECT_EQ(write_mesh(folder / "a.foam", meshed.mesh, nullptr, options).front(),
+            ".foam files have no middle nodes here: they are left out");
 }
 
 /// Never a crash: a message of one line, or a mesh whose parts fit together.

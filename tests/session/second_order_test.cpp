@@ -34,8 +34,8 @@ TEST_F(SecondOrderSession, order_is_said_of_a_file_of_all_files_or_of_blocks) {
   EXPECT_EQ(nodes_in("h.msh"), 27);
   EXPECT_EQ(f.error("export gmsh \"i.msh\" order 3").substr(0, 5), "order");
   EXPECT_EQ(f.error("block 7 element type hex20"), "there is no block 7");
-  EXPECT_EQ(f.error("export medit \"h.mesh\" order 2"),
-            "h.mesh: .mesh files have no middle nodes here: export with order 1");
+  EXPECT_EQ(f.error("export openfoam \"h.foam\" order 2"),
+            "h.foam: .foam files have no middle nodes here: export with order 1");
 }
 
 TEST_F(SecondOrderSession, blocks_of_two_orders_are_refused_where_they_are_written) {
