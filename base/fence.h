@@ -1,8 +1,9 @@
 // Reading files by the libraries of others without trusting these.
 //
 // OpenCASCADE and HDF5 crash, loop or take all memory on some damaged files. A fence is a process of its own: a program
-// of ours, hextwist_read_cad or hextwist_read_hdf5, reads the file there, within limits of memory and time, and hands
-// over what it has read. However it ends, the caller goes on: with the result or with an Error of one line.
+// of ours, hextwist_read_cad, hextwist_read_hdf5 or hextwist_read_mesh, reads the file there, within limits of memory
+// and time, and hands over what it has read. However it ends, the caller goes on: with the result or with an Error of
+// one line.
 #pragma once
 
 #include <filesystem>

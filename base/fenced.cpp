@@ -160,13 +160,12 @@ std::filesystem::path Handover::path() const {
 }
 
 void read_fenced(const Fence& fence, const std::string& kind, const std::filesystem::path& file,
-                 const std::vector<std::string>& words, const Handover& to) {
+                 const std::vector<std::string>& words, const Handover& to, std::uintmax_t more_bytes) {
   const std::string name = file.string();
   if (fence.readers.empty())
-    throw Error(name +
-                ": the programs that read such files, hextwist_read_cad and hextwist_read_hdf5, are not installed");
+    throw Error(name + ": the programs that read such files, hextwist_read_cad and its like, are not installed");
   std::error_code error;
-  const double size = static_cast<double>(std::filesystem::file_size(file, error)) / 1e6;
+  const double size = static_cast<double>(std::filesystem::file_size(file, error) + more_bytes) / 1e6;
   if (error) throw Error(name + ": cannot be read: " + error.message());
   const double seconds = std::ceil(fence.seconds > 0 ? fence.seconds : 20 + 60 * size);
   const double free = static_cast<double>(available_memory()) / 1e6;

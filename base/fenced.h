@@ -1,6 +1,7 @@
 // Both ends of a fence (fence.h): who has a file read, and the program that reads it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -28,9 +29,10 @@ class Handover {
 };
 
 /// Has the file read by the program hextwist_read_<kind>, which fills `to`. Waits, and asks check_interrupt()
-/// meanwhile. Throws Error: what the reader says is wrong with the file, or how it ended.
+/// meanwhile. Throws Error: what the reader says is wrong with the file, or how it ended. more_bytes: of other files
+/// that belong to it, which count for the limits.
 void read_fenced(const Fence& fence, const std::string& kind, const std::filesystem::path& file,
-                 const std::vector<std::string>& words, const Handover& to);
+                 const std::vector<std::string>& words, const Handover& to, std::uintmax_t more_bytes = 0);
 
 /// The program's end: sets the limits that the command line names, calls `read` with the file, the words and where to
 /// write, and tells the caller of errors. Returns the status to end with.

@@ -107,23 +107,35 @@ const std::vector<CommandSpec> table = {
       {"field", Kind::string, 0, 0, false, "a field of hexes whose sum stays"}},
      {"coarsen hex all", "coarsen hex in field \"error\" bottom 20 %", "coarsen surface 3 levels 2"}},
     {"draw",
-     "draw [{mesh|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
-     " [quality {" METRICS "}] [from <x> <y> <z>] [pixels <width> <height>] to <file> [{overwrite|append}]",
+     "draw [{mesh|geometry|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range>}]"
+     " [quality {" METRICS "}] [{color|=colour} {volume|surface|block|nodeset|sideset|group|sheet|<what>|<word>}] [clip {x|y|z|<nx> <ny> <nz>} [at <position>] [crinkle]]"
+     " [label {node|edge|face|hex|vertex|curve|surface|volume}] [title <title>] [legend {on|off}] [from <x> <y> <z>]"
+     " [pixels <width> <height>] to <file> [{overwrite|append}]",
      "draw the mesh into a picture or a page",
      "A .html is the viewer with the whole mesh inside: what the command is about is picked there, and hexes and faces are "
      "shown alone. All others are pictures, .svg is made of lines, and a .gif gets one more with 'append': hexes (of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side "
      "sets) alone; edges and nodes (of curves, vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or "
-     "sheets apart, or with 'quality' good from bad. 'from' is the direction to look from.",
+     "sheets apart, with 'quality' good from bad, or say what 'color' names: block, volume, surface, sheet, owner (of nodes), nodeset, "
+     "sideset, group, level, template, a metric or a field. 'clip' takes away what is before a plane, with 'crinkle' whole hexes. 'label' "
+     "writes ids. 'geometry' is the CAD itself, as is the whole where there is no mesh. 'from' is the direction to look from.",
      {{"range", Kind::range, 0, 0, false, range_help},
+      {"what", Kind::string, 0, 0, false, "what gives the colours, in quotes"},
+      {"word", Kind::word, 0, 0, false, "the same without quotes"},
+      {"nx", Kind::number, -1e100, 1e100, false, "normal of the plane that clips"},
+      {"ny", Kind::number, -1e100, 1e100, false, ""},
+      {"nz", Kind::number, -1e100, 1e100, false, ""},
+      {"position", Kind::number, -1e100, 1e100, false, "of the plane along its normal, from the origin; default: the middle of the mesh"},
+      {"title", Kind::string, 0, 0, false, "stands above a picture, in quotes"},
       {"x", Kind::number, -1e100, 1e100, false, "from the mesh to the eye; default 1 -1 0.7, z is up"},
       {"y", Kind::number, -1e100, 1e100, false, ""},
       {"z", Kind::number, -1e100, 1e100, false, ""},
       {"width", Kind::integer, 16, 8000, false, "of a picture; default 1200 900"},
       {"height", Kind::integer, 16, 8000, false, ""},
       {"file", Kind::file, 0, 0, false, "file name that ends in .png, .svg, .gif or .html"}},
-     {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\""}},
+     {"draw to \"part.html\"", "draw volume 1 quality shape to \"part.png\" overwrite", "draw sheet 3 from 1 0 0 to \"sheet.png\"",
+      "draw color \"temperature\" clip y at 2.5 title \"after 3 s\" to \"inside.png\"", "draw label curve to \"curves.png\""}},
     {"exit", "exit", "end the session", "", {}, {"exit"}, "quit"},
-    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
+    {"export", "export {mesh|exodus|genesis|gmsh|vtk|abaqus|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|cgns|mfem|xdmf|vtkhdf|levels} <file> [overwrite] [{text|binary}] [version <version>] [groups only] [order <order>] [block <blocks>] [=partial] [=dimension <dimension>] [=everything]", "write the mesh to a file",
      "'mesh' chooses the format by the file's extension; the other words insist on one. The file is complete or, when "
      "something fails, as it was. An existing file is kept unless 'overwrite' is said. 'text' or 'binary' where a format has "
      "both (.msh, .vtu); 'version' of .msh; 'order 2' writes hexes of 20 nodes (27 where the blocks have those); 'groups only' writes to .msh what is in blocks and sets and nothing else, as some "
@@ -150,7 +162,7 @@ const std::vector<CommandSpec> table = {
      {"group \"fillets\" add curve with radius > 0", "group \"fillets\" add surface 1 curve 2", "group \"fillets\" remove curve 3", "group \"poor\" add quality volume all shape high 0.3"}},
     {"help", "help [<command> [<option>]]", "list the commands, or show one, or one of its options",
      "", {{"command", Kind::word, 0, 0, false, "a command, 'range' or 'expressions'"}, {"option", Kind::word, 0, 0, false, "one of its options, or 'all' for everything about it"}}, {"help", "help refine", "help refine size", "help refine all"}},
-    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
+    {"import", "import {mesh [=geometry]|exodus|gmsh|abaqus|vtk|medit|med|nastran|unv|openfoam|lsdyna|ansys|nek|specfem|cgns|mfem|xdmf|vtkhdf|levels|geometry|step|brep|iges} <file> [{snap|no_snap}] [=heal|=noheal|=no_heal] "
      "[=feature_angle <angle>] [=block <blocks>] [=no_geom] [=attributes_on|=attributes_off] [=separate_bodies] [scale <factor>] "
      "[=use] [=nodeset] [=no_nodeset] [=sideset] [=no_sideset] [=linear] [=gradient] [=quadratic] [=spline] [=merge] [=no_merge] "
      "[=merge_nodes] [=unique] [=genesis] [=start_id <start>] [=ids]", "read a mesh or CAD",
@@ -165,10 +177,10 @@ const std::vector<CommandSpec> table = {
       {"blocks", Kind::range, 0, 0, false, ""}},
      {"import step \"part.step\"", "import mesh \"part.msh\"", "import mesh \"part.e\" scale 1000"}},
     {"list",
-     "list [{model|=totals|undo|field|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [=geometry|=mesh|=ids|=position]}]",
+     "list [{model|=totals|undo|field|periodic|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|sheet|group} <range> [=geometry|=mesh|=ids|=position]}]",
      "show entities and their properties",
      "Without arguments: the model and mesh as a whole. One entity of the CAD: what it is, how large, its radius, centre and axis or direction, where "
-     "it begins and ends, what it bounds, its box and groups; several: a table. 'field': the fields of the mesh. 'undo': what can be "
+     "it begins and ends, what it bounds, its box and groups; several: a table. 'field': the fields of the mesh. 'periodic': the surfaces that repeat others. 'undo': what can be "
      "undone, and the memory that it takes.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"list", "list undo", "list field", "list curve all", "list curve loop of surface 3 (at 0 0 1)", "list hex in sheet 3", "list sheet in hex 17"}},
@@ -191,6 +203,15 @@ const std::vector<CommandSpec> table = {
       {"range", Kind::range, 0, 0, false, range_help},
       {"text", Kind::string, 0, 0, false, "name, in quotes"}},
      {"nodeset 3 curve 4", "nodeset 3 add node 7 9 name \"rim\"", "nodeset 2 curve 1 to 4 vertex 3 node 8", "nodeset 3 remove node in vertex all", "nodeset 3 name \"edge\""}},
+    {"periodic",
+     "periodic {off|surface <first> <second> [{move <dx> <dy> <dz>|angle <degrees> about {x|y|z|<ax> <ay> <az>|origin <x> <y> <z> direction <ax> <ay> <az>}}]}",
+     "keep surfaces alike that repeat others",
+     "The second surface repeats the first one, moved or turned: how is found from the mesh (a translation; for flat surfaces also a rotation about the line in which their "
+     "planes meet), or said. From then on whatever is refined on one side is refined on the other, and "
+     "nodes of the second lie where those of the first are taken; what can't keep that is refused. Of a .msh with periodic "
+     "surfaces this holds as soon as it is read, and they are written again. 'list periodic' shows the pairs, 'off' lets all go.",
+     {{"first", Kind::integer, 1, 1e9, false, "the surface that decides"}, {"second", Kind::integer, 1, 1e9, false, "the one that repeats it"}, MOVE_ARGUMENTS},
+     {"periodic surface 1 2", "periodic surface 1 2 move 0 0 10", "periodic surface 1 2 angle 60 about z", "periodic off"}},
     {"playback", "playback <file>", "run the commands in a journal file",
      "Stops at the first error; what the commands before it did stays done.",
      {{"file", Kind::file, 0, 0, false, "file name, in quotes when it has blanks"}}, {"playback \"part.jou\""}},
@@ -227,7 +248,7 @@ const std::vector<CommandSpec> table = {
      "refine {{{node|edge|face|hex|vertex|curve|surface|volume} <range>|location <x> <y> <z>} "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
      "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] [allow off_cad] "
-     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded] [using {curve|surface|volume|block|sideset|nodeset|group} <which>]"
+     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded] [stop_at other] [using {curve|surface|volume|block|sideset|nodeset|group} <which>]"
      "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
      "[concave {template|fill}] [{smooth|no_smooth}] [dry_run] [allow off_cad]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
@@ -252,7 +273,9 @@ const std::vector<CommandSpec> table = {
      "is refined; 'nested' cuts them like all others. 'graded' also keeps the hex field \"level\".\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted, or "
-     "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note.",
+     "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note. "
+     "Elements beside the hexes stay as they are, but for quads that are faces of hexes and lines that are edges, which are cut with them. "
+     "A refinement that would cut an edge of another one is refused; 'stop_at other' leaves out as many layers of the target as it takes.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"x", Kind::number, -1e100, 1e100, false, "of a point: hexes whose middle is within the radius"},
       {"y", Kind::number, -1e100, 1e100, false, ""},

@@ -54,6 +54,8 @@ struct FileExtras {
   std::map<int, std::string> patches;  ///< OpenFOAM: entries of a patch ("type wall;"), by its side set
   /// SPECFEM3D: what a material is, by its block: its line of nummaterial_velocity_file but for the number.
   std::map<int, std::string> materials;
+  /// CGNS: kinds of boundary conditions ("BCWall"), by side set.
+  std::map<int, std::string> boundary_types;
   std::string heading;                  ///< Abaqus: lines below *HEADING
   std::vector<AbaqusCard> cards;        ///< Abaqus: those that are no mesh, in the order of the file
   std::vector<int> node_surfaces;       ///< Abaqus: node sets that are *SURFACE, TYPE=NODE, ascending
@@ -63,8 +65,9 @@ struct FileExtras {
 
   /// Does the file say nothing beyond its mesh?
   bool empty() const {
-    return element_types.empty() && nodes_per_hex.empty() && patches.empty() && materials.empty() && heading.empty() &&
-           cards.empty() && node_surfaces.empty() && periodic.empty() && curve_groups.empty();
+    return element_types.empty() && nodes_per_hex.empty() && patches.empty() && materials.empty() &&
+           boundary_types.empty() && heading.empty() && cards.empty() && node_surfaces.empty() && periodic.empty() &&
+           curve_groups.empty();
   }
 };
 

@@ -57,8 +57,26 @@ void write_specfem(const std::filesystem::path& file, const Mesh& mesh, const Wr
 MeshFile read_openfoam(const std::filesystem::path& file, const Fence& fence);
 void write_openfoam(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
                     std::vector<std::string>& notices);
-/// Where the library is (HEXTWIST_HAS_MED).
+MeshFile read_mfem(const Bytes& bytes);
+void write_mfem(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
+                std::vector<std::string>& notices);
+/// Those that have a library of their own (HEXTWIST_HAS_CGNS, HEXTWIST_HAS_HDF5, HEXTWIST_HAS_MED). read_..._here is
+/// what the program behind a fence calls (apart.h).
+MeshFile read_cgns(const std::filesystem::path& file, const Fence& fence);
+MeshFile read_cgns_here(const std::filesystem::path& file, const std::filesystem::path& folder);
+void write_cgns(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
+                std::vector<std::string>& notices);
+MeshFile read_vtkhdf(const std::filesystem::path& file, const Fence& fence);
+MeshFile read_vtkhdf_here(const std::filesystem::path& file, const std::filesystem::path& folder);
+void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
+                  const WriteOptions& options, std::vector<std::string>& notices);
+/// With its data in a file beside it, .h5.
+MeshFile read_xdmf(const std::filesystem::path& file, const Fence& fence);
+MeshFile read_xdmf_here(const std::filesystem::path& file, const std::filesystem::path& folder);
+void write_xdmf(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
+                const WriteOptions& options, std::vector<std::string>& notices);
 MeshFile read_med(const std::filesystem::path& file, const Fence& fence);
+MeshFile read_med_here(const std::filesystem::path& file, const std::filesystem::path& folder);
 void write_med(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
                std::vector<std::string>& notices);
 

@@ -5,6 +5,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist {
 namespace {
@@ -32,16 +33,37 @@ void write_file(const std::filesystem::path& file, const Mesh& mesh, const Assoc
 }
 constexpr auto write_exodus = write_file<io::write_exodus>;
 
+/// In place of a format whose library was not there.
+constexpr char cgns_without[] = "CGNS (libcgns-dev)", hdf5_without[] = "HDF5 (libhdf5-dev)",
+               med_without[] = "MED (libmedc-dev)";
+template <const char* what>
+MeshFile cannot_read(const std::filesystem::path& file, const Fence&) {
+  throw Error(file.string() + ": this hextwist was built without " + what);
+}
+template <const char* what>
+void cannot_write(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&) {
+  throw Error(std::string("this hextwist was built without ") + what);
+}
 #ifdef HEXTWIST_HAS_MED
 constexpr auto read_med = io::read_med;
 constexpr auto write_med = write_file<io::write_med>;
 #else
-MeshFile read_med(const std::filesystem::path& file, const Fence&) {
-  throw Error(file.string() + ": this hextwist was built without MED (libmedc-dev)");
-}
-void write_med(const std::filesystem::path&, const Mesh&, const Association&, const WriteOptions&, Notices&) {
-  throw Error("this hextwist was built without MED (libmedc-dev)");
-}
+constexpr auto read_med = cannot_read<med_without>;
+constexpr auto write_med = cannot_write<med_without>;
+#endif
+#ifdef HEXTWIST_HAS_CGNS
+constexpr auto read_cgns = io::read_cgns;
+constexpr auto write_cgns = write_file<io::write_cgns>;
+#else
+constexpr auto read_cgns = cannot_read<cgns_without>;
+constexpr auto write_cgns = cannot_write<cgns_without>;
+#endif
+#ifdef HEXTWIST_HAS_HDF5
+constexpr auto read_vtkhdf = io::read_vtkhdf, read_xdmf = io::read_xdmf;
+constexpr auto write_vtkhdf = io::write_vtkhdf, write_xdmf = io::write_xdmf;
+#else
+constexpr auto read_vtkhdf = cannot_read<hdf5_without>, read_xdmf = read_vtkhdf;
+constexpr auto write_vtkhdf = cannot_write<hdf5_without>, write_xdmf = write_vtkhdf;
 #endif
 
 struct Format {
@@ -59,7 +81,9 @@ constexpr Format formats[] = {
     {".gen", "genesis", {20, 27}, io::read_exodus, write_exodus},
     {".inp", "abaqus", {20, 27}, io::read_abaqus, write_whole<io::write_abaqus>},
     {".mesh", "medit", {27, 27}, read_whole<io::read_medit>, write_whole<io::write_medit>},
+    {".mfem", "mfem", {27, 27}, read_whole<io::read_mfem>, write_whole<io::write_mfem>},
     {".med", "med", {20, 27}, read_med, write_med},
+    {".cgns", "cgns", {20, 27}, read_cgns, write_cgns},
     {".bdf", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
     {".nas", "nastran", {20, 20}, read_whole<io::read_nastran>, write_whole<io::write_nastran>},
     {".unv", "unv", {20, 20}, read_whole<io::read_unv>, write_whole<io::write_unv>},
@@ -71,7 +95,33 @@ constexpr Format formats[] = {
     {".specfem", "specfem", {27, 27}, io::read_specfem, write_file<io::write_specfem>},
     {".vtk", "vtk", {0, 0}, read_whole<io::read_vtk>, nullptr},
     {".vtu", "vtk", {20, 27}, read_whole<io::read_vtu>, write_whole<io::write_vtu>},
+    {".vtkhdf", "vtkhdf", {20, 27}, read_vtkhdf, write_vtkhdf},
+    {".xdmf", "xdmf", {20, 27}, read_xdmf, write_xdmf},
+    {".xmf", "xdmf", {20, 27}, read_xdmf, write_xdmf},
 };
+
+/// What becomes of elements beside the hexes. name: of the format.
+void say_of_others(const Mesh& mesh, std::string_view extension, std::string_view name, Notices& notices) {
+  if (!mesh.others) return;
+  constexpr std::string_view known[] = {".inp", ".e",   ".exo", ".g",   ".gen", ".vtu",
+                                        ".msh", ".bdf", ".nas", ".unv", ".med"};
+  if (std::ranges::find(known, extension) == std::end(known)) {
+    notices.push_back("other elements are left out, which " + std::string(extension) +
+                      " files have no place for here: " + others_text(mesh));
+    return;
+  }
+  const OtherHeads& heads = *mesh.others->heads;
+  if (!heads.rest.empty() && heads.format != name)
+    notices.push_back("what only " + heads.format + " files say of other elements is left out");
+  const bool any_attribute = std::ranges::any_of(
+      heads.fields, [](const OtherField& field) { return field.is_attribute && field.name != "gmsh:entity"; });
+  if (any_attribute && extension != ".vtu" && name != "exodus" && name != "genesis")
+    notices.push_back("attributes of other elements are left out, which " + std::string(extension) +
+                      " files have no place for");
+  if (!heads.sides.empty() && (name == "nastran" || name == "unv" || name == "med"))
+    notices.push_back("sides of other elements are left out, which " + std::string(extension) +
+                      " files have no place for here");
+}
 
 /// What only another format has.
 void say_left_out(const FileExtras& extras, std::string_view extension, Notices& notices) {
@@ -93,6 +143,10 @@ void say_left_out(const FileExtras& extras, std::string_view extension, Notices&
   if (extension != ".specfem" && !extras.materials.empty())
     notices.push_back("properties of " + counted(std::ssize(extras.materials), "material") +
                       " left out, which only .specfem has");
+  if (extension != ".cgns" && !extras.boundary_types.empty())
+    notices.push_back("kinds of " +
+                      counted(std::ssize(extras.boundary_types), "boundary condition", "boundary conditions") +
+                      " left out, which only .cgns has");
   if (extension != ".msh" && !extras.periodic.empty())
     notices.push_back("pairs of nodes of " +
                       counted(std::ssize(extras.periodic), "periodic entity", "periodic entities") +
@@ -120,11 +174,13 @@ const Format* format_of(const std::filesystem::path& file, std::string_view name
 }
 const Format* format_to_read(const std::filesystem::path& file, std::string_view name) {
   const Format* format = format_of(file, name);
-  if (format && format->extension == lower_extension(file)) return format;
+  const bool shared = format && format->extension == ".mesh" && name.empty();  // MEDIT's and MFEM's
+  if (format && format->extension == lower_extension(file) && !shared) return format;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return format;
   const std::string bytes = beginning(file);
   if (!format && (bytes.starts_with("CDF") || bytes == "\x89HDF")) return format_of(file, "exodus");
+  if (format && format->name == "medit" && bytes == "MFEM") return format_of("a.mfem", "mfem");
   return format && format->name == "vtk" && bytes.starts_with("<") ? format_of("a.vtu", name) : format;
 }
 const Format* format_to_write(const std::filesystem::path& file, std::string_view name) {
@@ -195,6 +251,10 @@ void write_in(const Format& format, const std::filesystem::path& file, const Mes
               const WriteOptions& options, Notices& notices) {
   const int n = nodes_per_hex_in(format, mesh, options, notices);
   if (n == 8) return format.write(file, mesh, association, options, notices);
+  if (mesh.others)
+    notices.push_back(
+        "other elements have the nodes that they had: those that hexes share with them have no middle "
+        "nodes there");
   const SecondOrder second = second_order(mesh, association, options.model ? options.model : options.skin, n);
   if (const std::string text = straightened_text(second); !text.empty()) notices.push_back(text);
   WriteOptions with_middles = options;
@@ -238,6 +298,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mes
   if (options.order < 0 || options.order > 2)
     throw Error(file.string() + ": order " + std::to_string(options.order) + " is neither 1 nor 2");
   if (options.extras) say_left_out(*options.extras, format->extension, notices);
+  say_of_others(mesh, format->extension, format->name, notices);
   try {
     write_in(*format, file, mesh, own, options, notices);
     if (mesh.results && format->write != write_exodus)

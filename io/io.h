@@ -1,5 +1,5 @@
-// Mesh files. Hexes only, of first or second order: a file with any other volume element is refused, naming the first
-// one.
+// Mesh files. Hexes of first or second order; other elements (mesh/others.h) come along where the format says so here
+// (.inp .e .vtk .vtu .msh), else a file with any other volume element is refused, naming the first one.
 //
 //   .msh        Gmsh 2.2 and 4.1, text and binary (1.0 is read as well)
 //               Entity tags are owners. Physical groups: 3D are blocks, 2D side sets, 1D and 0D node sets; a node set
@@ -18,6 +18,10 @@
 //               parts and instances are read, their sets are named instance.set. All other cards (sections, materials,
 //               steps, ...) are kept, with the sets that they name (FileExtras). No owners, no fields
 //   .med        MED (SALOME, code_aster): groups, fields; needs libmedc
+//   .cgns       CGNS: zones joined where the file says so, sections, boundary conditions, solutions; needs libcgns
+//   .mfem       MFEM's mesh, also as .mesh: attributes and their sets. No ids, no node sets, no fields
+//   .xdmf       XDMF with numbers in an HDF5 file beside it; needs libhdf5
+//   .vtkhdf     VTKHDF: what .vtu has; needs libhdf5
 //   .bdf .nas   Nastran bulk data: properties are blocks, SET1 node sets, PLOAD4 side sets; other cards are left out
 //   .unv        I-deas universal: groups
 //   .foam       OpenFOAM: constant/polyMesh beside it, text; patches and zones
@@ -30,8 +34,8 @@
 // What a format has no room for (names in Abaqus, overlapping groups in MEDIT) stands in comments that other programs
 // skip, so that a file of ours comes back as it was. Coordinates and fields come back bit for bit in every mode, but
 // for .inp: CalculiX reads 20 characters of a number, so small coordinates are rounded in the 14th digit or later, and
-// those below 1e-99 are 0. Quads, lines and points in a file are sides, edges and members of sets; those that are not,
-// and triangles, are dropped with a notice.
+// those below 1e-99 are 0. Where a format has no other elements, quads, lines and points are sides, edges and members
+// of sets; those that are not, and triangles, are dropped with a notice.
 #pragma once
 
 #include <filesystem>
@@ -64,9 +68,9 @@ struct MeshFile {
 /// Groups are sorted by id. The hexes are as the file has them: an inside-out mesh stays so (repair_orientation()).
 /// Throws Error with file, line (text) or byte, and id: missing, unreadable, truncated, not finite, other elements.
 /// format: "gmsh", "exodus", "genesis", "abaqus", "medit", "vtk", "med", "nastran", "unv", "openfoam", "lsdyna",
-/// "ansys", "nek" or "specfem", whatever the file's name is. Default: by extension, and where that is none of those
-/// below by content, which tells Exodus (out.e-s002, mesh.e.4.0). fence: where Exodus files in the form of HDF5 are
-/// read, a library that damaged files can crash. Default: in this process.
+/// "ansys", "nek", "specfem", "cgns", "mfem", "xdmf" or "vtkhdf", whatever the file's name is. Default: by extension,
+/// and where that is none of those below by content, which tells Exodus (out.e-s002, mesh.e.4.0). fence: where files in
+/// the form of HDF5 are read, by a library that damaged files can crash. Default: in this process.
 MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
 /// How a file is written; what its format does not have is ignored.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/apart.h"
 #include "hextwist/io/med/med_internal.h"
 
 namespace hextwist::io {
@@ -260,14 +261,15 @@ class MedReader {
 
 }  // namespace
 
-MeshFile read_med(const std::filesystem::path& file, const Fence& fence) {
-  // The library of HDF5 can be crashed by damaged files, and there is no program that reads MED elsewhere.
-  if (fence.required)
-    throw Error(file.string() + ": MED files can't be read in a process of their own, as files of others are here");
+MeshFile read_med_here(const std::filesystem::path& file, const std::filesystem::path&) {
   const Bytes bytes = read_bytes(file);
   if (!std::string_view(bytes.data.get(), bytes.size).starts_with("\x89HDF"))
     throw Error(file.string() + ": not a MED file: it is not HDF5");
-  return unchanged_by(bytes, [&] { return MedReader(file).result(); });
+  return MedReader(file).result();
+}
+
+MeshFile read_med(const std::filesystem::path& file, const Fence& fence) {
+  return read_apart(fence, "med", read_med_here, file);
 }
 
 }  // namespace hextwist::io

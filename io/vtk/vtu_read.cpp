@@ -4,36 +4,11 @@
 #include <map>
 #include <optional>
 
+#include "hextwist/io/vtk/tags_internal.h"
 #include "hextwist/io/vtk/vtk_internal.h"
 
 namespace hextwist::io {
 namespace {
-
-/// One <tag ...>; attributes with their entities replaced.
-struct Tag {
-  std::string_view name;
-  std::map<std::string, std::string, std::less<>> attributes;
-  bool closing = false, empty = false;
-  const char* at = nullptr;
-
-  std::string_view operator[](std::string_view key) const {
-    const auto found = attributes.find(key);
-    return found == attributes.end() ? std::string_view{} : std::string_view(found->second);
-  }
-};
-
-std::string unescaped(std::string_view text) {
-  constexpr std::pair<std::string_view, char> entities[] = {
-      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
-  std::string result;
-  while (!text.empty()) {
-    const auto* found = std::ranges::find_if(entities, [&](const auto& e) { return text.starts_with(e.first); });
-    const bool known = found != std::end(entities);
-    result += known ? found->second : text[0];
-    text.remove_prefix(known ? found->first.size() : 1);
-  }
-  return result;
-}
 
 constexpr std::string_view sections[] = {"FieldData", "PointData", "CellData", "Points", "Cells"};
 
@@ -101,53 +76,7 @@ class VtuReader {
     tags_end_ = all.data() + start;
   }
 
-  std::optional<Tag> next_tag() {
-    const char* end = tags_end_ ? tags_end_ : cursor_.end;
-    for (;;) {
-      const auto* open =
-          static_cast<const char*>(std::memchr(cursor_.at, '<', static_cast<std::size_t>(end - cursor_.at)));
-      if (!open) return {};
-      const std::string_view rest(open, end);
-      if (rest.starts_with("<!--")) {
-        const auto close = rest.find("-->");
-        if (close == std::string_view::npos) return {};
-        cursor_.at = open + close + 3;
-        continue;
-      }
-      const auto close = rest.find('>');
-      if (close == std::string_view::npos) cursor_.fail_at(open, "the file ends inside a tag");
-      cursor_.at = open + close + 1;
-      return parse(rest.substr(1, close - 1), open);
-    }
-  }
-  Tag parse(std::string_view text, const char* at) const {
-    Tag tag;
-    tag.at = at;
-    if (text.starts_with('/')) {
-      tag.closing = true;
-      text.remove_prefix(1);
-    }
-    if (text.ends_with('/')) {
-      tag.empty = true;
-      text.remove_suffix(1);
-    }
-    std::size_t end = 0;
-    while (end < text.size() && !Cursor::blank(text[end])) ++end;
-    tag.name = text.substr(0, end);
-    text = trimmed(text.substr(end));
-    while (!text.empty()) {
-      const auto equals = text.find('=');
-      if (equals == std::string_view::npos) break;
-      const std::string key(trimmed(text.substr(0, equals)));
-      text = trimmed(text.substr(equals + 1));
-      if (text.empty() || (text[0] != '"' && text[0] != '\'')) cursor_.fail_at(at, "a broken tag");
-      const auto close = text.find(text[0], 1);
-      if (close == std::string_view::npos) cursor_.fail_at(at, "a broken tag");
-      tag.attributes[key] = unescaped(text.substr(1, close - 1));
-      text = trimmed(text.substr(close + 1));
-    }
-    return tag;
-  }
+  std::optional<Tag> next_tag() { return io::next_tag(cursor_, tags_end_ ? tags_end_ : cursor_.end); }
 
   void header(const Tag& tag) {
     if (tag["type"] != "UnstructuredGrid")

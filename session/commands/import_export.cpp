@@ -35,7 +35,11 @@ std::string_view extensions_of(std::string_view word, bool writing) {
   if (word == "vtk") return writing ? ".vtu" : ".vtk .vtu";
   if (word == "abaqus") return ".inp";
   if (word == "medit") return ".mesh";
+  if (word == "mfem") return ".mesh .mfem";
   if (word == "med") return ".med";
+  if (word == "cgns") return ".cgns";
+  if (word == "vtkhdf") return ".vtkhdf";
+  if (word == "xdmf") return ".xdmf .xmf";
   if (word == "nastran") return ".bdf .nas";
   if (word == "unv") return ".unv";
   if (word == "openfoam") return ".foam";

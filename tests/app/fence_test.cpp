@@ -5,12 +5,14 @@
 
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/memory.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/mesh.h"
+#include "support/checkers.h"
 #include "support/grids.h"
 
 namespace hextwist {
@@ -27,10 +29,10 @@ std::string content(const std::filesystem::path& file) {
 /// What reading says behind the file's name.
 std::string refused(const std::filesystem::path& file, const Fence& fence) {
   try {
-    if (file.extension() == ".e")
-      read_mesh(file, {}, fence);
-    else
+    if (file.extension() == ".brep" || file.extension() == ".step")
       read_cad(file, {.fence = fence});
+    else
+      read_mesh(file, {}, fence);
   } catch (const Error& error) {
     const std::string text = error.what();
     EXPECT_EQ(text.substr(0, file.string().size()), file.string());
@@ -182,6 +184,91 @@ TEST(fence, hdf5_is_read_as_classic_files_are) {
     std::ofstream(folder / "c.e", std::ios::binary) << "\x89HDF" << bytes.substr(4, cut);
     EXPECT_NE(refused(folder / "c.e", {readers}), "read");
   }
+}
+
+/// Formats that hextwist_read_mesh reads; those that this build is without say so.
+std::vector<std::string> mesh_formats() {
+  std::vector<std::string> result;
+  for (const char* extension : {".cgns", ".xdmf", ".vtkhdf", ".med"}) {
+    const auto file = test::output_folder() / (std::string("none") + extension);
+    if (refused(file, {}).find("built without") == std::string::npos) result.emplace_back(extension);
+  }
+  return result;
+}
+
+Mesh with_all() {
+  Mesh mesh = test::grid(3, 4, 5);
+  mesh.blocks = {{7, "steel", {0, 1, 2}}, {9, "", {2, 3}}};
+  mesh.node_sets = {{3, "some", {1, 5}}};
+  mesh.side_sets = {{4, "left", {{0, 0}, {3, 0}}}};
+  mesh.fields.push_back({"u", Field::On::node, 3, std::vector<double>(3 * mesh.points.size(), 0.1)});
+  mesh.fields.push_back({"v", Field::On::hex, 1, std::vector<double>(mesh.hexes.size(), 0.2)});
+  return mesh;
+}
+
+TEST(fence, meshes_that_are_read_there_are_what_is_read_here) {
+  const auto folder = test::output_folder();
+  for (const std::string& extension : mesh_formats())
+    for (const int order : {1, 2}) {
+      SCOPED_TRACE(extension);
+      WriteOptions options;
+      options.order = order;
+      write_mesh(folder / ("a" + extension), with_all(), nullptr, options);
+      const MeshFile a = read_mesh(folder / ("a" + extension)),
+                     b = read_mesh(folder / ("a" + extension), {}, {readers});
+      EXPECT_EQ(a.notices, b.notices);
+      EXPECT_EQ(a.mesh, b.mesh);
+      EXPECT_EQ(a.middles.nodes_per_hex, b.middles.nodes_per_hex);
+      EXPECT_EQ(a.middles.edges, b.middles.edges);
+      EXPECT_EQ(a.middles.edge_points, b.middles.edge_points);
+      EXPECT_EQ(a.extras.nodes_per_hex, b.extras.nodes_per_hex);
+      EXPECT_EQ(a.tags.node_owner, b.tags.node_owner);
+      EXPECT_EQ(b.mesh.hexes, with_all().hexes);
+    }
+}
+
+TEST(fence, damaged_meshes_in_hdf5_are_one_line) {
+  const auto folder = test::output_folder();
+  std::mt19937 random(3);
+  for (const std::string& extension : mesh_formats()) {
+    write_mesh(folder / ("a" + extension), with_all(), nullptr);
+    const auto data = folder / (extension == ".xdmf" ? "a.h5" : "a" + extension);
+    const std::string bytes = content(data);
+    for (int trial = 0; trial < 25; ++trial) {
+      SCOPED_TRACE(extension + " " + std::to_string(trial));
+      std::string changed = bytes;
+      if (trial < 8)
+        changed.resize(bytes.size() * static_cast<std::size_t>(trial) / 8 + 1);
+      else
+        for (int k = 0; k < 8; ++k)
+          changed[random() % std::min<std::size_t>(changed.size(), 6000)] = static_cast<char>(random());
+      std::ofstream(data, std::ios::binary) << changed;
+      try {
+        const Mesh mesh = read_mesh(folder / ("a" + extension), {}, {.readers = readers, .seconds = 20}).mesh;
+        EXPECT_TRUE(test::sets_valid(mesh));
+      } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+TEST(fence, data_outside_of_the_folder_are_refused) {
+  const auto folder = test::output_folder();
+  const auto formats = mesh_formats();
+  if (std::ranges::find(formats, ".xdmf") == formats.end()) GTEST_SKIP() << "built without HDF5";
+  std::filesystem::create_directories(folder / "in");
+  write_mesh(folder / "in" / "a.xdmf", with_all(), nullptr);
+  const Fence fence{.readers = readers, .folder = folder / "in"};
+  EXPECT_EQ(refused(folder / "in" / "a.xdmf", fence), "read");
+  std::filesystem::rename(folder / "in" / "a.h5", folder / "a.h5");
+  std::string text = content(folder / "in" / "a.xdmf");
+  for (std::size_t at = text.find("a.h5:"); at != std::string::npos; at = text.find("a.h5:", at + 8))
+    text.insert(at, "../");
+  std::ofstream(folder / "in" / "a.xdmf") << text;
+  EXPECT_NE(refused(folder / "in" / "a.xdmf", fence).find("names '../a.h5', and files may be read below"),
+            std::string::npos);
+  EXPECT_EQ(refused(folder / "in" / "a.xdmf", {readers}), "read");
 }
 
 }  // namespace

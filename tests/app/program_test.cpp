@@ -252,6 +252,31 @@ TEST(Program, convert_writes_a_mesh_in_another_format) {
   EXPECT_FALSE(std::filesystem::exists(path("c.unv")));
 }
 
+/// Through formats whose libraries are others', read in a process of their own, and MFEM's, by its word in commands.
+TEST(Program, convert_goes_through_formats_of_other_libraries) {
+  ASSERT_EQ(run("-c 'create cylinder height 2 radius 1; block 1 volume 1 name \"rod\"; sideset 2 surface 1 name "
+                "\"end\"' -o " +
+                path("a.msh"))
+                .status,
+            0);
+  const Mesh mesh = read_mesh(path("a.msh")).mesh;
+  std::string before = "a.msh";
+  for (const std::string name : {"b.cgns", "c.xdmf", "d.vtkhdf", "e.mfem", "f.vtu"}) {
+    const Outcome outcome = run("convert " + path(before) + " " + path(name));
+    if (outcome.err.find("built without") != std::string::npos) continue;
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const Mesh back = read_mesh(path(name)).mesh;
+    EXPECT_EQ(back.points, mesh.points) << name;
+    EXPECT_EQ(back.hexes, mesh.hexes) << name;
+    EXPECT_EQ(back.blocks, mesh.blocks) << name;
+    EXPECT_EQ(back.side_sets, mesh.side_sets) << name;
+    before = name;
+  }
+  EXPECT_EQ(run(path("e.mfem") + " -c \"export mfem '" + path("g.mesh") + "'\"").status, 0);
+  EXPECT_EQ(read_mesh(path("g.mesh")).mesh.blocks, mesh.blocks);
+  EXPECT_EQ(run("--safe " + path("b.cgns") + " -c 'list hex 1'").status, 0);
+}
+
 TEST(Program, check_tells_good_meshes_from_bad_ones) {
   Mesh mesh = test::grid(2, 2, 2);
   write_mesh(path("good.msh"), mesh, nullptr);

@@ -3,7 +3,7 @@
 set -euo pipefail
 program=$(readlink -f "$1") source=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$2" && cd "$2"
-mkdir -p gmsh abaqus medit vtk vtu exodus nastran unv lsdyna ansys nek cad_text grammar engine
+mkdir -p gmsh abaqus medit mfem vtk vtu exodus nastran unv lsdyna ansys nek cad_text grammar engine
 
 rich='create brick x 2 interval 1 2 1; block 1 hex 1 name "a"; block 2 hex 2; nodeset 3 surface 1 name "b"; sideset 4 surface 2 name "c"'
 for brick in 'create brick x 1 interval 1; block 7 volume 1' "$rich" "$rich; refine vertex 1"; do
@@ -15,6 +15,7 @@ for brick in 'create brick x 1 interval 1; block 7 volume 1' "$rich" "$rich; ref
     export lsdyna 'lsdyna/$name.k' overwrite; export lsdyna 'lsdyna/$name.2.k' order 2 overwrite
     export ansys 'ansys/$name.cdb' overwrite; export ansys 'ansys/$name.2.cdb' order 2 overwrite
     export nek 'nek/$name.re2' overwrite; export nek 'nek/$name.2.re2' order 2 overwrite
+    export mfem 'mfem/$name.mfem' overwrite; export mfem 'mfem/$name.2.mfem' order 2 overwrite
     export nastran 'nastran/$name.bdf' overwrite; export nastran 'nastran/$name.2.bdf' order 2 overwrite
     export unv 'unv/$name.unv' overwrite; export unv 'unv/$name.2.unv' order 2 overwrite; export exodus 'exodus/$name.e' overwrite" > /dev/null
 done
@@ -64,7 +65,7 @@ for journal in "$source"/tests/journals/*/*.jou; do cp "$journal" "grammar/$(bas
 
 # Words that mean something: the texts in the sources of each reader.
 words() { grep -ohE '"[^"\\]{2,24}"' "${@:2}" | LC_ALL=C grep -v '[^ -~]' | sort -u > "$1.words" || true; }
-for format in gmsh abaqus medit exodus nastran unv lsdyna ansys nek; do words $format "$source/io/$format"/*.cpp; done
+for format in gmsh abaqus medit mfem exodus nastran unv lsdyna ansys nek; do words $format "$source/io/$format"/*.cpp; done
 words vtk "$source"/io/vtk/*.cpp && cp vtk.words vtu.words
 words cad_text "$source"/geom/occ/cad_text.cpp
 words grammar "$source"/command/*.cpp

@@ -1,0 +1,175 @@
+// The arrays of a mesh as VTK's files and XDMF have them, whatever they are written by.
+//
+// Arrays, the template argument, has add<T>(name, span, components, more) of numbers as they lie in memory and
+// add_each(name, n, components, value, more) of those that are made when they are written: value(0) .. value(n - 1), a
+// number or a std::array of them each. `more`: attributes, for XML. What they are made of may be read until all is
+// written.
+#pragma once
+
+#include "hextwist/io/middles.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/quality/quality.h"
+
+namespace hextwist::io {
+
+/// Numbers of one value of an array: itself, or those of a std::array.
+template <class T>
+struct VtkNumbers {
+  using Type = T;
+  static std::span<const T> of(const T& value) { return {&value, 1}; }
+};
+template <class T, std::size_t n>
+struct VtkNumbers<std::array<T, n>> {
+  using Type = T;
+  static std::span<const T> of(const std::array<T, n>& value) { return value; }
+};
+
+/// Attributes of field data.
+inline std::string tuples(std::size_t n) {
+  return " NumberOfTuples=\"" + std::to_string(n) + "\"";
+}
+
+template <class T, std::size_t n>
+std::array<T, n> cell_nodes(const Mesh& mesh, const SecondOrder* second, std::size_t hex) {
+  const FileHex nodes = file_hex(mesh, second, static_cast<Index>(hex), vtk_middles);
+  std::array<T, n> result;
+  std::ranges::copy_n(nodes.nodes.begin(), n, result.begin());
+  return result;
+}
+
+/// What VTK has no place for.
+template <class Arrays>
+void add_field_data(Arrays& arrays, const std::string& made_names, const Mesh& mesh, const Association& association) {
+  const auto name = [](const char* kind, const auto& group) {
+    return "hextwist:" + std::string(kind) + " " + std::to_string(group.id) + " " + group.name;
+  };
+  arrays.add_each(
+      "hextwist:made" + made_names, 1, 1, [](std::size_t) { return std::int32_t{1}; }, tuples(1));
+  for (const Block& block : mesh.blocks)
+    arrays.template add<Index>(name("block", block), block.hexes, 1, tuples(block.hexes.size()));
+  for (const NodeSet& set : mesh.node_sets)
+    arrays.template add<Index>(name("nodeset", set), set.nodes, 1, tuples(set.nodes.size()));
+  for (const SideSet& set : mesh.side_sets)
+    arrays.add_each(
+        name("sideset", set), set.sides.size(), 2,
+        [&](std::size_t i) {
+          return std::array{set.sides[i].hex, set.sides[i].face};
+        },
+        tuples(set.sides.size()));
+  if (const auto& edges = association.curve_edges; !edges.empty())
+    arrays.add_each(
+        "hextwist:curve_edges", edges.size(), 3,
+        [&](std::size_t i) {
+          return std::array{edges[i][0], edges[i][1], association.edge_curve[i]};
+        },
+        tuples(edges.size()));
+  if (const auto& faces = association.surface_faces; !faces.empty())
+    arrays.add_each(
+        "hextwist:surface_faces", faces.size(), 3,
+        [&](std::size_t i) {
+          return std::array{faces[i].hex, faces[i].face, association.face_surface[i]};
+        },
+        tuples(faces.size()));
+}
+
+/// What is written beside points and cells.
+class VtkOutput {
+ public:
+  VtkOutput(const Mesh& mesh, const Association& association, const WriteOptions& options)
+      : mesh_(mesh), association_(association), options_(options) {
+    // Arrays that we make ourselves give way to fields of the same name.
+    const auto made = [&](const char* name, Field::On on) {
+      return std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == on; });
+    };
+    node_ids_ = made("node_id", Field::On::node);
+    owners_ =
+        !association.node_owner.empty() && made("owner_dim", Field::On::node) && made("owner_id", Field::On::node);
+    hex_ids_ = made("hex_id", Field::On::hex);
+    volumes_ = !association.hex_volume.empty() && made("volume", Field::On::hex);
+    block_ids_ = !mesh.blocks.empty() && made("block", Field::On::hex);
+    shape_ = options.write_quality && made("shape", Field::On::hex);
+    jacobian_ = options.write_quality && made("scaled_jacobian", Field::On::hex);
+    for (const auto& [name, there] :
+         {std::pair("node_id", node_ids_), std::pair("owner_dim", owners_), std::pair("owner_id", owners_),
+          std::pair("hex_id", hex_ids_), std::pair("volume", volumes_), std::pair("block", block_ids_),
+          std::pair("shape", shape_), std::pair("scaled_jacobian", jacobian_)})
+      if (there) names_ += std::string(" ") + name;
+    block_of_hex_.resize(block_ids_ ? mesh.hexes.size() : 0, 0);
+    for (const Block& block : mesh.blocks)
+      for (const Index h : block.hexes)
+        if (block_ids_ && block_of_hex_[h] == 0) block_of_hex_[h] = block.id;
+    if (shape_) shapes_ = quality(Metric::shape, mesh);
+    if (jacobian_) jacobians_ = quality(Metric::scaled_jacobian, mesh);
+  }
+
+  template <class Arrays>
+  void field_data(Arrays& arrays) const {
+    add_field_data(arrays, names_, mesh_, association_);
+  }
+  template <class Arrays>
+  void point_data(Arrays& arrays) const {
+    const auto n_nodes = mesh_.points.size();
+    if (node_ids_)
+      arrays.add_each("node_id", n_nodes, 1,
+                      [this](std::size_t i) { return id_of(mesh_.node_ids, static_cast<Index>(i)); });
+    if (owners_) {
+      arrays.add_each("owner_dim", n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].dim; });
+      arrays.add_each("owner_id", n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].id; });
+    }
+    fields(arrays, Field::On::node);
+  }
+  template <class Arrays>
+  void block_data(Arrays& arrays) const {
+    if (block_ids_) arrays.template add<int>("block", block_of_hex_, 1);
+  }
+  /// blocks: false where they have been written before.
+  template <class Arrays>
+  void cell_data(Arrays& arrays, bool blocks = true) const {
+    if (hex_ids_)
+      arrays.add_each("hex_id", mesh_.hexes.size(), 1,
+                      [this](std::size_t i) { return id_of(mesh_.hex_ids, static_cast<Index>(i)); });
+    if (volumes_) arrays.template add<int>("volume", association_.hex_volume, 1);
+    if (blocks) block_data(arrays);
+    if (shape_) arrays.template add<double>("shape", shapes_, 1);
+    if (jacobian_) arrays.template add<double>("scaled_jacobian", jacobians_, 1);
+    fields(arrays, Field::On::hex);
+  }
+  int nodes_per_hex() const { return options_.second ? options_.second->nodes_per_hex : 8; }
+  /// Of so many components; T: of its numbers.
+  template <class T = Index, class Arrays>
+  void connectivity(Arrays& arrays, const std::string& name, int components) const {
+    const SecondOrder* const second = options_.second;
+    const auto add = [&]<int n>() {
+      arrays.add_each(name, mesh_.hexes.size(), components,
+                      [this, second](std::size_t h) { return cell_nodes<T, n>(mesh_, second, h); });
+    };
+    if (!second)
+      add.template operator()<8>();
+    else if (second->nodes_per_hex == 20)
+      add.template operator()<20>();
+    else
+      add.template operator()<27>();
+  }
+
+ private:
+  template <class Arrays>
+  void fields(Arrays& arrays, Field::On on) const {
+    for (const Field& field : mesh_.fields)
+      if (field.on == on && field.integer)
+        arrays.add_each(field.name, field.values.size(), field.components,
+                        [&values = field.values](std::size_t i) { return static_cast<std::int64_t>(values[i]); });
+      else if (field.on == on)
+        arrays.template add<double>(field.name, field.values, field.components);
+  }
+
+  const Mesh& mesh_;
+  const Association& association_;
+  const WriteOptions& options_;
+  bool node_ids_ = false, owners_ = false, hex_ids_ = false, volumes_ = false, block_ids_ = false, shape_ = false,
+       jacobian_ = false;
+  std::string names_;  // of arrays that are made here
+  std::vector<int> block_of_hex_;
+  std::vector<double> shapes_, jacobians_;
+};
+
+}  // namespace hextwist::io
