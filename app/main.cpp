@@ -8,6 +8,7 @@
 #include "console.h"
 #include "exit_status.h"
 #include "hextwist/base/memory.h"
+#include "hextwist/command/written.h"
 #include "hextwist/session/session.h"
 #include "interactive.h"
 #include "options.h"
@@ -61,6 +62,9 @@ std::string run(const Options& options, Session& session, Console& console) {
   // Without its input there is nothing to go on with.
   if (!options.cad.empty() && !attempt_step(once([&] { session.import_cad(options.cad); }))) return error;
   if (!options.mesh.empty() && !attempt_step(once([&] { session.import_mesh(options.mesh); }))) return error;
+  if (!options.levels.empty() &&
+      !attempt_step([&] { return session.run("import levels " + quoted_text(options.levels.string())); }))
+    return error;
   if (options.check) {
     attempt_step([&] { return session.run("check"); });
     return error;

@@ -26,6 +26,12 @@ bool is_journal(const std::string& name) {
   return lower_extension(name) == ".jou";
 }
 
+bool is_cad(const std::filesystem::path& file) {
+  constexpr const char* endings[] = {".step", ".stp", ".brep", ".brp", ".iges", ".igs"};
+  const std::string extension = lower_extension(file);
+  return std::ranges::any_of(endings, [&](const char* ending) { return extension == ending; });
+}
+
 /// Runs a parse, prints help, version or the error; status to end with, -1 to go on.
 template <class F>
 int parsed(CLI::App& app, F parse) {
@@ -55,15 +61,22 @@ int read_check(int argc, char** argv, Options& options) {
 }
 
 int read_view(int argc, char** argv, Options& options) {
-  CLI::App app("Writes a page of HTML that shows a mesh, for any browser.", "hextwist view");
-  app.add_option("MESH", options.mesh, "mesh to look at")->required();
-  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  CLI::App app("Writes a page of HTML that shows a mesh, or a CAD file, for any browser.", "hextwist view");
+  app.add_option("MESH", options.mesh, "mesh to look at");
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges), or that is looked at alone");
+  app.add_option("--levels", options.levels, "levels of that mesh, as 'export levels' wrote them");
   app.add_option("--before", options.before, "another mesh, on the same CAD, to show beside it");
   app.add_option("-o,--output", options.output, "the page; default: MESH with .html, in this folder");
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.view = true;
   if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
-  if (options.output.empty()) options.output = options.mesh.filename().replace_extension(".html");
+  if (options.cad.empty() && is_cad(options.mesh)) options.cad.swap(options.mesh);
+  const std::filesystem::path& first = !options.mesh.empty()    ? options.mesh
+                                       : options.levels.empty() ? options.cad
+                                                                : options.levels;
+  if (first.empty()) return wrong("MESH or --cad is required");
+  if (options.mesh.empty() && options.levels.empty() && !options.before.empty()) return wrong("--before needs a MESH");
+  if (options.output.empty()) options.output = first.filename().replace_extension(".html");
   const std::string extension = lower_extension(options.output);
   if (extension != ".html" && extension != ".htm") return wrong(options.output.string() + ": a page ends in .html");
   return -1;

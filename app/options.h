@@ -13,8 +13,8 @@ struct Step {
 };
 
 struct Options {
-  std::filesystem::path cad, mesh, output, json, before;  ///< empty: not given
-  std::vector<Step> steps;                                ///< -c and journals, as they came
+  std::filesystem::path cad, mesh, output, json, before, levels;  ///< empty: not given
+  std::vector<Step> steps;                                        ///< -c and journals, as they came
   bool keep_going = false;
   bool safe = false;                  ///< no command touches a file outside of the working folder
   bool check = false;                 ///< hextwist check MESH

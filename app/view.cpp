@@ -7,9 +7,9 @@
 namespace hextwist::app {
 namespace {
 
-SceneSource source_of(Session& session, const std::filesystem::path& mesh) {
+SceneSource source_of(Session& session, const std::filesystem::path& file) {
   Session::Core& core = session.core();
-  return {core.selector(), core.state, mesh.stem().string()};
+  return {core.selector(), core.state, file.stem().string()};
 }
 
 }  // namespace
@@ -21,10 +21,12 @@ void write_view(const Options& options, Session& session, const std::function<vo
     if (!options.cad.empty()) before.import_cad(options.cad);
     before.import_mesh(options.before);
   }
-  const SceneSource source = source_of(session, options.mesh);
+  const SceneSource source = source_of(session, !options.mesh.empty()     ? options.mesh
+                                                : !options.levels.empty() ? options.levels
+                                                                          : options.cad);
   Page made;
   if (options.before.empty()) {
-    made = page(source, {});
+    made = page(source, {.shows_cad = session.meshed().mesh.n_hexes() == 0});
   } else {
     const SceneSource other = source_of(before, options.before);
     made = page(source, {}, &other);

@@ -49,7 +49,7 @@ def main():
         title, file = argument.split("=", 1)
         with open(file, encoding="utf-8") as lines:
             rows = [row for row in csv.DictReader(lines) if float(row["energy"]) < float("inf")]
-        stages += [row["stage"] for row in rows if row["stage"] not in stages]
+        stages = list(dict.fromkeys(stages + [row["stage"] for row in rows]))
         y = TOP + n * (HEIGHT + GAP + 20) + 30
         body.append(f'<text x="{LEFT}" y="{y - 24}" font-weight="bold">{title}</text>')
         for i, (key, label) in enumerate(PANELS):

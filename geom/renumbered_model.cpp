@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hextwist/geom/curvature.h"
+#include "hextwist/geom/facets.h"
 
 namespace hextwist {
 namespace {
@@ -124,6 +125,15 @@ std::optional<RenumberingOf> renumbering_of(const Model& model) {
   const auto* is = dynamic_cast<const RenumberedModel*>(&model);
   if (!is) return std::nullopt;
   return RenumberingOf{is->inside(), is->renumbering()};
+}
+
+SurfaceFacets facets_of(const Model& model, int surface) {
+  if (const auto of = renumbering_of(model)) {
+    const auto& ids = of->renumbering.id[2];
+    return facets_of(*of->model, static_cast<int>(std::ranges::find(ids, surface) - ids.begin()) + 1);
+  }
+  const auto* knows = dynamic_cast<const KnowsFacets*>(&model);
+  return knows ? knows->facets(surface) : SurfaceFacets{};
 }
 
 }  // namespace hextwist

@@ -192,7 +192,8 @@ PackedBlock LiveSession::made(const std::string& name) {
   if (name == "inside") return inside_block(source);
   if (name == "sets") return sets_block(source);
   const std::vector<Channel> all = channels(source);
-  if (name == "skin") return skin_block(source, scene_meta(source, all, {}, {}));
+  if (name == "skin")
+    return skin_block(source, scene_meta(source, all, {.shows_cad = session_.meshed().mesh.n_hexes() == 0}, {}));
   if (name.starts_with('c') && name.size() < 9 && name.find_first_not_of("0123456789", 1) == std::string::npos &&
       name.size() > 1) {
     const auto i = static_cast<std::size_t>(std::stol(name.substr(1)));
@@ -204,7 +205,7 @@ PackedBlock LiveSession::made(const std::string& name) {
 std::optional<LiveSession::Sent> LiveSession::block(const std::string& name, std::size_t have) {
   const std::unique_lock lock(session_mutex_, std::try_to_lock);
   if (!lock) return std::nullopt;
-  if (session_.meshed().mesh.n_hexes() == 0) return Sent{};
+  if (session_.meshed().mesh.n_hexes() == 0 && !session_.meshed().model) return Sent{};
   PackedBlock now = made(name);
   if (now.arrays.empty() && now.name.empty()) return Sent{};
   auto& [number, before] = sent_[name];

@@ -339,6 +339,11 @@ const OccModel::Sides& OccModel::sides() const {
   return sides_;
 }
 
+SurfaceFacets OccModel::facets(int surface) const {
+  entity({2, surface});
+  return translated("the triangles", {2, surface}, [&] { return surfaces_[index(surface)]->facets(); });
+}
+
 Vec3 OccModel::normal(int surface, Parameters at) const {
   entity({2, surface});
   Vec3 n = Vec3::Zero();

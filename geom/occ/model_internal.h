@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hextwist/geom/curvature.h"
+#include "hextwist/geom/facets.h"
 #include "hextwist/geom/occ/curve_internal.h"
 #include "hextwist/geom/occ/surface_internal.h"
 
@@ -32,7 +33,7 @@ struct Known {
 };
 
 /// Whatever OpenCASCADE throws in its members becomes an Error that names the entity.
-class OccModel final : public Model, public KnowsCurvature {
+class OccModel final : public Model, public KnowsCurvature, public KnowsFacets {
  public:
   /// known: null, then all is computed when it is asked for. Throws Error for what has no finite size.
   OccModel(const TopoDS_Shape& shape, Names names, Known* known = nullptr);
@@ -58,6 +59,7 @@ class OccModel final : public Model, public KnowsCurvature {
   void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
                std::span<Projection> out) const override;
   double curvature(Owner entity, Parameters at) const override;
+  SurfaceFacets facets(int surface) const override;
   bool contains(int volume, const Vec3& point) const override;
   std::vector<int> near(int dim, const Vec3& p, double distance) const override;
 

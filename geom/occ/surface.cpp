@@ -333,6 +333,13 @@ const Surface::Tessellation& Surface::tessellation() const {
   return tessellation_;
 }
 
+SurfaceFacets Surface::facets() const {
+  SurfaceFacets result;
+  for (const auto& [u, v] : tessellation().uv) result.points.push_back({u, v});
+  for (const auto& [a, b, c] : tessellation().triangles) result.triangles.push_back({a, b, c});
+  return result;
+}
+
 double Surface::slack() const {
   return has_closed_form() ? 0 : tessellation().deflection;
 }

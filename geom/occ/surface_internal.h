@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hextwist/geom/facets.h"
 #include "hextwist/geom/occ/curve_internal.h"
 #include "hextwist/geom/occ/trim_internal.h"
 #include "hextwist/geom/triangle_tree_internal.h"
@@ -58,6 +59,7 @@ class Surface {
   void project(std::span<const Vec3> points, std::span<const Parameters> seeds, std::span<Projection> out) const;
   /// Feet are global up to this distance (0 for closed forms).
   double slack() const;
+  SurfaceFacets facets() const;
 
  private:
   struct Tessellation {

@@ -47,19 +47,21 @@ export class App {
   /** Shows a scene, and what was before beside it. keep: the eye stays. */
   async open(scene, before = null, keep = false) {
     for (const pane of this.panes) pane.dispose();
+    if (before?.isCad !== scene.isCad) keep = false;  // a mesh has come, or has gone
     this.before = before;
     this.panes = [new Pane(scene, this.theme)];
     element('title').textContent = scene.meta.title;
     document.title = `${scene.meta.title} – hextwist`;
-    element('counts').textContent = `${scene.meta.n_hexes.toLocaleString('en')} hexes, ${scene.meta.n_nodes.toLocaleString('en')} nodes`;
+    element('counts').textContent = scene.isCad ? `${scene.count('surface').toLocaleString('en')} surfaces, no mesh` : `${scene.meta.n_hexes.toLocaleString('en')} hexes, ${scene.meta.n_nodes.toLocaleString('en')} nodes`;
     document.querySelector('[data-toggle="before"]').hidden = !before;
     const { start } = scene.meta;
     if (!keep) {
       this.stage.eye.look(...start.view);
-      this.stage.eye.fit(new THREE.Vector3(), scene.radius);
+      this.stage.eye.fit(new THREE.Vector3(), scene.radius / this.stage.narrowness);
       this.shownHexes = null;
       this.explode = 0;
     }
+    if (scene.isCad || !keep) element('what').value = start.what;
     this.stage.setPanes(this.panes);
     this.applyLook();
     await this.pane.loadCad();
@@ -69,9 +71,16 @@ export class App {
       this.shownHexes = null;
       await this.rebuild();
       await this.repick();
-    } else if (start.kind) {
-      await this.pickIds(start.kind, start.ids);
-      if (['hex', 'volume', 'block', 'sheet', 'face', 'surface', 'sideset'].includes(start.kind) && scene.hasInside) await this.showOnly();
+    } else {
+      if (start.kind) {
+        await this.pickIds(start.kind, start.ids);
+        if (['hex', 'volume', 'block', 'sheet', 'face', 'surface', 'sideset'].includes(start.kind) && scene.hasInside && !scene.isCad) await this.showOnly();
+      }
+      if (start.cut) await this.startCut(start.cut);
+      if (start.labels) {
+        this.setKind(start.labels);
+        this.toggle('labels', true);
+      }
     }
     // The first hover shall not wait for it.
     (window.requestIdleCallback ?? setTimeout)(() => this.pane.tree());
@@ -79,12 +88,14 @@ export class App {
   }
 
   async showBefore(on) {
+    const narrowBefore = this.stage.narrowness;
     if (on && this.before && this.panes.length === 1) {
       const pane = new Pane(this.before, this.theme);
       await pane.loadCad();
       this.panes.unshift(pane);
     } else if (!on && this.panes.length > 1) this.panes.shift().dispose();
     this.stage.setPanes(this.panes);
+    this.stage.eye.height *= narrowBefore / this.stage.narrowness;  // all of it is seen in narrow panes as well
     element('names').className = this.panes.length > 1 ? 'two' : '';
     this.applyLook();
     await this.colouring.choose(this.colouring.key);
@@ -111,8 +122,8 @@ export class App {
     const { kind, position, id, pane, hit } = found, row = pane.scene.row(kind, position), parts = [`${kind} ${id}`];
     if (row.name) parts.push(`"${row.name}"`);
     if (row.note) parts.push(row.note);
-    if (kind !== 'hex' && hit) parts.push(`hex ${pane.scene.hexId(hit.hex)}`);
-    const value = hit ? this.colouring.said(pane, hit.hex) : '';
+    if (kind !== 'hex' && hit?.hex >= 0) parts.push(`hex ${pane.scene.hexId(hit.hex)}`);
+    const value = hit?.hex >= 0 ? this.colouring.said(pane, hit.hex) : '';
     if (value) parts.push(value);
     return parts.join(' · ');
   }
@@ -195,12 +206,12 @@ export class App {
   async fitTo(kind, positions, around = 1.3) {
     const shape = await this.busy('looking it up', () => this.pane.shapeOf(kind, positions)), bounds = boundsOf(shape);
     if (!bounds) return;
-    this.stage.eye.fit(bounds.center, Math.max(bounds.radius * around, this.scene.radius * 0.04));
+    this.stage.eye.fit(bounds.center, Math.max(bounds.radius * around, this.scene.radius * 0.04) / this.stage.narrowness);
     this.draw();
   }
   fit() {
     if (this.picks.size) return this.fitTo(this.picks.kind, [...this.picks.ids.values()]);
-    this.stage.eye.fit(new THREE.Vector3(), this.scene.radius);
+    this.stage.eye.fit(new THREE.Vector3(), this.scene.radius / this.stage.narrowness);
     this.draw();
   }
   async goTo(hex) {
@@ -261,6 +272,7 @@ export class App {
     await this.rebuild();
   }
   async column() {
+    if (this.scene.isCad) return this.say('there is no mesh');
     const hit = this.lastHit, inside = await this.scene.inside(), hex = this.picks.kind === 'hex' && this.picks.size ? [...this.picks.ids.values()][0] : hit?.hex;
     if (hex === undefined) return this.say('pick a face or a hex first: the column runs through the face that was clicked');
     const side = hit && hit.quad >= 0 && hit.hex === hex ? this.pane.quads.side[hit.quad] : 0;
@@ -317,17 +329,35 @@ export class App {
     // What is cut off is on the side of the eye, unless that is to be the other way round.
     if (turned || !this.clipSign) this.clipSign = this.stage.eye.direction.dot(new THREE.Vector3(...along)) < 0 ? -1 : 1;
     const sign = flip * this.clipSign, normal = along.map((v) => v * sign);
-    // From one end of the mesh to the other, along the normal.
+    const [low, high] = this.extent(normal);
+    const t = Number(element('cut-at').value), at = sign > 0 ? t : 1 - t;
+    this.clip = { mode, normal, distance: low + (high - low) * (0.001 + 0.998 * at) };
+    return this.rebuild();
+  }
+  /** The cut that a scene begins with; the controls say what it is. */
+  startCut({ mode, normal, distance }) {
+    const select = element('cut-axis'), axis = normal.findIndex((v) => Math.abs(v) > 1 - 1e-9);
+    let value = normal.join(' ');
+    if (axis >= 0) value = [0, 1, 2].map((k) => (k === axis ? 1 : 0)).join(' ');
+    else select.append(new Option(`(${normal.map(short).join(', ')})`, value));
+    select.value = value;
+    document.querySelector(`input[name="cut"][value="${mode}"]`).checked = true;
+    this.clipSign = axis >= 0 ? Math.sign(normal[axis]) : 1;
+    const [low, high] = this.extent(normal), part = (distance - low) / (high - low || 1);
+    element('cut-at').value = this.clipSign > 0 ? part : 1 - part;
+    this.clip = { mode, normal, distance };
+    return this.rebuild();
+  }
+  /** From one end to the other along a direction. */
+  extent(normal) {
     let low = Infinity, high = -Infinity;
-    const { point } = this.scene.skin;
+    const point = this.scene.isCad ? (this.pane.cadArrays?.point ?? []) : this.scene.skin.point;
     for (let i = 0; i < point.length; i += 3) {
       const d = normal[0] * point[i] + normal[1] * point[i + 1] + normal[2] * point[i + 2];
       if (d < low) low = d;
       if (d > high) high = d;
     }
-    const t = Number(element('cut-at').value), at = sign > 0 ? t : 1 - t;
-    this.clip = { mode, normal, distance: low + (high - low) * (0.001 + 0.998 * at) };
-    return this.rebuild();
+    return [low, high];
   }
   async label() {
     if (!this.labels) {
@@ -360,7 +390,7 @@ export class App {
       const ofFaces = pane.faces.material.uniforms, ofCad = pane.cad.material.uniforms;
       // Lines of the mesh lie on the CAD where that is shown; inside there is none.
       pane.faces.visible = what === 'mesh' || (what === 'both' && pane.shown !== null);
-      pane.cad.visible = what !== 'mesh' && pane.quads.offset === null;
+      pane.cad.visible = pane.scene.isCad || (what !== 'mesh' && pane.quads.offset === null);
       ofFaces.lines.value = edges ? 0.55 : 0;
       ofCad.lines.value = what === 'both' ? 0.75 : 0;
       for (const uniforms of [ofFaces, ofCad]) uniforms.ink.value.set(...this.theme.edge);

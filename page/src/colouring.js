@@ -1,6 +1,7 @@
 // What gives the colours, with its scale, its histogram and its worst hexes.
 import { css, rowColour, scale, scaleColour, scaleKind, scaleRange } from './colours.js';
 import { short } from './scene.js';
+import { rowOf, setKeys, setRows } from './sets.js';
 
 const nBars = 24, mostLegend = 14, mostPicked = 200000;
 const element = (id) => document.getElementById(id);
@@ -24,7 +25,9 @@ export class Colouring {
   reset(scene) {
     const before = this.key, { channels } = scene.meta;
     this.select.replaceChildren(new Option('nothing', 'none'), new Option('surface', 'surface'));
-    if (scene.hasInside) this.select.append(new Option('sheet (the smallest through a hex)', 'sheet'));
+    if (scene.isCad) this.select.append(new Option('volume', 'volume'));
+    else if (scene.hasInside) this.select.append(new Option('sheet (the smallest through a hex)', 'sheet'));
+    for (const [key, text] of Object.entries(setKeys)) if (key === 'owner' ? !scene.isCad : scene.meta[key].length) this.select.append(new Option(text, key));
     const groups = {};
     channels.forEach((channel, i) => {
       groups[channel.group] ??= Object.assign(document.createElement('optgroup'), { label: channel.group });
@@ -45,16 +48,21 @@ export class Colouring {
     const { scene } = this.app, i = scene.meta.channels.findIndex((c) => c.name === key);
     this.channel = i >= 0 ? scene.meta.channels[i] : null;
     this.valuesOf = new Map();
+    this.setsOf = new Map();
     await this.app.busy(`loading ${key}`, async () => {
-      for (const pane of this.app.panes) this.valuesOf.set(pane, await this.load(pane.scene, key));
+      for (const pane of this.app.panes) {
+        this.valuesOf.set(pane, await this.load(pane.scene, key));
+        this.setsOf.set(pane, key in setKeys ? await setRows(pane.scene, key) : null);
+      }
     });
     if (this.key !== key) return;
     this.values = this.valuesOf.get(this.app.pane);
+    this.sets = this.setsOf.get(this.app.pane);
     this.worstAt = -1;
     this.auto();
   }
   async load(scene, key) {
-    if (key === 'none' || key === 'surface') return null;
+    if (key === 'none' || key === 'surface' || key in setKeys || scene.isCad) return null;
     if (key === 'sheet') {
       const inside = await scene.inside(), { ofEdge, n } = inside.sheets, { ofHex } = inside.edges, sizes = new Uint32Array(n);
       const sheetOf = (h, axis) => ofEdge[ofHex[12 * h + 4 * axis]];
@@ -87,8 +95,16 @@ export class Colouring {
     this.app.draw();
   }
   paint(pane) {
-    const values = this.valuesOf.get(pane), neutral = this.app.theme.plain;
-    if (this.key === 'surface') pane.paint((hex, surface) => (surface ? rowColour(surface - 1) : neutral), false);
+    const values = this.valuesOf.get(pane), sets = this.setsOf.get(pane), neutral = this.app.theme.plain;
+    pane.paintCad(this.key === 'surface' ? (surface) => rowColour(surface - 1)
+      : this.key === 'volume' && pane.scene.isCad ? (surface) => rowColour((pane.scene.meta.volumes_of_surface[surface - 1][0] ?? 10) - 1) : null);
+    pane.showDots(sets ? (node) => (sets.node.has(node) ? rowColour(sets.rows[sets.node.get(node)].colour) : null) : null);
+    if (sets) {
+      pane.paint((hex, surface, side) => {
+        const row = side < 0 ? sets.hex.get(hex) : rowOf(pane.scene, sets, hex, side);
+        return row === undefined ? neutral : rowColour(sets.rows[row].colour);
+      }, false);
+    } else if (this.key === 'surface') pane.paint((hex, surface) => (surface ? rowColour(surface - 1) : neutral), false);
     else if (!values) pane.paint(() => neutral, false);
     else if (this.isClass) {
       const colours = this.classColours();
@@ -106,9 +122,9 @@ export class Colouring {
   }
   classColours() {
     const order = this.channel?.classes.map(([n]) => n) ?? [];
-    if (this.key === 'level') return (n) => scaleColour('plain', 0, Math.max(1, this.mostLevel ?? 1), n);
+    if (this.key === 'level') return (n) => scaleColour('plain', 0, 1, 0.3 + (0.7 * n) / Math.max(1, this.mostLevel ?? 1));
     const place = new Map(order.map((n, i) => [n, i]));
-    return (n) => rowColour(place.has(n) ? place.get(n) : n - 1);
+    return (n) => rowColour(place.has(n) ? place.get(n) : n === 0 ? 9 : n - 1);
   }
   classCounts() {
     const counts = new Map();
@@ -133,38 +149,46 @@ export class Colouring {
       element('high').value = short(high);
       return;
     }
-    if (!this.values) return;
-    const colours = this.classColours();
-    const rows = this.classCounts();
-    for (const [n] of rows.slice(0, mostLegend)) {
+    const rows = this.classRows();
+    for (const { text, colour } of rows.slice(0, mostLegend)) {
       const row = document.createElement('div'), swatch = document.createElement('i');
       row.className = 'class';
-      swatch.style.background = css(colours(n));
-      row.append(swatch, this.className(n));
+      swatch.style.background = css(colour);
+      row.append(swatch, text);
       box.append(row);
     }
     if (rows.length > mostLegend) box.append(`and ${rows.length - mostLegend} more`);
+  }
+  /** What the colours of things mean: [{ text, colour, count, pick() }], none for values. */
+  classRows() {
+    const { picks, scene } = this.app;
+    if (this.sets)
+      return this.sets.rows.map((row) => ({
+        text: row.text, count: row.count, colour: rowColour(row.colour),
+        pick: () => picks.set(row.kind, row.nodes ? [...row.nodes.slice(0, mostPicked)].map((n) => [scene.nodeId(n), n]) : [[row.id, row.position]]),
+      }));
+    if (!this.values || !this.isClass) return [];
+    if (this.key === 'level') this.mostLevel = Math.max(...this.classCounts().map(([n]) => n));
+    const colours = this.classColours();
+    return this.classCounts().map(([n, count]) => ({ text: this.className(n), count, colour: colours(n), pick: () => this.pickWhere((v) => v === n) }));
   }
 
   histogram() {
     const box = element('histogram');
     box.replaceChildren();
-    box.className = this.isClass ? 'classes' : '';
-    box.hidden = !this.values || this.channel?.on === 'node';
+    const rows = this.classRows();
+    box.className = rows.length ? 'classes' : '';
+    box.hidden = !rows.length && (!this.values || this.channel?.on === 'node');
     element('worst').hidden = !this.range || this.channel.on === 'node';
     if (box.hidden) return;
-    if (this.isClass) {
-      if (this.key === 'level') this.mostLevel = Math.max(...this.classCounts().map(([n]) => n));
-      const colours = this.classColours();
-      for (const [n, count] of this.classCounts().slice(0, 400)) {
-        const button = document.createElement('button'), swatch = document.createElement('i');
-        swatch.style.background = css(colours(n));
-        button.append(swatch, Object.assign(document.createElement('span'), { textContent: this.className(n) }), count.toLocaleString('en'));
-        button.addEventListener('click', () => this.pickWhere((v) => v === n));
-        box.append(button);
-      }
-      return;
+    for (const { text, count, colour, pick } of rows.slice(0, 400)) {
+      const button = document.createElement('button'), swatch = document.createElement('i');
+      swatch.style.background = css(colour);
+      button.append(swatch, Object.assign(document.createElement('span'), { textContent: text }), count.toLocaleString('en'));
+      button.addEventListener('click', pick);
+      box.append(button);
     }
+    if (rows.length) return;
     const { least, most } = this.range, kind = scaleKind(this.channel), width = (most - least) / nBars || 1, counts = new Uint32Array(nBars);
     for (const v of this.values) if (v === v) ++counts[Math.min(nBars - 1, Math.max(0, Math.floor((v - least) / width)))];
     const highest = Math.max(1, ...counts);

@@ -21,6 +21,11 @@ function meet(pane, ray) {
       best = { quad: q, hex: pane.quads.hex[q], point: hit.point, distance: hit.distance };
     }
   }
+  if (pane.scene.isCad) {
+    const above = (p) => clip.x * p.x + clip.y * p.y + clip.z * p.z > clip.w;
+    for (const hit of pane.cadTree()?.raycast(ray, THREE.DoubleSide) ?? [])
+      if (!above(hit.point) && (!best || hit.distance < best.distance)) best = { quad: -1, hex: -1, surface: pane.cadArrays.quad_surface[hit.faceIndex >> 1], point: hit.point, distance: hit.distance };
+  }
   if (pane.cut) {
     const { triangles, hexOf } = pane.cut, a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
     for (let t = 0; t < hexOf.length; ++t) {
@@ -85,6 +90,11 @@ export async function find(pane, camera, width, height, x, y, kind) {
   }
   if (!hit) return null;
   const { hex, quad } = hit;
+  if (scene.isCad) {
+    if (kind === 'geometry' || kind === 'surface') return found('surface', hit.surface - 1);
+    const [volume] = scene.meta.volumes_of_surface[hit.surface - 1];
+    return kind === 'volume' && volume ? found('volume', volume - 1) : null;
+  }
   if (kind === 'hex') return found('hex', hex, scene.hexId(hex));
   if (kind === 'volume') {
     const volume = (scene.insideNow?.volume ?? (await scene.channel(0)))[hex];

@@ -18,6 +18,13 @@ export async function labelPlaces(pane, kind) {
   } else if (kind === 'edge') {
     const { edge, edge_index, point } = scene.skin;
     edge_index.forEach((e, i) => add(e + 1, ...[0, 1, 2].map((k) => (point[3 * edge[2 * i] + k] + point[3 * edge[2 * i + 1] + k]) / 2)));
+  } else if (scene.isCad) {
+    const { quad, quad_surface, point } = pane.cadArrays ?? { quad_surface: [] };
+    quad_surface.forEach((surface, q) => {
+      const c = [0, 1, 2].map((k) => [0, 1, 2].reduce((sum, i) => sum + point[3 * quad[4 * q + i] + k] / 3, 0));
+      if (kind === 'surface') add(surface, ...c);
+      if (kind === 'volume') for (const volume of scene.meta.volumes_of_surface[surface - 1]) add(volume, ...c);
+    });
   } else {
     const volume = kind === 'volume' ? (scene.insideNow?.volume ?? (await scene.channel(0))) : null;
     for (let q = 0; q < quads.n; ++q) {

@@ -49,7 +49,7 @@ export class EntityList {
     this.select.replaceChildren();
     for (const each of [...kinds, 'group']) {
       const n = scene.count(each);
-      if (n === 0 || ((each === 'edge' || each === 'face' || each === 'sheet') && !scene.hasInside)) continue;
+      if (n === 0 || ((each === 'edge' || each === 'face' || each === 'sheet') && (scene.isCad || !scene.hasInside))) continue;
       this.select.append(new Option(`${pluralOf(each)}${n === null ? '' : ` (${n.toLocaleString('en')})`}`, each));
     }
     this.show([...this.select.options].some((o) => o.value === kind) ? kind : this.select.options[0].value);

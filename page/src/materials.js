@@ -70,32 +70,36 @@ export function cadMaterial() {
     vertexShader: `
 in vec3 position, normal;
 in vec2 uv;
+in vec4 tint;
+out vec3 own;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform mat3 normalMatrix;
 out vec3 turned, placed;
 out vec2 at;
 void main() {
   placed = position;
+  own = tint.rgb;
   at = uv;
   turned = normalMatrix * normal;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`,
     fragmentShader: `
 precision highp float;
-in vec3 turned, placed;
+in vec3 turned, placed, own;
 in vec2 at;
 uniform vec4 clip;
 uniform vec3 colour, ink;
 uniform float lines;  // of the mesh
+uniform float tinted; // 1: each surface has its colour
 out vec4 result;
 void main() {
   if (dot(clip.xyz, placed) > clip.w) discard;
   vec3 n = normalize(turned);
-  float shade = 0.6 + 0.42 * abs(dot(n, normalize(vec3(-0.25, 0.45, 0.9))));
+  float shade = 0.70 + 0.32 * max(0.0, dot(n.z < 0.0 ? -n : n, normalize(vec3(-0.25, 0.45, 0.9))));
   vec2 wide = fwidth(at), near = min(at, 1.0 - at) / max(wide, vec2(1e-6));
   float edge = (1.0 - smoothstep(0.4, 1.25, min(near.x, near.y))) * lines * clamp(1.35 - 4.5 * max(wide.x, wide.y), 0.0, 1.0);
-  result = vec4(mix(colour * shade, ink, edge), 1.0);
+  result = vec4(mix(mix(colour, own, tinted) * shade, ink, edge), 1.0);
 }`,
-    uniforms: { clip: { value: noClip() }, colour: { value: new THREE.Vector3() }, ink: { value: new THREE.Vector3() }, lines: { value: 0 } },
+    uniforms: { clip: { value: noClip() }, colour: { value: new THREE.Vector3() }, ink: { value: new THREE.Vector3() }, lines: { value: 0 }, tinted: { value: 0 } },
   });
 }

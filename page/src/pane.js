@@ -1,7 +1,7 @@
 // One mesh in the picture: its quads, what the plane cuts, the CAD, and what is picked.
 import * as THREE from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
-import { coarseQuads, hexQuads, quadGeometry, section, skinQuads, someQuads, subsetQuads, twistPlane } from './display.js';
+import { coarseQuads, hexQuads, quadGeometry, Quads, section, skinQuads, someQuads, subsetQuads, twistPlane } from './display.js';
 import { lineMesh } from './lines.js';
 import { cadMaterial, noClip, quadMaterial } from './materials.js';
 
@@ -10,8 +10,34 @@ THREE.ColorManagement.enabled = false;  // colours are those of the screen throu
 const thinLines = 20000;  // segments: beyond that lines are one pixel wide
 const mostMarked = 60000; // quads
 const mostMoving = 9000;  // quads, where there is no graphics card
+const mostDots = 200000;  // nodes that are looked at
 
-
+const dotVertexShader = `
+uniform float size;
+varying vec3 own;
+#ifdef TINTED
+attribute vec3 tint;
+#endif
+void main() {
+#ifdef TINTED
+  own = tint;
+#endif
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  gl_Position.z -= 0.0015 * gl_Position.w;  // before the faces that it lies on
+  gl_PointSize = size;
+}`;
+const dotFragmentShader = `
+uniform vec3 colour;
+varying vec3 own;
+void main() {
+  float d = length(gl_PointCoord - 0.5);
+  if (d > 0.5) discard;
+#ifdef TINTED
+  gl_FragColor = vec4(d > 0.4 ? 0.4 * own : own, 1.0);
+#else
+  gl_FragColor = vec4(d > 0.36 ? vec3(1.0) : colour, 1.0);
+#endif
+}`;
 
 export class Pane {
   constructor(scene, theme) {
@@ -26,7 +52,8 @@ export class Pane {
     this.marks = new THREE.Group();
     this.hints = new THREE.Group();
     this.planes = new THREE.Group();
-    for (const object of [this.cad, this.faces, this.section, this.sectionLines, this.curves, this.planes, this.marks, this.hints]) {
+    this.nodeDots = new THREE.Group();
+    for (const object of [this.cad, this.faces, this.section, this.sectionLines, this.curves, this.nodeDots, this.planes, this.marks, this.hints]) {
       object.frustumCulled = false;
       this.root.add(object);
     }
@@ -83,12 +110,26 @@ export class Pane {
     return this.bvh;
   }
 
+  /** The same for the surfaces of the CAD, where there is no mesh. */
+  cadTree() {
+    if (!this.cadTree_ && this.cadArrays?.quad.length) this.cadTree_ = new MeshBVH(this.cad.geometry, { indirect: true });
+    return this.cadTree_;
+  }
+  /** Those surfaces as quads. */
+  cadQuads(test) {
+    const { quad, quad_surface, point } = this.cadArrays, quads = new Quads(quad_surface.length, point), which = [];
+    quads.corner.set(quad);
+    quad_surface.forEach((surface, q) => { if (test(surface - 1)) which.push(q); });
+    return someQuads(quads, which);
+  }
+
   /** clip: { mode: 'off' | 'crinkle' | 'plane', normal, distance }; hidden: per hex, null: none; explode: 0..1. */
   async rebuild({ clip, shown, explode }) {
     const { scene } = this, cuts = clip.mode !== 'off';
     const material = this.faces.material.uniforms, plane = noClip();
     if (clip.mode === 'plane') plane.set(...clip.normal, clip.distance);
     for (const each of [material, this.cad.material.uniforms]) each.clip.value.copy(plane);
+    if (scene.isCad) return;
     if (!cuts && !shown && !explode) {
       this.shown = null;
       this.setQuads(skinQuads(scene));
@@ -159,7 +200,7 @@ export class Pane {
   paint(colourOf, onNodes) {
     const { quads } = this, tint = this.faces.geometry.getAttribute('tint'), to = tint.array;
     for (let q = 0; q < quads.n; ++q) {
-      const c = onNodes ? null : colourOf(quads.hex[q], quads.surface[q]);
+      const c = onNodes ? null : colourOf(quads.hex[q], quads.surface[q], quads.side[q]);
       for (let k = 0; k < 4; ++k) {
         const at = 16 * q + 4 * k, place = quads.corner[4 * q + k];
         const [r, g, b] = c ?? colourOf(quads.node ? quads.node[place] : place);
@@ -176,10 +217,44 @@ export class Pane {
         // One colour per hex: the average of its corners.
         c = [0, 0, 0];
         for (let k = 0; k < 8; ++k) colourOf(inside.hexes[8 * hexOf[i] + k]).forEach((v, j) => { c[j] += v / 8; });
-      } else c = colourOf(hexOf[i], 0);
+      } else c = colourOf(hexOf[i], 0, -1);
       for (let k = 0; k < 3; ++k) cut.array.set([...c, 255], 12 * i + 4 * k);
     }
     cut.needsUpdate = true;
+  }
+
+  /** colourOf(surface): [r, g, b]; null: all alike. */
+  paintCad(colourOf) {
+    this.cad.material.uniforms.tinted.value = colourOf && this.cadArrays ? 1 : 0;
+    if (!colourOf || !this.cadArrays) return;
+    const tint = this.cad.geometry.getAttribute('tint'), { quad, quad_surface } = this.cadArrays;
+    for (let q = 0; q < quad_surface.length; ++q) {
+      const colour = [...colourOf(quad_surface[q]), 255];
+      for (let k = 0; k < 4; ++k) tint.array.set(colour, 4 * quad[4 * q + k]);
+    }
+    tint.needsUpdate = true;
+  }
+  /** Nodes that are drawn, as dots. colourOf(node): [r, g, b], null for none; or null: no dots at all. */
+  showDots(colourOf) {
+    this.clear(this.nodeDots);
+    if (!colourOf) return;
+    const { quads } = this, seen = new Set(), positions = [], colours = [], clip = this.faces.material.uniforms.clip.value;
+    for (let i = 0; i < 4 * quads.n && seen.size < mostDots; ++i) {
+      const place = quads.corner[i], node = quads.node ? quads.node[place] : place;
+      if (seen.has(node)) continue;
+      seen.add(node);
+      const colour = colourOf(node);
+      if (!colour) continue;
+      const p = [0, 1, 2].map((k) => quads.points[3 * place + k] + (quads.offset ? quads.offset[3 * (i >> 2) + k] : 0));
+      if (clip.x * p[0] + clip.y * p[1] + clip.z * p[2] > clip.w) continue;
+      positions.push(...p);
+      colours.push(...colour.map((v) => v / 255));
+    }
+    if (!positions.length) return;
+    const dots = this.dots(Float32Array.from(positions), '#000000', 9, false);
+    dots.geometry.setAttribute('tint', new THREE.BufferAttribute(Float32Array.from(colours), 3));
+    dots.material.defines = { TINTED: 1 };
+    this.nodeDots.add(dots);
   }
 
   lines(positions, colour, width, onTop = false) {
@@ -195,8 +270,7 @@ export class Pane {
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     const material = new THREE.ShaderMaterial({
       transparent: true, depthTest: !onTop, uniforms: { colour: { value: new THREE.Color(colour) }, size: { value: size } },
-      vertexShader: 'uniform float size; void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); gl_PointSize = size; }',
-      fragmentShader: 'uniform vec3 colour; void main() { float d = length(gl_PointCoord - 0.5); if (d > 0.5) discard; gl_FragColor = vec4(d > 0.36 ? vec3(1.0) : colour, 1.0); }',
+      vertexShader: dotVertexShader, fragmentShader: dotFragmentShader,
     });
     const object = new THREE.Points(geometry, material);
     object.frustumCulled = false;
@@ -215,8 +289,11 @@ export class Pane {
     geometry.setAttribute('position', new THREE.BufferAttribute(cad.point, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(cad.normal, 3));
     geometry.setAttribute('uv', new THREE.BufferAttribute(cad.at, 2));
+    geometry.setAttribute('tint', new THREE.BufferAttribute(new Uint8Array((4 * cad.point.length) / 3).fill(255), 4, true));
     geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    this.cad.geometry.dispose();
     this.cad.geometry = geometry;
+    this.cadTree_ = null;
     this.clear(this.curves);
     this.curves.add(this.lines(cad.segment, this.theme.ink, 2));
   }
@@ -271,6 +348,12 @@ export class Pane {
       for (let i = 0; i < cad.segment_curve.length; ++i)
         if (wanted.has(cad.segment_curve[i] - 1)) out.push(...cad.segment.subarray(6 * i, 6 * i + 6));
       return { segments: Float32Array.from(out) };
+    }
+    if (scene.isCad && this.cadArrays) {
+      const { volumes_of_surface: volumes } = scene.meta;
+      if (kind === 'surface') return { quads: this.cadQuads((surface) => wanted.has(surface)), isSmooth: true };
+      if (kind === 'volume') return { quads: this.cadQuads((surface) => volumes[surface].some((v) => wanted.has(v - 1))), isSmooth: true };
+      return { points: new Float32Array() };
     }
     if (kind === 'surface') {
       const found = whereQuads((q) => quads.surface[q] > 0 && wanted.has(quads.surface[q] - 1));
@@ -355,7 +438,7 @@ export class Pane {
     this.clear(group);
     if (!shape) return;
     if (shape.quads?.n) {
-      const material = quadMaterial({ opacity: strong ? 0.62 : 0.4, lines: strong ? 0.7 : 0.35, offset: -1, onTop: shape.isHidden });
+      const material = quadMaterial({ opacity: strong ? 0.62 : 0.4, lines: shape.isSmooth ? 0 : strong ? 0.7 : 0.35, offset: -1, onTop: shape.isHidden });
       material.uniforms.clip.value.copy(shape.isHidden ? noClip() : this.faces.material.uniforms.clip.value);
       const mesh = new THREE.Mesh(quadGeometry(shape.quads), material), tint = mesh.geometry.getAttribute('tint').array;
       const c = new THREE.Color(colour);
@@ -368,7 +451,7 @@ export class Pane {
   }
   dispose() {
     this.dropCoarse();
-    for (const group of [this.curves, this.marks, this.hints, this.planes]) this.clear(group);
+    for (const group of [this.curves, this.marks, this.hints, this.planes, this.nodeDots]) this.clear(group);
     for (const object of [this.faces, this.section, this.sectionLines, this.cad]) { object.geometry.dispose(); object.material.dispose(); }
   }
 }

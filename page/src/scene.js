@@ -29,6 +29,8 @@ export class Scene {
   cad() { return this.block('cad'); }
   sets() { return this.block('sets'); }
 
+  /** No mesh: the CAD alone. */
+  get isCad() { return this.meta.n_hexes === 0; }
   get hasInside() { return !this.meta.left_out.includes('inside'); }
   async inside() {
     if (this.insideNow) return this.insideNow;

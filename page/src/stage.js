@@ -56,6 +56,8 @@ export class Stage {
     this.eye.reach = 2.6 * reach;
     this.draw();
   }
+  /** Below 1 where a pane is narrower than it is high. */
+  get narrowness() { return Math.min(1, this.paneWidth / this.height); }
   get paneWidth() { return this.width / Math.max(1, this.panes.length); }
 
   draw() {
@@ -155,7 +157,7 @@ export class Stage {
         if (taken.some(([a, b, c]) => Math.abs(a - x) < half + c && Math.abs(b - y) < 15)) continue;
         ++tried;
         ray.setFromCamera(new THREE.Vector2(p.x, p.y), camera);
-        const hit = pane.tree()?.raycastFirst(ray.ray, THREE.DoubleSide);
+        const hit = (pane.scene.isCad ? pane.cadTree() : pane.tree())?.raycastFirst(ray.ray, THREE.DoubleSide);
         if (hit && hit.distance < ray.ray.origin.distanceTo(place) - slack) continue;
         taken.push([x, y, half]);
         pen.fillStyle = this.theme.label;

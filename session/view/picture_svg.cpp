@@ -5,12 +5,14 @@
 #include <numeric>
 
 #include "hextwist/base/text.h"
-#include "hextwist/session/view/picture.h"
+#include "hextwist/session/view/render_internal.h"
+#include "hextwist/session/view/text.h"
 
 namespace hextwist {
 namespace {
 
 constexpr int text_size = 13, row_height = 18;
+constexpr Colour label_back = {42, 49, 64};
 
 std::string colour_text(const Colour& colour, double shade = 1) {
   std::array<char, 8> text;
@@ -26,27 +28,44 @@ std::string number(double value) {
   return text.data();
 }
 
-std::string text_at(double x, double y, const std::string& text) {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\">" + markup_text(text) + "</text>\n";
+std::string text_at(double x, double y, const std::string& text, const std::string& more = {}) {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\"" + more + ">" + markup_text(text) + "</text>\n";
+}
+
+std::string box(double x, double y, double w, double h, const Colour& colour, const std::string& more = {}) {
+  return "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(w) + "\" height=\"" + number(h) +
+         "\" fill=\"" + colour_text(colour) + "\"" + more + "/>\n";
 }
 
 /// Swatches with their texts, or the scale with its numbers.
 std::string legend(const Picture& picture) {
   std::string result;
   double y = 20;
-  if (!picture.metric.empty()) {
-    result += text_at(10, y, picture.metric);
-    const double good = picture.small_is_better ? picture.low : picture.high, bad = picture.low + picture.high - good;
+  if (const Picture::Scale& scale = picture.scale; !scale.name.empty()) {
+    result += text_at(10, y, scale.name);
     constexpr int n = 20;
-    for (int i = 0; i < n; ++i)
-      result += "<rect x=\"10\" y=\"" + number(y + 10 + 6 * i) + "\" width=\"14\" height=\"6.3\" fill=\"" +
-                colour_text(scale_colour(1 - (i + 0.5) / n)) + "\"/>\n";
-    for (int i = 0; i <= 4; ++i) result += text_at(30, y + 14 + 30 * i, short_number(good + (bad - good) * i / 4, 3));
+    for (int i = 0; i < n; ++i) result += box(10, y + 10 + 6 * i, 14, 6.3, scale_colour(scale.kind, 1 - (i + 0.5) / n));
+    for (int i = 0; i < n_scale_numbers; ++i)
+      result += text_at(30, y + 14 + 30 * i,
+                        short_number(scale.high + (scale.low - scale.high) * i / (n_scale_numbers - 1), 4));
+    return result;
   }
-  for (const Picture::LegendRow& row : picture.legend) {
-    result += "<rect x=\"10\" y=\"" + number(y - 11) + "\" width=\"12\" height=\"12\" fill=\"" +
-              colour_text(row.colour) + "\"/>\n" + text_at(28, y, row.text);
-    y += row_height;
+  for (std::size_t i = 0; i < picture.legend.size(); ++i, y += row_height) {
+    if (i == most_legend_rows)
+      return result + text_at(10, y, "and " + std::to_string(picture.legend.size() - i) + " more");
+    result += box(10, y - 11, 12, 12, picture.legend[i].colour) + text_at(28, y, picture.legend[i].text);
+  }
+  return result;
+}
+
+/// Ids, where a renderer that knows depths says that they are seen.
+std::string labels(const Picture& picture, int width, int height) {
+  std::string result;
+  if (picture.labels.empty()) return result;
+  for (const PlacedLabel& label : placed_labels(picture, rendered(picture, width, height), text_size)) {
+    const double half = 0.3 * text_size * static_cast<double>(label.text.size()) + 3;
+    result += box(label.x - half, label.y - 8, 2 * half, 16, label_back, " rx=\"3\"") +
+              text_at(label.x, label.y + 4.5, label.text, " text-anchor=\"middle\" fill=\"white\"");
   }
   return result;
 }
@@ -64,7 +83,7 @@ std::string svg(const Picture& picture, int width, int height) {
   std::string result = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + std::to_string(width) +
                        " " + std::to_string(height) + "\" font-family=\"sans-serif\" font-size=\"" +
                        std::to_string(text_size) + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
-                       markup_text(picture.title) + "</title>\n<rect " + size + " fill=\"white\"/>\n";
+                       markup_text(picture.source) + "</title>\n<rect " + size + " fill=\"white\"/>\n";
 
   // Facets and lines by the depth of their middles; lines a little nearer, as they lie on facets.
   struct Piece {
@@ -95,12 +114,26 @@ std::string svg(const Picture& picture, int width, int height) {
     const Picture::Facet& facet = picture.facets[piece.number];
     const double shade = shade_of(picture, facet, frame);
     std::string points;
-    for (const std::int32_t corner : facet.corners)
-      points += (points.empty() ? "" : " ") + place(picture.points[corner]);
-    result += "<polygon points=\"" + points + "\" fill=\"" + colour_text(facet.colour, shade) + "\" stroke=\"" +
-              colour_text(facet.colour, 0.4 * shade) + "\" stroke-width=\"0.8\"/>\n";
+    std::array<double, 3> sum{};
+    for (int i = 0; i < 4; ++i) {
+      points += (points.empty() ? "" : " ") + place(picture.points[facet.corners[i]]);
+      for (int k = 0; k < 3; ++k) sum[k] += facet.colours[i][k] / 4.0;
+    }
+    Colour fill;
+    for (int k = 0; k < 3; ++k) fill[k] = static_cast<std::uint8_t>(std::lround(sum[k]));
+    const bool all = facet.edges == 15;
+    const std::string dark = colour_text(fill, 0.4 * shade);
+    result += "<polygon points=\"" + points + "\" fill=\"" + colour_text(fill, shade) + "\" stroke=\"" +
+              (all ? dark : colour_text(fill, shade)) + "\" stroke-width=\"0.8\"/>\n";
+    for (int i = 0; i < 4 && !all; ++i)
+      if (facet.edges >> i & 1)
+        result += "<polyline points=\"" + place(picture.points[facet.corners[i]]) + " " +
+                  place(picture.points[facet.corners[(i + 1) % 4]]) + "\" stroke=\"" + dark +
+                  "\" stroke-width=\"0.8\"/>\n";
   }
-  return result + legend(picture) + "</svg>\n";
+  if (!picture.caption.empty())
+    result += text_at(width / 2.0, 24, picture.caption, " text-anchor=\"middle\" font-size=\"17\"");
+  return result + legend(picture) + labels(picture, width, height) + "</svg>\n";
 }
 
 }  // namespace hextwist

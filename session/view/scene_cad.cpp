@@ -6,6 +6,7 @@
 #include <map>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/geom/facets.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/session/view/scene.h"
 
@@ -72,14 +73,85 @@ void add_surface(const MeshedModel& meshed, int id, std::span<const Side> sides,
       }
 }
 
+void add_point(std::vector<float>& to, const Vec3& p) {
+  for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(p[k]));
+}
+
+/// The same where there is no mesh: triangles, as quads whose last corners are one.
+void add_surface(const CadSurface& surface, int id, const Vec3& origin, Surfaces& out) {
+  const auto first = static_cast<std::uint32_t>(out.points.size() / 3);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    add_point(out.points, surface.points[i] - origin);
+    add_point(out.normals, surface.normals[i]);
+    for (int k = 0; k < 2; ++k) out.at.push_back(0.5F);  // far from the lines of a mesh
+  }
+  for (const auto& [a, b, c] : surface.triangles) {
+    for (const std::int32_t corner : {a, b, c, c}) out.quads.push_back(first + static_cast<std::uint32_t>(corner));
+    out.surface.push_back(static_cast<std::uint32_t>(id));
+  }
+}
+
+PackedBlock cad_alone(const Model& model, const Vec3& origin) {
+  Surfaces surfaces;
+  std::vector<CadSurface> all(static_cast<std::size_t>(model.count(2)));
+  parallel_each(
+      all.size(), [&](std::size_t i) { all[i] = cad_surface(model, static_cast<int>(i) + 1); }, 1);
+  for (std::size_t i = 0; i < all.size(); ++i) add_surface(all[i], static_cast<int>(i) + 1, origin, surfaces);
+  std::vector<float> segments, vertices;
+  std::vector<std::uint32_t> curves;
+  for (int id = 1; id <= model.count(1); ++id) {
+    const std::vector<Vec3> points = cad_curve(model, id);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      add_point(segments, points[i] - origin);
+      add_point(segments, points[i + 1] - origin);
+      curves.push_back(static_cast<std::uint32_t>(id));
+    }
+  }
+  for (int id = 1; id <= model.count(0); ++id) add_point(vertices, model.point({0, id}, {}) - origin);
+  return {"cad",
+          {packed("point", surfaces.points, 3), packed("normal", surfaces.normals, 3), packed("at", surfaces.at, 2),
+           packed("quad", surfaces.quads, 4), packed("quad_surface", surfaces.surface), packed("segment", segments, 6),
+           packed("segment_curve", curves), packed("vertex", vertices, 3)}};
+}
+
 }  // namespace
+
+CadSurface cad_surface(const Model& model, int surface) {
+  const SurfaceFacets facets = facets_of(model, surface);
+  CadSurface result;
+  for (const Parameters& at : facets.points) {
+    result.points.push_back(model.point({2, surface}, at));
+    result.normals.push_back(model.normal(surface, at));
+  }
+  result.triangles = facets.triangles;
+  for (const auto& [a, b, c] : result.triangles) {
+    // Where a surface has no normal (the tip of a cone) that of a triangle does.
+    const Vec3 flat = (result.points[b] - result.points[a]).cross(result.points[c] - result.points[a]).normalized();
+    for (const std::int32_t corner : {a, b, c})
+      if (!(result.normals[corner].norm() > 0.5)) result.normals[corner] = flat;
+  }
+  return result;
+}
+
+std::vector<Vec3> cad_curve(const Model& model, int curve) {
+  constexpr int n_pieces = 64;
+  const CurveRange range = model.range(curve);
+  const int n = model.type({1, curve}) == "line" ? 1 : n_pieces;
+  std::vector<Vec3> points;
+  for (int i = 0; i <= n; ++i) {
+    const double t = static_cast<double>(i) / n;
+    points.push_back(model.point({1, curve}, {(1 - t) * range.first + t * range.last, 0}));
+  }
+  return points;
+}
 
 PackedBlock cad_block(const SceneSource& source) {
   const MeshedModel& meshed = source.selector.meshed;
   const Association& association = meshed.association;
-  const Vec3 origin = scene_origin(meshed.mesh);
+  const Vec3 origin = scene_origin(source);
   PackedBlock block{"cad", {}};
   if (!meshed.model) return block;
+  if (meshed.mesh.n_hexes() == 0) return cad_alone(*meshed.model, origin);
 
   std::map<int, std::vector<Side>> faces;
   std::size_t n_curved = 0;

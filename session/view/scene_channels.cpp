@@ -51,6 +51,37 @@ std::vector<std::uint32_t> cuts(const HandedHexes& hexes) {
   return result;
 }
 
+/// Levels that came with a file, as 'refine ... graded' writes them.
+bool is_level_field(const Field& field) {
+  constexpr double highest = 60;
+  return field.name == "level" && field.on == Field::On::hex && field.components == 1 &&
+         std::ranges::all_of(field.values, [&](double v) { return v >= 0 && v <= highest && v == std::floor(v); });
+}
+
+void add_field(std::vector<Channel>& to, const Field& field, Index position) {
+  const bool is_taken = std::ranges::any_of(to, [&](const Channel& each) { return each.name == field.name; });
+  const std::string name = field.name + (is_taken ? " (field)" : "");
+  Channel channel{.what = Channel::What::field,
+                  .name = name,
+                  .group = "fields",
+                  .on_nodes = field.on == Field::On::node,
+                  .field = position};
+  if (field.components == 1) {
+    to.push_back(channel);
+    return;
+  }
+  channel.component = field.components;
+  channel.name = name + " magnitude";
+  to.push_back(channel);
+  for (int c = 0; c < field.components; ++c) {
+    channel.component = c;
+    channel.name = name + (field.components == 3 ? std::string(" ") + "xyz"[c] : " " + std::to_string(c + 1));
+    to.push_back(channel);
+  }
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> classes_of(const SceneSource& source, const Channel& channel) {
   const MeshedModel& meshed = source.selector.meshed;
   const auto n = static_cast<std::size_t>(meshed.mesh.n_hexes());
@@ -67,7 +98,9 @@ std::vector<std::uint32_t> classes_of(const SceneSource& source, const Channel& 
         for (const Index h : block->hexes) result[h] = static_cast<std::uint32_t>(block->id);
       break;
     case Channel::What::level:
-      result = levels(*channel.pieces);
+      if (channel.pieces) return levels(*channel.pieces);
+      for (std::size_t h = 0; h < n; ++h)
+        result[h] = static_cast<std::uint32_t>(meshed.mesh.fields[static_cast<std::size_t>(channel.field)].values[h]);
       break;
     default:
       result = cuts(*channel.pieces);
@@ -97,34 +130,15 @@ std::vector<double> values_of(const SceneSource& source, const Channel& channel)
   return result;
 }
 
-void add_field(std::vector<Channel>& to, const Field& field, Index position) {
-  const bool is_taken = std::ranges::any_of(to, [&](const Channel& each) { return each.name == field.name; });
-  const std::string name = field.name + (is_taken ? " (field)" : "");
-  Channel channel{.what = Channel::What::field,
-                  .name = name,
-                  .group = "fields",
-                  .on_nodes = field.on == Field::On::node,
-                  .field = position};
-  if (field.components == 1) {
-    to.push_back(channel);
-    return;
-  }
-  channel.component = field.components;
-  channel.name = name + " magnitude";
-  to.push_back(channel);
-  for (int c = 0; c < field.components; ++c) {
-    channel.component = c;
-    channel.name = name + (field.components == 3 ? std::string(" ") + "xyz"[c] : " " + std::to_string(c + 1));
-    to.push_back(channel);
-  }
+std::string channel_name(Metric metric) {
+  return metric == Metric::volume ? "element volume" : name(metric);
 }
-
-}  // namespace
 
 std::vector<Channel> channels(const SceneSource& source) {
   const MeshedModel& meshed = source.selector.meshed;
   const Mesh& mesh = meshed.mesh;
   std::vector<Channel> result;
+  if (mesh.n_hexes() == 0) return result;
   Channel volume{.what = Channel::What::volume, .name = "volume", .group = "mesh", .is_class = true};
   for (int id = 1; meshed.model && id <= meshed.model->count(3); ++id) {
     const std::string name = meshed.model->name({3, id});
@@ -153,12 +167,46 @@ std::vector<Channel> channels(const SceneSource& source) {
           static_cast<int>(number),
           number == 0 ? "not cut" : "one into " + std::to_string(number / 2) + (number % 2 ? ", concave" : ""));
     result.push_back(cut);
+  } else if (const auto field = std::ranges::find_if(mesh.fields, is_level_field); field != mesh.fields.end()) {
+    result.push_back({.what = Channel::What::level,
+                      .name = "level",
+                      .group = "mesh",
+                      .is_class = true,
+                      .field = static_cast<Index>(field - mesh.fields.begin())});
   }
   if (last_wish(source.state))
     result.push_back({.what = Channel::What::size, .name = "actual / wished size", .group = "mesh"});
   for (const Metric metric : metrics())
-    result.push_back({.what = Channel::What::metric, .name = name(metric), .group = "quality", .metric = metric});
+    result.push_back(
+        {.what = Channel::What::metric, .name = channel_name(metric), .group = "quality", .metric = metric});
   for (std::size_t i = 0; i < mesh.fields.size(); ++i) add_field(result, mesh.fields[i], static_cast<Index>(i));
+  return result;
+}
+
+std::vector<std::string> scene_colours(const SceneSource& source) {
+  const Mesh& mesh = source.selector.meshed.mesh;
+  std::vector<std::string> result = {"none", "surface"};
+  if (mesh.n_hexes() > 0) result.insert(result.end(), {"sheet", "owner"});
+  if (!mesh.node_sets.empty()) result.emplace_back("nodeset");
+  if (!mesh.side_sets.empty()) result.emplace_back("sideset");
+  if (!source.selector.groups.empty()) result.emplace_back("group");
+  for (const Channel& channel : channels(source)) result.push_back(channel.name);
+  return result;
+}
+
+std::vector<Index> smallest_sheets(const SceneSource& source) {
+  const Sheets& sheets = source.selector.topology.sheets();
+  const Edges& edges = source.selector.topology.edges();
+  std::vector<Index> result(source.selector.meshed.mesh.hexes.size());
+  const auto size = [&](Index sheet) { return sheets.hexes[sheet].size(); };
+  parallel_each(result.size(), [&](std::size_t h) {
+    Index best = sheet_of(sheets, edges, static_cast<Index>(h), 0);
+    for (int axis = 1; axis < 3; ++axis) {
+      const Index other = sheet_of(sheets, edges, static_cast<Index>(h), axis);
+      if (size(other) < size(best) || (size(other) == size(best) && other < best)) best = other;
+    }
+    result[h] = best;
+  });
   return result;
 }
 

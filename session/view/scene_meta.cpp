@@ -56,12 +56,22 @@ std::string scene_meta(const SceneSource& source, const std::vector<Channel>& ch
                        const std::vector<std::string>& left_out) {
   const MeshedModel& meshed = source.selector.meshed;
   const Mesh& mesh = meshed.mesh;
-  const Box all = box(mesh);
+  const Box all = scene_box(source);
   const auto is_there = [&](const std::string& name) { return std::ranges::find(left_out, name) == left_out.end(); };
   std::string text = "{\"title\":" + json_text(source.title);
   text += ",\"n_nodes\":" + std::to_string(mesh.n_nodes()) + ",\"n_hexes\":" + std::to_string(mesh.n_hexes());
+  // Without a mesh: what the surfaces bound.
+  if (mesh.n_hexes() == 0 && meshed.model) {
+    std::vector<std::string> volumes;
+    for (int id = 1; id <= meshed.model->count(2); ++id) {
+      std::vector<std::string> of_one;
+      for (const int volume : meshed.model->adjacent({2, id}, 3)) of_one.push_back(std::to_string(volume));
+      volumes.push_back(list(of_one));
+    }
+    text += ",\"volumes_of_surface\":" + list(volumes);
+  }
   text += std::string(",\"has_cad\":") + (source.state.has_cad ? "true" : "false");
-  text += ",\"origin\":" + point(scene_origin(mesh)) + ",\"size\":" + json_number(all.diagonal());
+  text += ",\"origin\":" + point(scene_origin(source)) + ",\"size\":" + json_number(all.diagonal());
   constexpr const char* names[] = {"vertex", "curve", "surface", "volume"};
   for (int dim = 0; dim < 4; ++dim)
     text += std::string(",\"") + names[dim] + "\":" + (meshed.model ? entities(*meshed.model, dim) : "[]");
@@ -84,7 +94,13 @@ std::string scene_meta(const SceneSource& source, const std::vector<Channel>& ch
   std::vector<std::string> ids;
   for (const Index position : start.positions)
     ids.push_back(std::to_string(id_of(source.selector, start.kind, position)));
-  text += ",\"start\":{\"view\":" + point(start.view) + ",\"colour\":" + json_text(start.colour);
+  text += ",\"start\":{\"view\":" + point(start.view) + ",\"colour\":" + json_text(start.colour) +
+          ",\"what\":" + (start.shows_cad ? "\"cad\"" : "\"mesh\"");
+  if (start.cut)
+    text += std::string(",\"cut\":{\"mode\":") + (start.cut->whole ? "\"crinkle\"" : "\"plane\"") +
+            ",\"normal\":" + point(start.cut->normal) +
+            ",\"distance\":" + json_number(start.cut->distance - start.cut->normal.dot(scene_origin(source))) + "}";
+  if (start.labels) text += ",\"labels\":" + json_text(name(*start.labels));
   if (start.has_range) text += ",\"kind\":" + json_text(name(start.kind)) + ",\"ids\":" + list(ids);
   return text + "}}";
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/session/view/scene.h"
 
@@ -46,15 +47,20 @@ SkinFaces skin_faces(const SceneSource& source) {
 
 }  // namespace
 
-Vec3 scene_origin(const Mesh& mesh) {
-  const Box all = box(mesh);
+Box scene_box(const SceneSource& source) {
+  const MeshedModel& meshed = source.selector.meshed;
+  return meshed.mesh.n_hexes() == 0 && meshed.model ? meshed.model->box() : box(meshed.mesh);
+}
+
+Vec3 scene_origin(const SceneSource& source) {
+  const Box all = scene_box(source);
   return all.empty() ? Vec3(Vec3::Zero()) : Vec3((all.min + all.max) / 2);
 }
 
 PackedBlock skin_block(const SceneSource& source, const std::string& meta) {
   const MeshedModel& meshed = source.selector.meshed;
   const Mesh& mesh = meshed.mesh;
-  const Vec3 origin = scene_origin(mesh);
+  const Vec3 origin = scene_origin(source);
   const SkinFaces skin = skin_faces(source);
   const Edges& edges = source.selector.topology.edges();
 
@@ -117,7 +123,7 @@ PackedBlock skin_block(const SceneSource& source, const std::string& meta) {
 PackedBlock inside_block(const SceneSource& source) {
   const MeshedModel& meshed = source.selector.meshed;
   const Mesh& mesh = meshed.mesh;
-  const Vec3 origin = scene_origin(mesh);
+  const Vec3 origin = scene_origin(source);
   std::vector<float> points(3 * mesh.points.size());
   std::vector<std::uint8_t> owner_dim(mesh.points.size());
   std::vector<std::uint32_t> owner_id(mesh.points.size()), volumes(mesh.hexes.size(), 0);
@@ -144,6 +150,27 @@ PackedBlock inside_block(const SceneSource& source) {
   return block;
 }
 
+GroupShape shape_of(const Selector& selector, const Group& group) {
+  GroupShape shape;
+  for (int k = 0; k < static_cast<int>(EntityKind::group); ++k) {
+    const auto kind = static_cast<EntityKind>(k);
+    const std::vector<Index> positions = members(selector, group, kind);
+    if (positions.empty()) continue;
+    const auto add = [&](std::vector<Index>& to, EntityKind part) {
+      const std::vector<Index> more = related(selector, kind, positions, part);
+      to.insert(to.end(), more.begin(), more.end());
+    };
+    if (kind == EntityKind::sheet || dimension(kind) == 3)
+      add(shape.hexes, EntityKind::hex);
+    else if (dimension(kind) == 2)
+      add(shape.faces, EntityKind::face);
+    else
+      add(shape.nodes, EntityKind::node);
+  }
+  for (std::vector<Index>* list : {&shape.hexes, &shape.faces, &shape.nodes}) sort_unique(*list);
+  return shape;
+}
+
 PackedBlock sets_block(const SceneSource& source) {
   const Mesh& mesh = source.selector.meshed.mesh;
   PackedBlock block{"sets", {}};
@@ -155,13 +182,23 @@ PackedBlock sets_block(const SceneSource& source) {
     for (const Side& side : each.sides) sides.push_back(n_hex_faces * side.hex + side.face);
     block.arrays.push_back(packed("sideset " + std::to_string(each.id), sides));
   }
-  for (const Group& group : source.selector.groups)
+  for (const Group& group : source.selector.groups) {
+    GroupShape shape = shape_of(source.selector, group);
+    for (Index& face : shape.faces) {
+      const Side side = source.selector.topology.faces().sides[face][0];
+      face = n_hex_faces * side.hex + side.face;
+    }
+    const std::string id = "group " + std::to_string(group.id);
+    block.arrays.push_back(packed(id + " hexes", shape.hexes));
+    block.arrays.push_back(packed(id + " sides", shape.faces));
+    block.arrays.push_back(packed(id + " nodes", shape.nodes));
     for (int k = 0; k < static_cast<int>(EntityKind::block); ++k) {
       const auto kind = static_cast<EntityKind>(k);
       const std::vector<Index> positions = members(source.selector, group, kind);
       if (positions.empty()) continue;
-      block.arrays.push_back(packed("group " + std::to_string(group.id) + " " + std::string(name(kind)), positions));
+      block.arrays.push_back(packed(id + " " + std::string(name(kind)), positions));
     }
+  }
   return block;
 }
 

@@ -74,6 +74,7 @@ TEST(Program, view_makes_a_page_or_says_what_is_missing) {
   run("-c 'create brick x 1 interval 2' -o " + path("a.msh"));
   EXPECT_EQ(run("view " + path("a.msh") + " -o " + path("a.png")).status, 2);
   EXPECT_EQ(run("view").status, 2);
+  EXPECT_EQ(run("view --cad " + path("a.brep") + " --before " + path("a.msh")).status, 2);
   EXPECT_EQ(run("view " + path("none.msh") + " -o " + path("none.html")).status, 1);
   const Outcome outcome = run("view " + path("a.msh") + " --before " + path("a.msh") + " -o " + path("a.html"));
   if (outcome.status != 0) {

@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, rmSync, statSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser as launch, idsOf, model, open, output, program } from './support.mjs';
+import { browser as launch, model, open, output, program, source } from './support.mjs';
 
 const folder = join(output, 'served');
 let browser, server, address;
@@ -243,6 +243,24 @@ test('what does not come from the page is refused', async () => {
   assert.match(last.body, /there are 8 sessions already/);
   const end = ended(other.child);
   other.child.kill('SIGINT');
+  assert.equal(await end, 0);
+});
+
+test('CAD without a mesh is shown until there is one', async () => {
+  const other = await serve(['--cad', join(source, 'models', 'bracket.brep')]);
+  const page = await open(browser, other.address);
+  assert.equal(await page.textContent('#counts'), '11 surfaces, no mesh');
+  await page.selectOption('#list-kind', 'surface');
+  await page.click('#list .item:has-text("surface 7")');
+  assert.equal(await page.$eval('#range', (e) => e.value), 'surface 7');
+  await page.screenshot({ path: join(output, 'live_cad.png') });
+  await command(page, 'create brick x 3 interval 3');
+  assert.equal(await hexes(page), 27);
+  assert.equal(await page.textContent('#counts'), '27 hexes, 64 nodes');
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  const end = ended(other.child);
+  other.child.kill('SIGTERM');
   assert.equal(await end, 0);
 });
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser as launch, drawn, idsOf, listed, model, open, output, random, run, spawn, toLine, truth } from './support.mjs';
+import { browser as launch, difference, drawn, idsOf, listed, model, open, output, random, run, source, spawn, toLine, truth } from './support.mjs';
 
 let browser;
 before(async () => { browser = await launch(); });
@@ -323,6 +323,271 @@ test('the page and the picture of a command show the same', async () => {
   assert.deepEqual(page.problems, []);
   await page.close();
   await blank.close();
+});
+
+/** Looks as `draw` does: parallel, all of it in the middle, nothing over it. */
+const frameAsDrawn = (page, direction) => page.evaluate(async (direction) => {
+  const { stage, scene, pane } = hextwist, { eye } = stage;
+  eye.isParallel = true;
+  eye.look(...direction);
+  const camera = eye.update(stage.width / stage.height), axes = [0, 1, 2].map((k) => camera.matrixWorld.elements.slice(4 * k, 4 * k + 3));
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], point = scene.isCad ? pane.cadArrays.point : scene.skin.point;
+  for (let i = 0; i < point.length; i += 3)
+    axes.forEach((axis, k) => {
+      const d = axis[0] * point[i] + axis[1] * point[i + 1] + axis[2] * point[i + 2];
+      low[k] = Math.min(low[k], d);
+      high[k] = Math.max(high[k], d);
+    });
+  eye.target.set(...[0, 1, 2].map((k) => axes.reduce((sum, axis, j) => sum + (axis[k] * (low[j] + high[j])) / 2, 0)));
+  eye.height = stage.height / (0.92 * Math.min(stage.width / (high[0] - low[0]), stage.height / (high[1] - low[1])));
+  for (const id of ['over', 'legend', 'tip']) document.getElementById(id).style.visibility = 'hidden';
+  stage.render();
+  await new Promise((r) => setTimeout(r, 300));  // until it has settled
+  stage.render();
+}, direction);
+
+test('screens and pictures show the same, light and dark', async () => {
+  const looks = [
+    ['bracket', 'refine vertex 9 depth 1; refine curve 22 depth 1', 'quality shape'],
+    ['bracket', 'refine vertex 9 depth 1; refine curve 22 depth 1', 'color level clip y'],
+    ['pipe_tee', '', 'color surface'],
+    ['pipe_tee', '', "color 'scaled jacobian' clip y crinkle"],
+    ['inclusion', '', 'color volume clip 1 -1 0.4'],
+    ['bracket', '', 'color sideset'],
+    ['cam', '', 'color sheet'],
+    ['bent_bar', '', 'geometry'],
+  ];
+  const shares = [];
+  for (const [i, [name, commands, words]] of looks.entries()) {
+    const page = await open(browser, drawn(`look_${i}`, name, commands, words)), box = await (await page.$('#view')).boundingBox(), size = [Math.floor(box.width), Math.floor(box.height)];
+    // What is cut away lies before the eye of the command: seen from elsewhere it is another picture.
+    const directions = words.includes('clip') ? ['1 -1 0.7'] : i === 0 ? ['1 -1 0.7', '0 -1 0', '-1 -0.5 -0.4', '0 0 1'] : ['1 -1 0.7', '-1 -0.5 -0.4'];
+    const pictures = directions.map((direction, k) => join(output, `look_${i}_${k}_picture.png`));
+    run([...model(name), '-c', [commands, ...directions.map((direction, k) => `draw ${words} legend off from ${direction} pixels ${size.join(' ')} to '${pictures[k]}' overwrite`)].filter(Boolean).join('; ')]);
+    // Neutral faces are darker in the dark.
+    for (const theme of /sideset|geometry/.test(words) ? ['light'] : ['light', 'dark']) {
+      if (theme === 'dark') await page.click('[data-do="theme"]');
+      // Curves are white there, and those of pictures are not.
+      await page.evaluate((isDark) => { hextwist.pane.curves.visible = !isDark; }, theme === 'dark');
+      for (const [k, direction] of directions.entries()) {
+        await frameAsDrawn(page, direction.split(' ').map(Number));
+        const seen = await page.screenshot({ path: join(output, `look_${i}_${k}_${theme}.png`), clip: { x: box.x, y: box.y, width: size[0], height: size[1] } });
+        const share = await difference(browser, seen, readFileSync(pictures[k]), theme === 'dark' ? 45 : 30);
+        shares.push(`${name} ${words} from ${direction} ${theme}: ${(100 * share).toFixed(2)}%`);
+        assert.ok(share < 0.04, shares.at(-1));
+        // It would be seen if they differed.
+        if (k > 0) assert.ok((await difference(browser, seen, readFileSync(pictures[0]), 45)) > 0.1, `${name} ${words}: another direction looks the same`);
+      }
+    }
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+  writeFileSync(join(output, 'looks.txt'), shares.join('\n'));
+});
+
+test('sets and owners give colours; their rows pick them', async () => {
+  const page = await open(browser, drawn('set_colours', null, "create brick x 4 interval 4; sideset 5 surface 1 name 'left'; nodeset 6 curve 1 2; group 'some' add hex 1 to 4 curve 3 surface 2", 'color sideset'));
+  assert.equal(await value(page, 'colour'), 'sideset');
+  assert.match(await page.textContent('#legend'), /sideset 5 left/);
+  await page.click('#histogram button:has-text("sideset 5 left")');
+  assert.equal(await value(page, 'range'), 'sideset 5');
+  const coloured = () => page.evaluate(() => {
+    const { quads, faces, nodeDots } = hextwist.pane, tint = faces.geometry.getAttribute('tint').array, of = {};
+    for (let q = 0; q < quads.n; ++q) if (tint[16 * q] < 200) (of[quads.surface[q]] ??= []).push(quads.hex[q] + 1);
+    return { of, dots: nodeDots.children.reduce((sum, dots) => sum + dots.geometry.getAttribute('position').count, 0) };
+  });
+  assert.deepEqual(Object.entries((await coloured()).of).map(([surface, hexes]) => [surface, hexes.length]), [['1', 16]]);
+  await page.selectOption('#colour', 'nodeset');
+  await settled(page);
+  assert.equal((await coloured()).dots, listed(run(['-c', 'create brick x 4 interval 4; list node in curve 1 2']), 'node').length);
+  await page.selectOption('#colour', 'group');
+  await settled(page);
+  const group = await coloured(), hexes = new Set(Object.values(group.of).flat()), inSurface = listed(run(['-c', 'create brick x 4 interval 4; list hex in surface 2']), 'hex');
+  assert.deepEqual([...hexes].sort((a, b) => a - b), [...new Set([1, 2, 3, 4, ...inSurface])].sort((a, b) => a - b));
+  assert.equal(group.dots, 5);
+  await page.selectOption('#colour', 'owner');
+  await settled(page);
+  assert.equal((await coloured()).dots, 98);
+  assert.match(await page.textContent('#histogram'), /nodes of vertices8nodes of curves36nodes of surfaces54/);
+  await page.click('#histogram button:has-text("nodes of vertices")');
+  assert.deepEqual(idsOf(await value(page, 'range')), listed(run(['-c', 'create brick x 4 interval 4; list node in vertex all']), 'node'));
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('a page begins as its command says', async () => {
+  const page = await open(browser, drawn('begins', 'bracket', 'refine vertex 9 depth 1', `color level clip x at 20 label surface title 'A part' from 0 -1 0.2`));
+  assert.equal(await page.textContent('#title'), 'A part');
+  assert.equal(await value(page, 'colour'), 'level');
+  assert.equal(await page.$eval('input[name="cut"]:checked', (e) => e.value), 'plane');
+  assert.equal(await value(page, 'cut-axis'), '1 0 0');
+  const { clip, origin, labels, kind, direction } = await page.evaluate(() => ({ clip: hextwist.clip, origin: hextwist.scene.meta.origin, labels: hextwist.stage.nLabels, kind: hextwist.stage.kind, direction: hextwist.stage.eye.direction.toArray() }));
+  assert.ok(Math.abs(clip.normal[0] * (clip.distance + clip.normal[0] * origin[0]) - 20) < 1e-4);
+  assert.equal(kind, 'surface');
+  assert.ok(labels > 1, `${labels} labels`);
+  assert.ok(Math.abs(direction[1] + Math.cos(Math.atan(0.2))) < 1e-6);
+  // The controls go on from there.
+  await page.focus('#cut-at');
+  await page.keyboard.press('ArrowRight');
+  await settled(page);
+  const moved = await page.evaluate(() => hextwist.clip);
+  assert.deepEqual(moved.normal, clip.normal);
+  const size = await page.evaluate(() => hextwist.scene.meta.size);
+  assert.ok(Math.abs(moved.distance - clip.distance) < 0.02 * size && moved.distance !== clip.distance);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('CAD without a mesh is shown, picked, coloured and labelled', async () => {
+  const cad = join(source, 'models', 'bracket.step'), file = join(output, 'cad_alone.html');
+  run(['view', cad, '-o', file]);
+  const page = await open(browser, `file://${file}`), mesh = truth('bracket');
+  assert.equal(await page.textContent('#counts'), '11 surfaces, no mesh');
+  for (const direction of ['1 -1 0.7', '0 -1 0']) {
+    const frame = await lookFrom(page, mesh, direction), next = random(3);
+    await kindOf(page, 'surface');
+    for (let tries = 0, done = 0; done < 5 && tries < 300; ++tries) {
+      const at = [next() * frame.box.width, next() * frame.box.height], hit = mesh.meet(frame.view, ...at);
+      // Away from other surfaces, as the mesh is not quite on round ones.
+      if (!hit || [-4, 4].some((d) => [[d, 0], [0, d]].some(([x, y]) => mesh.meet(frame.view, at[0] + x, at[1] + y)?.face.surface !== hit.face.surface))) continue;
+      assert.equal(await clickAt(page, frame, at), `surface ${hit.face.surface}`, direction);
+      ++done;
+    }
+    await kindOf(page, 'volume');
+    const at = [frame.box.width / 2, frame.box.height / 2];
+    if (mesh.meet(frame.view, ...at)) assert.equal(await clickAt(page, frame, at), 'volume 1');
+  }
+  await page.selectOption('#list-kind', 'curve');
+  assert.equal((await page.$$('#list .item')).length > 10, true);
+  const before = await page.screenshot();
+  await page.selectOption('#colour', 'surface');
+  await settled(page);
+  assert.notEqual(Buffer.compare(before, await shot(page, 'cad_alone')), 0);
+  await page.click('[data-toggle="labels"]');
+  await settled(page);
+  assert.ok((await page.evaluate(() => hextwist.stage.nLabels)) >= 1);
+  for (const one of ['crinkle', 'plane', 'off']) { await page.click(`input[name="cut"][value="${one}"]`); await settled(page); }
+  for (const one of ['only', 'hide', 'column', 'sheets', 'all', 'fit', 'refined-planes']) { await page.click(`[data-do="${one}"]`); await settled(page); }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('levels and templates of files', async () => {
+  const levels = join(output, 'l.levels'), mesh = join(output, 'l.vtu'), file = join(output, 'levels.html');
+  run([...model('bracket'), '-c', `refine vertex 9 depth 1 graded; export vtk '${mesh}' overwrite; export levels '${levels}' overwrite`]);
+  const cad = model('bracket').slice(0, 2);
+  for (const [args, hasTemplates] of [[[mesh], false], [[mesh, '--levels', levels], true], [['--levels', levels], true]]) {
+    run(['view', ...cad, ...args, '-o', file]);
+    const page = await open(browser, `file://${file}`), offered = await page.$$eval('#colour option', (all) => all.map((o) => o.value));
+    assert.ok(offered.includes('level'), args.join(' '));
+    assert.equal(offered.includes('template'), hasTemplates, args.join(' '));
+    await page.selectOption('#colour', 'level');
+    await settled(page);
+    assert.match(await page.textContent('#legend'), /level 0level 1/);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
+test('hover, copy, labels, the true CAD, explosions, hiding and the mesh before', async () => {
+  const before = join(output, 'before.msh'), after = join(output, 'after.msh'), file = join(output, 'both.html');
+  run([...model('inclusion'), '-c', `export mesh '${before}' overwrite; refine curve 1 depth 1; export mesh '${after}' overwrite`]);
+  const cad = model('inclusion').slice(0, 2);
+  run(['view', after, ...cad, '--before', before, '-o', file]);
+  const page = await open(browser, `file://${file}`), mesh = truth('inclusion', 'refine curve 1 depth 1'), frame = await lookFrom(page, mesh, '0 -1 0');
+  // Hover says kind and id, and the value of what gives the colours.
+  await kindOf(page, 'hex');
+  const at = [frame.box.width / 2 + 5, frame.box.height / 2 + 5], hit = mesh.meet(frame.view, ...at);
+  await page.selectOption('#colour', 'shape');
+  await page.mouse.move(frame.box.x + at[0], frame.box.y + at[1]);
+  await page.waitForFunction(() => !document.getElementById('tip').hidden);
+  assert.match(await page.textContent('#tip'), new RegExp(`^hex ${hit.face.hexes[0].id} · shape 0?\\.?\\d`));
+  assert.match(await page.textContent('#where'), /^\(.+, .+, .+\)$/);
+  // Copy.
+  await page.mouse.click(frame.box.x + at[0], frame.box.y + at[1]);
+  await page.waitForFunction(() => document.getElementById('range').value !== '');
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.click('[data-copy="command"]');
+  await page.waitForFunction(() => document.getElementById('status').value.startsWith('copied: '));
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), `refine hex ${hit.face.hexes[0].id}`);
+  // Labels: ids that are seen, of the kind that is picked.
+  await kindOf(page, 'surface');
+  const corner = await lookFrom(page, mesh, '1 -1 0.7'), seen = new Set();
+  await page.click('[data-toggle="labels"]');
+  await settled(page);
+  for (let y = 4; y < corner.box.height; y += 12) for (let x = 4; x < corner.box.width; x += 12) { const face = mesh.meet(corner.view, x, y)?.face; if (face?.surface) seen.add(face.surface); }
+  assert.equal(await page.evaluate(() => hextwist.stage.nLabels), seen.size);
+  await page.click('[data-toggle="labels"]');
+  // The mesh on true surfaces, and these alone.
+  const shots = [await page.screenshot()];
+  for (const what of ['both', 'cad']) {
+    await page.selectOption('#what', what);
+    await settled(page);
+    shots.push(await shot(page, `what_${what}`));
+  }
+  assert.ok((await difference(browser, shots[0], shots[2], 10)) > 0.05);
+  assert.ok((await difference(browser, shots[1], shots[2], 10)) > 0.02, 'lines of the mesh');
+  await page.selectOption('#what', 'mesh');
+  // Hide and show.
+  const shown = () => page.evaluate(() => new Set(hextwist.pane.quads.hex).size), all = await shown();
+  await page.selectOption('#list-kind', 'volume');
+  await page.click('#list .item');
+  await page.click('[data-do="hide"]');
+  await settled(page);
+  assert.notEqual(await shown(), all);
+  await page.click('[data-do="all"]');
+  await settled(page);
+  assert.equal(await shown(), all);
+  // The parts of the model are moved away from each other, and show their own skins.
+  const extent = () => page.evaluate(() => { const p = hextwist.pane.faces.geometry.getAttribute('position').array; let low = Infinity, high = -Infinity; for (let i = 0; i < p.length; i += 3) { low = Math.min(low, p[i]); high = Math.max(high, p[i]); } return [hextwist.pane.quads.n, high - low]; });
+  const whole = await extent();
+  await page.$eval('#explode', (e) => { e.value = 0.5; e.dispatchEvent(new Event('input')); });
+  await settled(page);
+  const apart = await extent();
+  assert.ok(apart[0] > whole[0], 'the surfaces between are seen');
+  await shot(page, 'explode');
+  await page.$eval('#explode', (e) => { e.value = 0; e.dispatchEvent(new Event('input')); });
+  await settled(page);
+  // Side by side, under one camera.
+  await page.click('[data-toggle="before"]');
+  await page.waitForFunction(() => hextwist.panes.length === 2);
+  await settled(page);
+  assert.deepEqual(await page.evaluate(() => hextwist.panes.map((pane) => pane.scene.meta.n_hexes)), [run([before, '-c', 'list hex all']), run([after, '-c', 'list hex all'])].map((text) => Number(text.match(/([\d,]+) hexes/)[1].replaceAll(',', ''))));
+  // All of the mesh is seen in either.
+  const corners = await page.evaluate(() => {
+    const { eye, paneWidth, height } = hextwist.stage, { point } = hextwist.scene.skin, camera = eye.update(paneWidth / height), p = eye.target.clone();
+    let most = 0;
+    for (let i = 0; i < point.length; i += 3) { p.fromArray(point, i).project(camera); most = Math.max(most, Math.abs(p.x), Math.abs(p.y)); }
+    return most;
+  });
+  assert.ok(corners < 1.001, `${corners}`);
+  await shot(page, 'both');
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('a column of hexes, and the planes of a refinement', async () => {
+  const commands = 'create brick x 6 interval 6; refine hex 100', page = await open(browser, drawn('column', null, commands)), mesh = truth(null, commands);
+  const frame = await lookFrom(page, mesh, '0 -1 0');
+  await kindOf(page, 'face');
+  // Near the rim nothing is refined: six hexes behind each other.
+  const at = [frame.box.width / 2 - frame.view.scale * 2.5, frame.box.height / 2 - frame.view.scale * 2.5], hit = mesh.meet(frame.view, ...at);
+  assert.equal(await clickAt(page, frame, at), `face ${hit.face.id}`);
+  await page.click('[data-do="column"]');
+  await settled(page);
+  const middle = (hex, k) => hex.nodes.reduce((sum, n) => sum + mesh.points.get(n)[k] / 8, 0), near = (a, b) => Math.abs(a - b) < 1e-6;
+  const expected = mesh.hexes.filter((hex) => [0, 2].every((k) => near(middle(hex, k), middle(hit.face.hexes[0], k)))).map((hex) => hex.id);
+  assert.deepEqual(idsOf(await value(page, 'range')), expected);
+  assert.equal(expected.length, 6);
+  await page.click('[data-do="all"]');
+  await page.click('[data-do="refined-planes"]');
+  await settled(page);
+  assert.match(await value(page, 'range'), /^sheet /);
+  const sheets = (more) => listed(run(['-c', `create brick x 6 interval 6; ${more}list sheet all`]), 'sheet').length;
+  assert.equal(await page.evaluate(() => hextwist.pane.planes.children.length), sheets('refine hex 100; ') - sheets(''), 'the sheets that were put in');
+  await shot(page, 'planes');
+  assert.deepEqual(page.problems, []);
+  await page.close();
 });
 
 test('everything can be done by keys', async () => {

@@ -146,6 +146,37 @@ export function toLine(x, y, a, b) {
   return Math.hypot(x - a[0] - t * dx, y - a[1] - t * dy);
 }
 
+/**
+ * How much two pictures differ: the share of cells of 8 by 8 pixels whose average colours are more than `tolerance` (of
+ * 255) apart in one of red, green, blue. The backgrounds, the colours at the upper left, count as the same.
+ */
+export async function difference(browser, a, b, tolerance = 30) {
+  const page = await browser.newPage();
+  const share = await page.evaluate(async ([images, tolerance]) => {
+    const cell = 8, [p, q] = await Promise.all(images.map(async (image) => {
+      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${image}`)).blob()), { width, height } = bitmap, pen = new OffscreenCanvas(width, height).getContext('2d');
+      pen.drawImage(bitmap, 0, 0);
+      const { data } = pen.getImageData(0, 0, width, height), back = data.slice(0, 3), sums = [];
+      for (let y = 0; y + cell <= height; y += cell)
+        for (let x = 0; x + cell <= width; x += cell) {
+          const sum = [0, 0, 0];
+          for (let j = 0; j < cell; ++j)
+            for (let i = 0; i < cell; ++i) {
+              const at = 4 * ((y + j) * width + x + i), isBack = [0, 1, 2].every((k) => data[at + k] === back[k]);
+              for (let k = 0; k < 3; ++k) sum[k] += (isBack ? 255 : data[at + k]) / cell ** 2;
+            }
+          sums.push(sum);
+        }
+      return { width, height, sums };
+    }));
+    if (p.width !== q.width || p.height !== q.height) return 1;
+    const isDrawn = (sum) => sum.some((v) => v < 250), drawn = p.sums.filter((sum, i) => isDrawn(sum) || isDrawn(q.sums[i])).length;
+    return p.sums.filter((sum, i) => sum.some((v, k) => Math.abs(v - q.sums[i][k]) > tolerance)).length / Math.max(1, drawn);
+  }, [[a, b].map((image) => image.toString('base64')), tolerance]);
+  await page.close();
+  return share;
+}
+
 /** Repeatable numbers from 0 to 1. */
 export function random(seed) {
   return () => {

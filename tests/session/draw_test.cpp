@@ -1,14 +1,18 @@
 // draw: pictures and pages.
 #include <gtest/gtest.h>
+#include <png.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
 
 #include "hextwist/session/view/page.h"
 #include "hextwist/session/view/picture.h"
+#include "hextwist/session/view/text.h"
 #include "session/session_fixture.h"
 
 namespace hextwist {
@@ -22,12 +26,6 @@ std::string content(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::uint32_t number_at(const std::string& bytes, std::size_t at) {
-  std::uint32_t result = 0;
-  for (std::size_t i = 0; i < 4; ++i) result = result << 8 | static_cast<unsigned char>(bytes.at(at + i));
-  return result;
-}
-
 struct Pixels {
   int width = 0, height = 0;
   std::vector<Colour> colours;
@@ -37,42 +35,15 @@ struct Pixels {
   }
 };
 
-/// Reads the PNG files that are written here: one chunk of data, rows as differences from those above.
 Pixels decoded(const std::string& file) {
-  EXPECT_EQ(file.substr(0, 8), "\x89PNG\r\n\x1a\n");
-  Pixels result;
-  std::string packed;
-  for (std::size_t at = 8; at < file.size();) {
-    const std::size_t size = number_at(file, at);
-    const std::string body = file.substr(at + 4, size + 4);
-    EXPECT_EQ(number_at(file, at + 8 + size),
-              crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
-    if (body.starts_with("IHDR")) {
-      result.width = static_cast<int>(number_at(body, 4));
-      result.height = static_cast<int>(number_at(body, 8));
-      EXPECT_EQ(body.substr(12), std::string("\10\2\0\0\0", 5));
-    }
-    if (body.starts_with("IDAT")) packed += body.substr(4);
-    at += size + 12;
-  }
-  const std::size_t row = static_cast<std::size_t>(result.width) * 3;
-  std::string rows((row + 1) * static_cast<std::size_t>(result.height), '\0');
-  uLongf n = static_cast<uLongf>(rows.size());
-  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(rows.data()), &n, reinterpret_cast<const Bytef*>(packed.data()),
-                       static_cast<uLong>(packed.size())),
-            Z_OK);
-  EXPECT_EQ(n, rows.size());
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size())) << image.message;
+  EXPECT_EQ(image.format, static_cast<png_uint_32>(PNG_FORMAT_RGB));
+  image.format = PNG_FORMAT_RGB;
+  Pixels result{static_cast<int>(image.width), static_cast<int>(image.height), {}};
   result.colours.resize(static_cast<std::size_t>(result.width) * result.height);
-  for (int y = 0; y < result.height; ++y) {
-    const std::size_t begin = static_cast<std::size_t>(y) * (row + 1);
-    EXPECT_EQ(rows[begin], 2);
-    for (int x = 0; x < result.width; ++x)
-      for (int k = 0; k < 3; ++k) {
-        const int above = y > 0 ? result.at(x, y - 1)[k] : 0;
-        result.colours[static_cast<std::size_t>(y) * result.width + x][k] =
-            static_cast<std::uint8_t>(above + static_cast<unsigned char>(rows[begin + 1 + 3 * x + k]));
-      }
-  }
+  EXPECT_TRUE(png_image_finish_read(&image, nullptr, result.colours.data(), 0, nullptr)) << image.message;
   return result;
 }
 
@@ -146,14 +117,152 @@ TEST(Draw, quality_gives_the_colours) {
   Fixture f;
   f.session.run("create brick x 3 interval 3");
   const Pixels cubes = drawn(f, "quality shape from 0 -1 0 pixels 200 200");
-  const Colour best = scale_colour(1), seen = cubes.at(80, 80);
+  const Colour best = scale_colour(ScaleKind::good, 1), seen = cubes.at(80, 80);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], best[k] * static_cast<double>(seen[0]) / best[0], 4);
   EXPECT_NE(cubes.at(10, 60), (Colour{255, 255, 255})) << "the scale";
+  EXPECT_EQ(drawn(f, "quality shape legend off from 0 -1 0 pixels 200 200").at(5, 60), (Colour{255, 255, 255}));
   f.session.run("refine hex 1");
   EXPECT_NE(drawn(f, "quality shape from 0 -1 0 pixels 200 200").colours, cubes.colours);
-  EXPECT_NE(scale_colour(0), scale_colour(1));
-  EXPECT_EQ(scale_colour(-1), scale_colour(0));
-  EXPECT_EQ(scale_colour(2), scale_colour(1));
+  for (const ScaleKind kind : {ScaleKind::good, ScaleKind::bad, ScaleKind::plain}) {
+    EXPECT_NE(scale_colour(kind, 0), scale_colour(kind, 1));
+    EXPECT_EQ(scale_colour(kind, -1), scale_colour(kind, 0));
+    EXPECT_EQ(scale_colour(kind, INFINITY), scale_colour(kind, 1));
+  }
+  EXPECT_EQ(scale_colour(ScaleKind::good, 0.3), scale_colour(ScaleKind::bad, 0.7));
+}
+
+/// How much of a picture has each of the first row colours.
+std::array<std::ptrdiff_t, 4> of_rows(const Pixels& pixels) {
+  std::array<std::ptrdiff_t, 4> n{};
+  for (const Colour& c : pixels.colours)
+    if (const int row = row_of(c); row >= 0) ++n[static_cast<std::size_t>(row)];
+  return n;
+}
+
+TEST(Draw, a_plane_shows_what_is_inside) {
+  Fixture f;
+  // A core that is nowhere seen from outside.
+  f.session.run("create brick x 5 interval 5; reset block; block 1 hex all; block 1 remove hex 63; block 2 hex 63");
+  const std::string front = " from 0 -1 0 pixels 250 250 legend off";
+  EXPECT_EQ(of_rows(drawn(f, front))[1], 0);
+  for (const char* cut :
+       {"clip y", "clip y at 0.1", "clip 0 1 0 at -0.2", "clip 0 -3 0", "clip y crinkle", "clip y at -0.4 crinkle"}) {
+    const auto n = of_rows(drawn(f, cut + front));
+    // One of 25 squares that fill 92% of the height, less its rim.
+    EXPECT_NEAR(static_cast<double>(n[1]), 46 * 46, 500) << cut;
+    EXPECT_GT(n[0], 15 * n[1]) << cut;
+  }
+  // Half of the height of the core.
+  const auto slanted = of_rows(drawn(f, "clip 0 1 -1" + front));
+  EXPECT_GT(slanted[1], 500);
+  EXPECT_EQ(of_rows(drawn(f, "clip y at -1.2 crinkle" + front))[1], 0) << "the layer before the core is still there";
+  EXPECT_EQ(of_rows(drawn(f, "clip y at -2.6" + front))[0], of_rows(drawn(f, front))[0]) << "nothing is cut off";
+  // A section of a distorted mesh is as large as the solid: no gaps, no overlaps.
+  f.session.run("create cylinder radius 1 height 4 interval 3; refine curve 1");
+  const double scale = 0.92 * 200 / 4;
+  const Pixels section = drawn(f, "clip y from 0 -1 0 pixels 300 200");
+  EXPECT_NEAR(static_cast<double>(section.n_drawn()), 2 * scale * 4 * scale, 600);
+  EXPECT_TRUE(f.error("draw clip 0 0 0 to 'a.png' overwrite").starts_with("this is not the normal of a plane"));
+}
+
+TEST(Draw, sets_levels_fields_and_owners_give_colours) {
+  Fixture f;
+  f.session.run(
+      "create brick x 4 interval 4; sideset 5 surface 1 name 'left'; nodeset 6 curve 1 2; group 'some' add hex 1 to 4 "
+      "curve 3");
+  const std::string more = " pixels 300 300 legend off";
+  const auto rows = [&](const std::string& what) { return of_rows(drawn(f, "color " + what + more)); };
+  int n_sideset = 0;
+  for (const char* from : {"from 0 0 1", "from 0 0 -1", "from 1 0 0", "from -1 0 0", "from 0 1 0", "from 0 -1 0"}) {
+    const auto n = rows(std::string("sideset ") + from);
+    if (n[0] == 0) continue;
+    ++n_sideset;
+    EXPECT_GT(n[0], 260 * 260) << from;
+  }
+  EXPECT_EQ(n_sideset, 1) << "one side of the brick has the colour of its side set";
+  EXPECT_GT(rows("nodeset")[0], 40);
+  EXPECT_LT(rows("nodeset")[0], 3000) << "dots";
+  EXPECT_GT(rows("'group'")[0], 1000);
+  const auto owners = rows("owner");
+  for (int k = 1; k < 4; ++k) EXPECT_GT(owners[static_cast<std::size_t>(k)], 40);
+  const auto surfaces = rows("surface");
+  EXPECT_EQ(std::ranges::count_if(surfaces, [](auto n) { return n > 1000; }), 2)
+      << "three of six are seen, two of them below 5";
+  f.session.run("refine hex 22 graded; draw color level to '" + (folder() / "a.png").string() + "' overwrite");
+  EXPECT_NE(f.all_output().find("  level 1"), std::string::npos) << f.all_output();
+  f.session.run("draw color 'scaled jacobian' to '" + (folder() / "a.png").string() + "' overwrite");
+  EXPECT_NE(f.all_output().find("scaled Jacobian: from "), std::string::npos) << f.all_output();
+  EXPECT_NE(f.error("draw color temperature to 'a.png'")
+                .find("nothing here is called 'temperature' that could give the colours: there are none, surface, "
+                      "sheet, owner, "
+                      "nodeset, sideset, group, volume,"),
+            std::string::npos);
+  EXPECT_EQ(f.error("draw quality shape color level to 'a.png'"),
+            "'quality' gives the colours as well: say one of them");
+}
+
+TEST(Draw, a_picture_has_ids_a_title_and_a_legend) {
+  Fixture f;
+  f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 to 4 name 'under'; block 2 hex 5 to 8");
+  const std::string bare = " legend off pixels 400 300";
+  const Pixels without = drawn(f, bare);
+  const auto differ = [&](const Pixels& other) {
+    return std::ranges::mismatch(other.colours, without.colours).in1 != other.colours.end();
+  };
+  if (!has_text()) {
+    EXPECT_FALSE(differ(drawn(f, "title 'some title'" + bare)));
+    EXPECT_NE(f.all_output().find("without text"), std::string::npos);
+    return;
+  }
+  for (const char* kind : {"node", "edge", "face", "hex", "vertex", "curve", "surface", "volume"})
+    EXPECT_TRUE(differ(drawn(f, std::string("label ") + kind + bare))) << kind;
+  EXPECT_TRUE(differ(drawn(f, "title 'some title'" + bare)));
+  EXPECT_TRUE(differ(drawn(f, "pixels 400 300")));
+  // Which ids, as the drawing of lines and areas has them in words: three of six surfaces are seen, and four of the
+  // eight hexes from straight ahead.
+  const auto texts = [&](const std::string& command) {
+    const auto file = folder() / "b.svg";
+    f.session.run("draw legend off " + command + " to '" + file.string() + "' overwrite");
+    const std::string drawing = content(file);
+    std::set<std::string> result;
+    for (std::size_t at = drawing.find("<text "); at != std::string::npos; at = drawing.find("<text ", at + 1)) {
+      const std::size_t begin = drawing.find('>', at) + 1;
+      result.insert(drawing.substr(begin, drawing.find('<', begin) - begin));
+    }
+    return result;
+  };
+  EXPECT_EQ(texts("label surface").size(), 3u);
+  EXPECT_EQ(texts("label vertex").size(), 7u);
+  EXPECT_EQ(texts("label curve").size(), 9u);
+  EXPECT_EQ(texts("label hex from 0 -1 0").size(), 4u);
+  EXPECT_EQ(texts("label hex from 0 -1 0 clip y at 0.5"), texts("label hex from 0 1 0")) << "the hexes behind";
+  for (const char* from : {"1 1 1", "-1 -1 -1"})
+    EXPECT_EQ(texts(std::string("surface 2 label surface from ") + from), std::set<std::string>{"2"});
+  EXPECT_EQ(texts("hex 3 label hex"), std::set<std::string>{"3"});
+  EXPECT_EQ(texts("title 'a & b'"), std::set<std::string>{"a &amp; b"});
+}
+
+TEST(Draw, cad_is_drawn_without_a_mesh) {
+  Fixture f;
+  f.session.run("import geometry '" HEXTWIST_SOURCE_DIR "/models/pipe_tee.brep'");
+  const Pixels cad = drawn(f, "from 1 -1 0.7 pixels 400 300");
+  EXPECT_GT(cad.n_drawn(), 10000);
+  const auto surfaces = of_rows(drawn(f, "color surface legend off pixels 400 300"));
+  EXPECT_GT(surfaces[0] + surfaces[1] + surfaces[2] + surfaces[3], 5000);
+  EXPECT_NE(f.error("draw color shape to 'a.png'").find("could give the colours: there are none, surface"),
+            std::string::npos);
+  // It looks as the mesh on it does.
+  f.session.run("import mesh '" HEXTWIST_SOURCE_DIR "/models/pipe_tee.msh'");
+  const Pixels mesh = drawn(f, "from 1 -1 0.7 pixels 400 300"),
+               again = drawn(f, "geometry from 1 -1 0.7 pixels 400 300");
+  const Colour none = {255, 255, 255};
+  int differ = 0, changed = 0;
+  for (std::size_t i = 0; i < mesh.colours.size(); ++i) {
+    differ += (mesh.colours[i] == none) != (cad.colours[i] == none);
+    changed += again.colours[i] != cad.colours[i];
+  }
+  EXPECT_LT(differ, 2000) << "of 120000 pixels, near the outline";
+  EXPECT_EQ(changed, 0);
 }
 
 /// A block of a page: its header and what follows, inflated.
