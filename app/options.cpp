@@ -32,11 +32,15 @@ bool is_cad(const std::filesystem::path& file) {
   return std::ranges::any_of(endings, [&](const char* ending) { return extension == ending; });
 }
 
-/// Runs a parse, prints help, version or the error; status to end with, -1 to go on.
-template <class F>
-int parsed(CLI::App& app, F parse) {
+/// Parses, prints help, version or the error; status to end with, -1 to go on. Where the options are only to be
+/// described, that is all.
+int parsed(CLI::App& app, const Options& options, int argc, char** argv) {
+  if (options.describe) {
+    options.describe(app);
+    return done;
+  }
   try {
-    parse();
+    app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error, std::cout, std::cerr);
     return status == 0 ? status : wrong_usage;
@@ -57,7 +61,7 @@ int read_check(int argc, char** argv, Options& options) {
   app.add_option("--json", options.json, "write a report to this file");
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.check = true;
-  return parsed(app, [&] { app.parse(argc - 1, argv + 1); });
+  return parsed(app, options, argc - 1, argv + 1);
 }
 
 int read_view(int argc, char** argv, Options& options) {
@@ -69,7 +73,7 @@ int read_view(int argc, char** argv, Options& options) {
   app.add_option("-o,--output", options.output, "the page; default: MESH with .html, in this folder");
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.view = true;
-  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
   if (options.cad.empty() && is_cad(options.mesh)) options.cad.swap(options.mesh);
   const std::filesystem::path& first = !options.mesh.empty()    ? options.mesh
                                        : options.levels.empty() ? options.cad
@@ -88,9 +92,9 @@ int read_split(int argc, char** argv, Options& options) {
   app.add_option("MESH", options.mesh, "mesh to divide")->required();
   app.add_option("N", options.split, "number of parts")->required()->check(CLI::Range(1, 1000000));
   app.add_option("-o,--output", options.output, "NAME; default: MESH with .e, in this folder");
-  app.add_option("--by", options.split_by, "scotch (default, where it was built in), slabs or ids")
-      ->check(CLI::IsMember({"scotch", "slabs", "ids"}));
-  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  app.add_option("--by", options.split_by, "scotch (default, where it was built in), boxes, slabs or ids")
+      ->check(CLI::IsMember({"scotch", "boxes", "slabs", "ids"}));
+  if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
   if (options.output.empty()) options.output = options.mesh.filename().replace_extension(".e");
   return -1;
 }
@@ -100,7 +104,29 @@ int read_join(int argc, char** argv, Options& options) {
   app.add_option("PART", options.mesh, "any of the parts, NAME.N.0")->required();
   app.add_option("-o,--output", options.output, "the mesh; format by extension")->required();
   options.join = true;
-  return parsed(app, [&] { app.parse(argc - 1, argv + 1); });
+  return parsed(app, options, argc - 1, argv + 1);
+}
+
+int read_in_parts(int argc, char** argv, Options& options) {
+  CLI::App app(
+      "Refines a mesh in parts, part after part, from disk to disk: with one part in memory at a time. Refinements "
+      "only.",
+      "hextwist refine-in-parts");
+  std::vector<std::string> commands;
+  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0 ('hextwist split' makes them)")->required();
+  app.add_option("-c,--commands", commands, "refinements, separated by ';'")
+      ->type_name("COMMANDS")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->required();
+  app.add_option("-o,--output", options.output, "OUT: parts are written to OUT.N.i")->required();
+  app.add_option("--rings", options.rings, "of hexes of others around a part, to begin with; default 6")
+      ->check(CLI::Range(2, 250));
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  options.in_parts = true;
+  if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
+  for (const std::string& text : commands) options.steps.push_back({false, text});
+  return -1;
 }
 
 int read_serve(int argc, char** argv, Options& options) {
@@ -111,13 +137,14 @@ int read_serve(int argc, char** argv, Options& options) {
   std::vector<std::string> files;
   app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
-  app.add_option("--address", options.address, "address of this machine to listen on; default: itself alone");
+  app.add_option("--address", options.address, "address of this machine to listen on; default: itself alone")
+      ->type_name("ADDRESS");
   app.add_option("--port", options.port, "port to listen on; default: any")->check(CLI::Range(0, 65535));
   app.add_option("--time-limit", options.most_seconds, "seconds that a command may take; 0: no limit; default: 3600")
       ->check(CLI::Range(0.0, 1e9));
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.serve = true;
-  if (const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); }); status >= 0) return status;
+  if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
   for (const std::string& file : files) {
     if (is_journal(file))
       options.steps.push_back({true, file});
@@ -148,23 +175,39 @@ int read_convert(int argc, char** argv, Options& options) {
       ->check(CLI::Range(1, 2));
   app.add_option("--json", options.json, "write a report to this file");
   options.convert = true;
-  const int status = parsed(app, [&] { app.parse(argc - 1, argv + 1); });
+  const int status = parsed(app, options, argc - 1, argv + 1);
   return status >= 0 ? status : check_output(options);
 }
 
+/// First words that make the program do something else, with options of their own.
+struct Mode {
+  std::string_view word;
+  int (*read)(int argc, char** argv, Options& options);
+};
+constexpr Mode modes[] = {{"check", read_check},
+                          {"convert", read_convert},
+                          {"view", read_view},
+                          {"serve", read_serve},
+                          {"split", read_split},
+                          {"join", read_join},
+                          {"refine-in-parts", read_in_parts}};
+
 }  // namespace
 
+std::vector<std::string> mode_words() {
+  std::vector<std::string> words;
+  for (const Mode& mode : modes) words.emplace_back(mode.word);
+  return words;
+}
+
 int read_options(int argc, char** argv, Options& options) {
-  if (argc > 1 && std::string_view(argv[1]) == "convert") return read_convert(argc, argv, options);
-  if (argc > 1 && std::string_view(argv[1]) == "check") return read_check(argc, argv, options);
-  if (argc > 1 && std::string_view(argv[1]) == "view") return read_view(argc, argv, options);
-  if (argc > 1 && std::string_view(argv[1]) == "split") return read_split(argc, argv, options);
-  if (argc > 1 && std::string_view(argv[1]) == "join") return read_join(argc, argv, options);
-  if (argc > 1 && std::string_view(argv[1]) == "serve") return read_serve(argc, argv, options);
+  for (const Mode& mode : modes)
+    if (argc > 1 && argv[1] == mode.word) return mode.read(argc, argv, options);
   CLI::App app(description, "hextwist");
   std::vector<std::string> files, commands;
   CLI::Option* file_option = app.add_option("FILES", files, "a mesh to start from and journals (.jou) to run");
   CLI::Option* command_option = app.add_option("-c,--commands", commands, "commands to run, separated by ';'")
+                                    ->type_name("COMMANDS")
                                     ->allow_extra_args(false)
                                     ->take_all();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
@@ -175,8 +218,8 @@ int read_options(int argc, char** argv, Options& options) {
   app.add_flag("--safe", options.safe,
                "for journals of others: commands read and write only files below this folder, by known endings");
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
-  app.set_version_flag("--version", "hextwist " HEXTWIST_VERSION);
-  if (const int status = parsed(app, [&] { app.parse(argc, argv); }); status >= 0) return status;
+  app.set_version_flag("--version", "hextwist " HEXTWIST_VERSION "\nbuilt with " HEXTWIST_LIBRARIES);
+  if (const int status = parsed(app, options, argc, argv); status >= 0) return status;
 
   // CLI11 keeps the values of an option together; the order between options is in parse_order().
   auto file = files.begin();

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace hextwist::app {
 
@@ -29,9 +34,14 @@ struct Options {
   int port = 0;                       ///< 0: any that is free
   double most_seconds = 3600;         ///< that a command may take there, 0: no limit
   int threads = 0;                    ///< 0: all
+
+  /// Not empty: nothing is read, but what could be is shown to this. For manual pages and completion.
+  std::function<void(const CLI::App&)> describe = {};
 };
 
 /// Status to end with at once (help, version, wrong usage: the text has been printed), or -1 to go on.
 int read_options(int argc, char** argv, Options& options);
+/// The words that read_options() takes for another thing to do when they come first: "check", "convert", ...
+std::vector<std::string> mode_words();
 
 }  // namespace hextwist::app

@@ -12,6 +12,7 @@ set(HEXTWIST_HEADERS
   mesh/corners.h
   mesh/topology.h
   mesh/entity.h
+  mesh/interpolation.h
   mesh/meshed_model.h
   mesh/primitives.h
   mesh/association/association.h

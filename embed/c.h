@@ -195,9 +195,42 @@ int64_t hextwist_n_fields(const hextwist_mesh* mesh);
 /** Field i from 0; its pointers belong to the mesh. All zero, name NULL too, when there is none. */
 hextwist_field hextwist_field_at(const hextwist_mesh* mesh, int64_t i);
 
+/** The first group of a kind with that name, its pointers as above; all zero, name NULL too, when there is none, or the
+ * name is NULL. Names need not be unique. */
+hextwist_group hextwist_group_named(const hextwist_mesh* mesh, hextwist_group_kind kind, const char* name);
+/** Side set i from 0 as 2 numbers per side, in the order of its members: hex, and face 2 * axis + side in the order of
+ * hextwist_bit_hexes(). NULL when there is none. */
+const int32_t* hextwist_side_set_sides(const hextwist_mesh* mesh, int64_t i);
+/** Ids of the surfaces that n quads lie on, 0: on none; 4 nodes per quad, in any order. Into `surfaces`: yours, room
+ * for n, not touched by a call that fails. */
+hextwist_status hextwist_surfaces_of(const hextwist_mesh* mesh, const int32_t* quads, int64_t n, int32_t* surfaces);
+
 /** One value per hex of a metric by its usual name ("shape", "scaled jacobian", ...; docs/commands.md), into `values`:
  * yours, room for hextwist_n_hexes(), not touched by a call that fails. Fails for an unknown metric and for NULL. */
 hextwist_status hextwist_quality(const hextwist_mesh* mesh, const char* metric, double* values);
+
+/* ---- values anywhere, and from mesh to mesh ---- */
+
+/** Where n points (3 numbers each, finite) are: the hex that holds each, of several the first, and 0; outside of the
+ * mesh the nearest hex and how far it is. Into arrays of yours, room for n, not touched by a call that fails; either
+ * may be NULL. */
+hextwist_status hextwist_locate(const hextwist_mesh* mesh, const double* points, int64_t n, int32_t* hexes,
+                                double* distances);
+/** Field i from 0 at n points: n_components values each, into `values`, yours, not touched by a call that fails. Nodal
+ * fields are trilinear in the hex, those of hexes are that of the hex, whole numbers that of the nearest node; outside
+ * of the mesh the nearest place counts. */
+hextwist_status hextwist_field_at_points(const hextwist_mesh* mesh, int64_t i, const double* points, int64_t n,
+                                         double* values);
+/** The matrix that takes values at the nodes of a mesh to n points, as hextwist_field_at_points() does, by rows: row i
+ * has values[k] in column columns[k], a node, for k from first[i] to first[i + 1] - 1, columns ascending. The three are
+ * yours, by hextwist_free_array(); not touched by a call that fails. */
+hextwist_status hextwist_interpolation(const hextwist_mesh* mesh, const double* points, int64_t n, int64_t** first,
+                                       int32_t** columns, double** values);
+/** The same to the nodes of a mesh that it was refined or coarsened to: new values = matrix * old values, exact for
+ * what is linear, on a curved boundary too. origin: per hex of `after` a hex of `before` that it comes from, as
+ * hextwist_adapt_flags() gives it, which keeps apart what is apart (cracks); NULL: by place alone. */
+hextwist_status hextwist_prolongation(const hextwist_mesh* before, const hextwist_mesh* after, const int32_t* origin,
+                                      int64_t** first, int32_t** columns, double** values);
 
 /* ---- a mesh from arrays ---- */
 
@@ -234,7 +267,18 @@ typedef struct hextwist_arrays {
  * Fails, naming array and position, for what is no mesh, and where it does not lie on the CAD. */
 hextwist_status hextwist_take(hextwist_session* session, const hextwist_arrays* arrays);
 
+/** Gives the mesh of the session this field, n values in all, in place of the one of the same name and place that it
+ * has. Meshes that were handed out stay as they are. Can be undone by `undo`. */
+hextwist_status hextwist_set_field(hextwist_session* session, const hextwist_field* field, int64_t n);
+
 /* ---- adaptive analysis ---- */
+
+/** By which technique flagged hexes are cut. */
+typedef enum hextwist_method {
+  HEXTWIST_AUTOMATIC = 0, /**< single */
+  HEXTWIST_SINGLE = 1,    /**< one into 27 */
+  HEXTWIST_PARALLEL = 2   /**< one into 8, where the sheets of the mesh allow it */
+} hextwist_method;
 
 /** How a mesh is adapted; all zero, or NULL in place of it, is the usual. */
 typedef struct hextwist_adapt_options {
@@ -244,6 +288,7 @@ typedef struct hextwist_adapt_options {
   int32_t fill_concave; /**< 0: templates of their own where a region is concave; 1: hexes join it until it is convex */
   int32_t smooth;       /**< 1: smooth the new hexes and two layers around them */
   double bias;          /**< of sizes: growth from element to element, above 1; 1 or 0: not limited */
+  int32_t method;       /**< of hextwist_adapt_flags(): a hextwist_method */
 } hextwist_adapt_options;
 
 /** Cuts the hexes with flags[h] != 0 into 27 each. n: the number of hexes of the session's mesh. If origin is not NULL,

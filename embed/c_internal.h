@@ -1,8 +1,12 @@
 // What the C functions are made of.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <memory>
+#include <new>
+#include <vector>
 
 #include "hextwist/embed/c.h"
 #include "hextwist/embed/mesh_view.h"
@@ -18,6 +22,15 @@ struct hextwist_mesh {
 };
 
 namespace hextwist::embed {
+
+/// An array for the caller, who frees it with std::free.
+template <class T>
+T* given_away(const std::vector<T>& values) {
+  T* const array = static_cast<T*>(std::malloc(std::max<std::size_t>(1, values.size()) * sizeof(T)));
+  if (!array) throw std::bad_alloc();
+  std::copy(values.begin(), values.end(), array);
+  return array;
+}
 
 /// Keeps the exception that is being handled for hextwist_error() and says what to return for it.
 hextwist_status keep_error() noexcept;

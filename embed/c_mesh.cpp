@@ -1,9 +1,11 @@
 // The arrays of a mesh for C. Vectors of small structs are flat arrays already: the asserts below say so.
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <type_traits>
 
 #include "hextwist/embed/c_internal.h"
+#include "hextwist/mesh/interpolation.h"
 #include "hextwist/mesh/quality/quality.h"
 
 using namespace hextwist;
@@ -136,6 +138,29 @@ hextwist_group hextwist_group_at(const hextwist_mesh* mesh, hextwist_group_kind 
   return result;
 }
 
+hextwist_group hextwist_group_named(const hextwist_mesh* mesh, hextwist_group_kind kind, const char* name) {
+  if (name)
+    for (std::int64_t i = 0; i < hextwist_n_groups(mesh, kind); ++i)
+      if (const hextwist_group group = hextwist_group_at(mesh, kind, i);
+          group.name && std::strcmp(group.name, name) == 0)
+        return group;
+  return {};
+}
+const std::int32_t* hextwist_side_set_sides(const hextwist_mesh* mesh, std::int64_t i) {
+  const auto& sets = view(mesh).mesh().side_sets;
+  return within(i, sets) ? flat<std::int32_t>(sets[static_cast<std::size_t>(i)].sides) : nullptr;
+}
+hextwist_status hextwist_surfaces_of(const hextwist_mesh* mesh, const std::int32_t* quads, std::int64_t n,
+                                     std::int32_t* surfaces) {
+  return guarded([&] {
+    if (!mesh) throw Error("there is no mesh: the pointer is null");
+    if (n < 0 || (n > 0 && (!quads || !surfaces))) throw Error("quads and an array for the ids of surfaces are needed");
+    std::vector<Quad> wanted(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < wanted.size(); ++i) std::copy_n(quads + 4 * i, 4, wanted[i].begin());
+    std::ranges::copy(view(mesh).surfaces_of(wanted), surfaces);
+  });
+}
+
 std::int64_t hextwist_n_fields(const hextwist_mesh* mesh) {
   return count(view(mesh).mesh().fields);
 }
@@ -151,5 +176,63 @@ hextwist_status hextwist_quality(const hextwist_mesh* mesh, const char* metric, 
     if (!mesh) throw Error("there is no mesh: the pointer is null");
     if (!metric || !values) throw Error("the name of a metric and an array for its values are needed");
     std::ranges::copy(quality(hextwist::metric(metric), view(mesh).mesh()), values);
+  });
+}
+
+namespace {
+
+std::vector<Vec3> points_of(const hextwist_mesh* mesh, const double* points, std::int64_t n) {
+  if (!mesh) throw Error("there is no mesh: the pointer is null");
+  if (n < 0 || (n > 0 && !points)) throw Error("the array of points is missing");
+  std::vector<Vec3> list(static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = Vec3(points + 3 * i);
+  return list;
+}
+
+void give_rows(const SparseRows& rows, std::int64_t** first, std::int32_t** columns, double** values) {
+  if (!first || !columns || !values) throw Error("first, columns and values are needed");
+  const auto hold = [](auto* array) { return std::unique_ptr<void, decltype(&std::free)>(array, &std::free); };
+  auto a = hold(given_away(rows.first)), b = hold(given_away(rows.columns)), c = hold(given_away(rows.values));
+  *first = static_cast<std::int64_t*>(a.release());
+  *columns = static_cast<std::int32_t*>(b.release());
+  *values = static_cast<double*>(c.release());
+}
+
+}  // namespace
+
+hextwist_status hextwist_locate(const hextwist_mesh* mesh, const double* points, std::int64_t n, std::int32_t* hexes,
+                                double* distances) {
+  return guarded([&] {
+    const Interpolation at = interpolation_at(view(mesh).mesh(), points_of(mesh, points, n));
+    if (hexes) std::ranges::copy(at.hexes, hexes);
+    if (distances) std::ranges::copy(at.distances, distances);
+  });
+}
+hextwist_status hextwist_field_at_points(const hextwist_mesh* mesh, std::int64_t i, const double* points,
+                                         std::int64_t n, double* values) {
+  return guarded([&] {
+    const std::vector<Vec3> wanted = points_of(mesh, points, n);
+    const Mesh& of = view(mesh).mesh();
+    if (!within(i, of.fields)) throw Error("there is no field " + std::to_string(i));
+    if (n > 0 && !values) throw Error("an array for the values is needed");
+    std::ranges::copy(values_at(of, of.fields[static_cast<std::size_t>(i)], interpolation_at(of, wanted)), values);
+  });
+}
+hextwist_status hextwist_interpolation(const hextwist_mesh* mesh, const double* points, std::int64_t n,
+                                       std::int64_t** first, std::int32_t** columns, double** values) {
+  return guarded([&] {
+    const std::vector<Vec3> wanted = points_of(mesh, points, n);
+    const Mesh& of = view(mesh).mesh();
+    give_rows(sparse_rows(of, interpolation_at(of, wanted)), first, columns, values);
+  });
+}
+hextwist_status hextwist_prolongation(const hextwist_mesh* before, const hextwist_mesh* after,
+                                      const std::int32_t* origin, std::int64_t** first, std::int32_t** columns,
+                                      double** values) {
+  return guarded([&] {
+    if (!before || !after) throw Error("there is no mesh: the pointer is null");
+    const Mesh &from = view(before).mesh(), &to = view(after).mesh();
+    const std::span<const Index> origins(origin, origin ? to.hexes.size() : 0);
+    give_rows(sparse_rows(from, prolongation(from, to, origins)), first, columns, values);
   });
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include "hextwist/embed/arrays.h"
 #include "hextwist/embed/c_internal.h"
@@ -15,19 +14,13 @@ struct LastError {
 };
 thread_local LastError last_error;
 
-/// An array for the caller, who frees it with std::free.
-template <class T>
-T* given_away(const std::vector<T>& values) {
-  T* const array = static_cast<T*>(std::malloc(std::max<std::size_t>(1, values.size()) * sizeof(T)));
-  if (!array) throw std::bad_alloc();
-  std::copy(values.begin(), values.end(), array);
-  return array;
-}
-
 AdaptOptions options_of(const hextwist_adapt_options* given) {
   if (!given) return {};
+  if (given->method < HEXTWIST_AUTOMATIC || given->method > HEXTWIST_PARALLEL)
+    throw Error("there is no method " + std::to_string(given->method));
   return {.keep_gradation = given->no_gradation == 0,
           .bias = given->bias == 0 ? 1 : given->bias,
+          .method = static_cast<Method>(given->method),
           .concave = given->fill_concave ? Concave::fill : Concave::templates,
           .smooth = given->smooth != 0};
 }
@@ -155,6 +148,18 @@ hextwist_status hextwist_take(hextwist_session* session, const hextwist_arrays* 
     if (!arrays) throw Error("there are no arrays: the pointer is null");
     MeshFile file = mesh_from_arrays(*arrays);
     s.take_mesh(std::move(file.mesh), file.tags.empty() ? nullptr : &file.tags);
+  });
+}
+
+hextwist_status hextwist_set_field(hextwist_session* session, const hextwist_field* field, std::int64_t n) {
+  return with_session(session, [&](Session& s) {
+    if (!field || !field->name || n < 0 || (n > 0 && !field->values))
+      throw Error("a field with a name and values is needed");
+    s.set_field({field->name,
+                 field->on_hexes ? Field::On::hex : Field::On::node,
+                 field->n_components,
+                 {field->values, field->values + n},
+                 field->is_integer != 0});
   });
 }
 

@@ -1,5 +1,6 @@
 #include "hextwist/embed/mesh_view.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "hextwist/mesh/corners.h"
@@ -57,6 +58,27 @@ std::span<const Quad> MeshView::set_quads(std::size_t side_set) const {
     set_quads_.values = std::move(quads);
   });
   return set_quads_.values.at(side_set);
+}
+
+std::vector<std::int32_t> MeshView::surfaces_of(std::span<const Quad> quads) const {
+  std::call_once(surface_of_quad_.once, [&] {
+    const std::span<const Quad> known = surface_quads();
+    std::vector<std::pair<Quad, std::int32_t>> table(known.size());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      table[i] = {known[i], meshed().association.face_surface[i]};
+      std::ranges::sort(table[i].first);
+    }
+    std::ranges::sort(table);
+    surface_of_quad_.values = std::move(table);
+  });
+  std::vector<std::int32_t> surfaces;
+  surfaces.reserve(quads.size());
+  for (Quad quad : quads) {
+    std::ranges::sort(quad);
+    const auto found = std::ranges::lower_bound(surface_of_quad_.values, std::pair{quad, std::int32_t{0}});
+    surfaces.push_back(found != surface_of_quad_.values.end() && found->first == quad ? found->second : 0);
+  }
+  return surfaces;
 }
 
 }  // namespace hextwist

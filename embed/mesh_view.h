@@ -29,6 +29,9 @@ class MeshView {
   std::span<const Quad> surface_quads() const;
   std::span<const Quad> set_quads(std::size_t side_set) const;
 
+  /// Per quad (nodes in any order) the id of the surface that it lies on; 0: on none.
+  std::vector<std::int32_t> surfaces_of(std::span<const Quad> quads) const;
+
  private:
   template <class T>
   struct Lazy {
@@ -40,6 +43,7 @@ class MeshView {
   mutable Lazy<std::int64_t> node_ids_, hex_ids_;
   mutable Lazy<Quad> surface_quads_;
   mutable Lazy<std::vector<Quad>> set_quads_;
+  mutable Lazy<std::pair<Quad, std::int32_t>> surface_of_quad_;  // nodes ascending; sorted
 };
 
 }  // namespace hextwist

@@ -52,6 +52,7 @@ LevellingPtr levelling_of(std::shared_ptr<const MeshedModel> base) {
 
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options) {
   Request request = request_of(mesh, flags.size(), "flags", options);
+  request.method = options.method;
   request.target.ids = indices_where(mesh.n_hexes(), [&](Index h) { return flags[h] != 0; });
   return request;
 }

@@ -27,6 +27,9 @@ struct AdaptOptions {
   bool keep_gradation = true;
   /// Of wished sizes: limits their growth from element to element (Sizes::bias).
   double bias = 1;
+  /// Of flags: the technique (Request::method); levels are cut one into 27 by automatic and single, into eight by
+  /// parallel. Of changes and sizes: automatic.
+  Method method = Method::automatic;
   Concave concave = Concave::templates;  ///< whether more than the flagged hexes may be cut
   bool smooth = false;                   ///< smooth the new hexes and two layers around them (Finish::smooth)
   std::vector<Index> fixed = {};         ///< nodes (0-based) that are not moved (Finish::fixed)

@@ -92,6 +92,31 @@ void Session::take_mesh(Mesh mesh, const Association* tags) {
   });
 }
 
+void Session::set_field(Field field) {
+  Transaction run(*core_, "set field");
+  transact(run, [&] {
+    const Mesh& mesh = run.meshed->mesh;
+    if (mesh.n_hexes() == 0) throw Error("there is no mesh to set a field of");
+    if (field.name.empty()) throw Error("a field needs a name");
+    if (field.components < 1) throw Error("field '" + printable(field.name) + "' has no component");
+    const std::size_t n = field.on == Field::On::hex ? mesh.hexes.size() : mesh.points.size();
+    if (field.values.size() / static_cast<std::size_t>(field.components) != n ||
+        field.values.size() % static_cast<std::size_t>(field.components) != 0)
+      throw Error("field '" + printable(field.name) + "' has " + std::to_string(field.values.size()) +
+                  " values: " + std::to_string(field.components) + " for each of " + std::to_string(n) + " are wanted");
+    if (field.on == Field::On::hex && field.name == "level")
+      throw Error("the hex field 'level' says how hexes came about: it is not to be set");
+    MeshedModel next = *run.meshed;
+    const auto same = std::ranges::find_if(
+        next.mesh.fields, [&](const Field& each) { return each.name == field.name && each.on == field.on; });
+    if (same == next.mesh.fields.end())
+      next.mesh.fields.push_back(std::move(field));
+    else
+      *same = std::move(field);
+    run.replace_fields(std::move(next));
+  });
+}
+
 namespace {
 
 AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& values, AdaptOptions options) {

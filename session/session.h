@@ -155,6 +155,10 @@ class Session {
   /// The same on the CAD that the session has (glued if need be), or the mesh's own skin where it has none.
   void take_mesh(Mesh mesh, const Association* tags = nullptr);
 
+  /// Gives the mesh this field, in place of the one of the same name and place that it has; the hex field "level" is
+  /// the session's own. As by a command: it can be undone, and levels go on. Throws CommandError.
+  void set_field(Field field);
+
   /// adapt() on the mesh of the session, which becomes the result, as by a command: it can be undone, and a failure
   /// leaves the session as it was. flags: one per hex, 0 or not. Throws CommandError.
   AdaptOutcome adapt(std::span<const std::uint8_t> flags, const AdaptOptions& options = {});

@@ -65,6 +65,11 @@ void Transaction::change_sets(Mesh lists) {
   back = std::move(change);
 }
 
+void Transaction::replace_fields(MeshedModel next) {
+  replace_alike(std::move(next));
+  levels_go_on_ = true;
+}
+
 void Transaction::splice(const SpliceChange& change) {
   const auto& [splice, forward] = change;
   core.topology = nullptr;
@@ -89,7 +94,7 @@ void Transaction::leave_mesh() {
 }
 
 void Transaction::end_levels() {
-  if (is_playback || is_history || !(back || mesh_before_)) return;
+  if (is_playback || is_history || levels_go_on_ || !(back || mesh_before_)) return;
   if (back && std::holds_alternative<SameMesh>(*back)) return;
   if (!state.levelling || state.levelling != state_before_.levelling) return;
   // Changed by a command that knows nothing of levels.

@@ -41,6 +41,8 @@ class Transaction {
   void replace(MeshedModel meshed);
   /// Gives the mesh these blocks and sets, in place: no other array is copied.
   void change_sets(Mesh lists);
+  /// Makes this, which differs in its fields alone, the mesh of the session: levels go on.
+  void replace_fields(MeshedModel meshed);
   /// The mesh stays, by a command that would have changed it: a step that can be undone like any other.
   void leave_mesh();
   /// Changes the mesh in place.
@@ -66,6 +68,7 @@ class Transaction {
   using Clock = std::chrono::steady_clock;
   const std::size_t place_;  // of the record: a playback appends others
   const Statement* statement_;
+  bool levels_go_on_ = false;
   const Clock::time_point start_ = Clock::now();
   SessionState state_before_;
   Variables variables_before_;

@@ -6,6 +6,7 @@
 #include "hextwist/embed/arrays.h"
 #include "hextwist/embed/mesh_view.h"
 #include "hextwist/embed/python/convert_internal.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/entity.h"
 
 namespace hextwist::python {
@@ -15,6 +16,7 @@ struct PyGroup {
   int id;
   py::str name;
   py::array members;
+  py::object sides = py::none();  ///< of a side set
 };
 
 /// 0 .. 3 for "vertex" .. "volume".
@@ -120,6 +122,20 @@ class PyArrays {
                             std::to_string(n));
     return values;
   }
+  /// Nodes of the sides (hex, face) of the hexes that were given.
+  std::vector<std::int32_t> quads_of_sides(const std::vector<std::int32_t>& sides, const char* name) const {
+    std::vector<std::int32_t> quads;
+    for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+      const std::int32_t hex = sides[i], face = sides[i + 1];
+      if (hex < 0 || hex >= arrays.n_hexes || face < 0 || face >= n_hex_faces)
+        throw py::value_error(std::string(name) + ": there is no face " + std::to_string(face) + " of hex " +
+                              std::to_string(hex));
+      Hex corners;
+      for (int c = 0; c < n_hex_corners; ++c) corners[c] = arrays.hexes[8 * std::int64_t{hex} + file_corner[c]];
+      for (const Index node : face_node_cycle(corners, face)) quads.push_back(node);
+    }
+    return quads;
+  }
   static int id_of(const py::handle& key, const char* name) {
     // As numpy's integers can be; numbers with a fraction cannot.
     const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(key.ptr()));
@@ -147,6 +163,12 @@ class PyArrays {
         members = value[py::int_(1)];
       }
       hextwist_group group{id_of(key, name), names_.back().c_str(), 0, nullptr};
+      if (const py::array array = width == 4 ? numbers(members, name) : py::array();
+          array && array.ndim() == 2 && array.shape(1) == 2 && array.size() > 0) {
+        group.members = keep(integers_, quads_of_sides(integers<std::int32_t>(members, name, 2), name), 4, group.n);
+        groups.push_back(group);
+        continue;
+      }
       group.members =
           keep(integers_, integers<std::int32_t>(members, name, width), std::max<py::ssize_t>(1, width), group.n);
       groups.push_back(group);

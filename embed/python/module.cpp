@@ -5,6 +5,7 @@
 #include "hextwist/embed/python/mesh_internal.h"
 #include "hextwist/embed/python/records_internal.h"
 #include "hextwist/embed/python/session_internal.h"
+#include "hextwist/embed/python/values_internal.h"
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -23,7 +24,7 @@ template <class Groups, class F>
 py::dict groups(const Groups& list, F members) {
   py::dict result;
   for (std::size_t i = 0; i < list.size(); ++i)
-    result[py::int_(list[i].id)] = PyGroup{list[i].id, text(list[i].name), members(i)};
+    result[py::int_(list[i].id)] = PyGroup{list[i].id, text(list[i].name), members(i), py::none()};
   return result;
 }
 
@@ -116,6 +117,9 @@ void bind_mesh(py::module_& m) {
           "members", &PyGroup::members,
           "Positions from 0, read-only int32: hexes of a block, (n,), ascending; nodes of a node set, (n,), ascending; "
           "nodes of the sides of a side set, (n, 4), counter-clockwise seen from outside of the hex.")
+      .def_readonly("sides", &PyGroup::sides,
+                    "Of a side set, read-only (n, 2) int32: the hex of each of its members, and which face of it (2 * "
+                    "axis + side, in bit_hexes). None of other groups.")
       .def("__repr__", [](const PyGroup& group) {
         return "<hextwist.Group " + std::to_string(group.id) + ", " + std::to_string(py::len(group.members)) +
                " members>";
@@ -199,9 +203,12 @@ void bind_mesh(py::module_& m) {
           "side_sets",
           [](const py::object& self) {
             const auto& list = of(self).mesh().side_sets;
-            return groups(list, [&](std::size_t i) { return rows<Index>(of(self).set_quads(i), self); });
+            py::dict sets = groups(list, [&](std::size_t i) { return rows<Index>(of(self).set_quads(i), self); });
+            for (const SideSet& set : list)
+              py::object(sets[py::int_(set.id)]).cast<PyGroup&>().sides = rows<std::int32_t>(set.sides, self);
+            return sets;
           },
-          "{id: Group} of sides of hexes, as quads, ascending by id.")
+          "{id: Group} of sides of hexes, as quads and as (hex, face), ascending by id.")
       .def_property_readonly("arrays", &arrays,
                              "{name: array} of all arrays as the mesh has them: those above that are not made when "
                              "first asked for (ids are empty where they are 1, 2, ...), members as 'blocks/3', fields "
@@ -247,14 +254,21 @@ void bind_mesh(py::module_& m) {
            "shape or a coordinate that is not finite, Error where the entity does not exist.")
       .def("__repr__",
            [](const MeshView& v) { return "<hextwist.Mesh of " + std::to_string(v.mesh().n_hexes()) + " hexes>"; });
+  bind_values(mesh);
 }
 
 py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::object& sizes, bool gradation,
-                         double bias, const std::string& concave, bool smooth) {
+                         double bias, const std::string& concave, bool smooth, const std::string& by) {
   if (flags.is_none() == sizes.is_none()) throw py::value_error("give flags or sizes");
   if (concave != "template" && concave != "fill") throw py::value_error("concave is 'template' or 'fill'");
+  const std::array<Method, 3> methods = {Method::automatic, Method::single, Method::parallel};
+  const auto method = std::ranges::find_if(methods, [&](Method each) { return by == name(each); });
+  if (method == methods.end()) throw py::value_error("method is 'auto', 'single' or 'parallel'");
+  if (flags.is_none() && *method != Method::automatic)
+    throw py::value_error("a method goes with flags, not with sizes");
   const AdaptOptions options{.keep_gradation = gradation,
                              .bias = bias,
+                             .method = *method,
                              .concave = concave == "fill" ? Concave::fill : Concave::templates,
                              .smooth = smooth};
   if (flags.is_none()) {
@@ -392,13 +406,15 @@ void bind_session(py::module_& m) {
            "arrays that do not make a sound mesh on the CAD; the session is then as it was.")
       .def(
           "adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
-          "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false,
+          "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false, "method"_a = "auto",
           "Cuts the hexes with a flag, (n_hexes,) bools or integers, into 27 each, or all until they have their sizes, "
           "(n_hexes,) positive, in model units, inf: no wish. gradation: by levels, so that shapes do not get worse "
           "from call to call; sizes may then become coarser too. bias: growth of sizes from element to element, 1: not "
           "limited. concave: 'template', or 'fill' as the paper does. smooth: the new hexes and two layers around "
-          "them. Returns (n_hexes now,) int32: the old hex that each new one lies in; of several the first. Raises "
-          "ValueError unless there are either flags or sizes and for another word for concave, TypeError for flags "
+          "them. method, of flags: 'single' (as 'auto') cuts into 27, 'parallel' into 8 where the sheets of the mesh "
+          "allow it. Returns (n_hexes now,) int32: the old hex that each new one lies in; of several the first. Raises "
+          "ValueError unless there are either flags or sizes and for another word for concave or method, TypeError for "
+          "flags "
           "that are not integers, Error for another number than one per hex or a size that is not positive, Cancelled; "
           "the session is then as it was.")
       .def("adapt_levels", &adapt_levels, "changes"_a, py::kw_only(), "smooth"_a = false,
@@ -410,6 +426,13 @@ void bind_session(py::module_& m) {
            "summed), those of nodes interpolated and injected. smooth: the new hexes and two layers around them. "
            "Raises TypeError for changes that are not integers, Error for another number than one per hex, Cancelled; "
            "the session is then as it was.")
+      .def(
+          "set_field", &set_field, "name"_a, "values"_a, py::kw_only(), "on"_a = "nodes",
+          "Gives the mesh this field on 'nodes' or 'hexes', (n,) or (n, components), in place of the one of that name; "
+          "integers stay integers. Meshes that were handed out stay as they are; undone by 'undo'. Raises ValueError "
+          "or "
+          "TypeError for another shape or type, Error for another number of values, and for the hex field 'level', "
+          "which is the session's own.")
       .def("ids", &ids, "kind"_a, "range"_a = "all",
            "(n,) int64, ascending: ids of the entities of a kind (as in commands: 'node', 'hex', 'curve', 'block', "
            "...) that a range means: ids('hex', 'in volume 2'). Raises Error for a kind or range that is wrong or "

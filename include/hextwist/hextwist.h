@@ -14,6 +14,7 @@
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/entity.h"
+#include "hextwist/mesh/interpolation.h"
 #include "hextwist/mesh/mesh.h"
 #include "hextwist/mesh/meshed_model.h"
 #include "hextwist/mesh/primitives.h"

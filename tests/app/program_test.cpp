@@ -128,7 +128,10 @@ TEST(Program, wrong_usage_is_two) {
 }
 
 TEST(Program, help_and_version_are_done) {
-  EXPECT_EQ(run("--version").out, "hextwist " HEXTWIST_VERSION "\n");
+  const std::string version = run("--version").out;
+  EXPECT_TRUE(version.starts_with("hextwist " HEXTWIST_VERSION "\nbuilt with OpenCASCADE ")) << version;
+  for (const char* library : {"CGAL ", "Eigen 3.", "oneTBB ", "Exodus II ", "NetCDF ", "muParser ", "CLI11 "})
+    EXPECT_NE(version.find(library), std::string::npos) << library << "is not in: " << version;
   const Outcome help = run("--help");
   EXPECT_EQ(help.status, 0);
   for (const char* option : {"--cad", "-c", "-o", "--json", "--keep-going", "--threads", "--version"})

@@ -357,7 +357,7 @@ static void hexes_are_adapted(void) {
   CHECK(hextwist_run(session, "undo") == HEXTWIST_OK);
   double* sizes = malloc((size_t)n * sizeof *sizes);
   for (int64_t h = 0; h < n; ++h) sizes[h] = h == 17 ? 1 : INFINITY;
-  const hextwist_adapt_options options = {1, 1, 1, 1.5};
+  const hextwist_adapt_options options = {1, 1, 1, 1.5, HEXTWIST_AUTOMATIC};
   CHECK(hextwist_adapt_sizes(session, sizes, n, &options, NULL) == HEXTWIST_OK);
   hextwist_mesh* sized = hextwist_mesh_of(session);
   CHECK(hextwist_n_hexes(sized) > n);
@@ -369,7 +369,8 @@ static void hexes_are_adapted(void) {
   changes[17] = 1;
   int8_t* kind = NULL;
   int32_t *first = NULL, *hexes = NULL;
-  CHECK(hextwist_adapt_levels(session, changes, n, NULL, &kind, &first, &hexes) == HEXTWIST_OK && kind && first && hexes);
+  CHECK(hextwist_adapt_levels(session, changes, n, NULL, &kind, &first, &hexes) == HEXTWIST_OK && kind && first &&
+        hexes);
   hextwist_mesh* finer = hextwist_mesh_of(session);
   const int64_t n_finer = hextwist_n_hexes(finer);
   CHECK(first[n_finer] >= n_finer && kind[0] == 0 && hexes[first[0]] == 0);
@@ -386,6 +387,131 @@ static void hexes_are_adapted(void) {
   free(sizes), free(flags);
   hextwist_mesh_free(sized);
   hextwist_mesh_free(adapted);
+  hextwist_mesh_free(mesh);
+  hextwist_free(session);
+}
+
+/* y = matrix * x, by rows. */
+static double row(int64_t i, const int64_t* first, const int32_t* columns, const double* values, const double* x) {
+  double sum = 0;
+  for (int64_t k = first[i]; k < first[i + 1]; ++k) sum += values[k] * x[columns[k]];
+  return sum;
+}
+
+static void fields_are_set_and_taken_along(void) {
+  hextwist_session* session = bracket();
+  hextwist_mesh* bare = hextwist_mesh_of(session);
+  const int64_t n = hextwist_n_nodes(bare), n_hexes = hextwist_n_hexes(bare), n_fields = hextwist_n_fields(bare);
+  const double* p = hextwist_points(bare);
+  double* values = malloc((size_t)n * sizeof *values);
+  for (int64_t i = 0; i < n; ++i) values[i] = p[3 * i] - 2 * p[3 * i + 1] + 3 * p[3 * i + 2] + 4;
+  hextwist_field field = {"linear", 0, 1, values, 0};
+  CHECK(hextwist_set_field(session, &field, n) == HEXTWIST_OK);
+  CHECK(hextwist_n_fields(bare) == n_fields); /* stays as it was */
+  hextwist_mesh* before = hextwist_mesh_of(session);
+  CHECK(hextwist_n_fields(before) == n_fields + 1);
+  CHECK(hextwist_set_field(session, &field, n) == HEXTWIST_OK); /* in its place */
+  CHECK(hextwist_set_field(session, &field, n - 1) == HEXTWIST_FAILED && strstr(hextwist_error(), "linear"));
+  field.n_components = 0;
+  CHECK(hextwist_set_field(session, &field, n) == HEXTWIST_FAILED && strstr(hextwist_error(), "component"));
+  field.name = NULL;
+  CHECK(hextwist_set_field(session, &field, n) == HEXTWIST_FAILED);
+  CHECK(hextwist_set_field(session, NULL, n) == HEXTWIST_FAILED);
+  CHECK(hextwist_set_field(NULL, NULL, n) == HEXTWIST_FAILED && strstr(hextwist_error(), "null"));
+  const hextwist_field level = {"level", 1, 1, values, 0};
+  CHECK(hextwist_set_field(session, &level, n_hexes) == HEXTWIST_FAILED && strstr(hextwist_error(), "level"));
+
+  uint8_t* flags = calloc((size_t)n_hexes, 1);
+  flags[17] = flags[100] = 1;
+  int32_t* origin = NULL;
+  hextwist_adapt_options options;
+  memset(&options, 0, sizeof options);
+  options.method = 7;
+  CHECK(hextwist_adapt_flags(session, flags, n_hexes, &options, &origin) == HEXTWIST_FAILED &&
+        strstr(hextwist_error(), "7"));
+  options.method = HEXTWIST_SINGLE;
+  CHECK(hextwist_adapt_flags(session, flags, n_hexes, &options, &origin) == HEXTWIST_OK);
+  hextwist_mesh* after = hextwist_mesh_of(session);
+  const double* q = hextwist_points(after);
+  int64_t* first = NULL;
+  int32_t* columns = NULL;
+  double* matrix = NULL;
+  double worst = 0;
+  CHECK(hextwist_prolongation(before, after, origin, &first, &columns, &matrix) == HEXTWIST_OK);
+  for (int64_t i = 0; i < hextwist_n_nodes(after); ++i)
+    worst = fmax(worst,
+                 fabs(row(i, first, columns, matrix, values) - (q[3 * i] - 2 * q[3 * i + 1] + 3 * q[3 * i + 2] + 4)));
+  CHECK(worst < 1e-10);
+  hextwist_free_array(first), hextwist_free_array(columns), hextwist_free_array(matrix);
+  first = NULL;
+  CHECK(hextwist_prolongation(before, NULL, NULL, &first, &columns, &matrix) == HEXTWIST_FAILED && !first);
+  CHECK(hextwist_prolongation(before, after, NULL, NULL, &columns, &matrix) == HEXTWIST_FAILED);
+  origin[0] = -5;
+  CHECK(hextwist_prolongation(before, after, origin, &first, &columns, &matrix) == HEXTWIST_FAILED && !first &&
+        strstr(hextwist_error(), "origin[0]"));
+
+  /* At points: of the mesh, and far away. */
+  const double points[6] = {(p[0] + p[3]) / 2, (p[1] + p[4]) / 2, (p[2] + p[5]) / 2, 1e4, 0, 0};
+  int32_t hexes[2] = {-1, -1};
+  double distances[2] = {-1, -1}, at[2] = {0, 0};
+  CHECK(hextwist_locate(before, points, 2, hexes, distances) == HEXTWIST_OK && hexes[0] >= 0 && hexes[1] >= 0 &&
+        distances[1] > 9e3);
+  CHECK(hextwist_locate(before, points, 1, NULL, NULL) == HEXTWIST_OK);
+  CHECK(hextwist_field_at_points(before, n_fields, points, 2, at) == HEXTWIST_OK);
+  if (distances[0] == 0) CHECK(fabs(at[0] - (points[0] - 2 * points[1] + 3 * points[2] + 4)) < 1e-10);
+  CHECK(hextwist_interpolation(before, points, 2, &first, &columns, &matrix) == HEXTWIST_OK);
+  CHECK(fabs(row(0, first, columns, matrix, values) - at[0]) < 1e-10 &&
+        fabs(row(1, first, columns, matrix, values) - at[1]) < 1e-10);
+  hextwist_free_array(first), hextwist_free_array(columns), hextwist_free_array(matrix);
+  CHECK(hextwist_field_at_points(before, n_fields + 1, points, 2, at) == HEXTWIST_FAILED &&
+        strstr(hextwist_error(), "field"));
+  CHECK(hextwist_field_at_points(before, -1, points, 2, at) == HEXTWIST_FAILED);
+  CHECK(hextwist_field_at_points(NULL, 0, points, 2, at) == HEXTWIST_FAILED);
+  CHECK(hextwist_field_at_points(before, n_fields, NULL, 2, at) == HEXTWIST_FAILED);
+  CHECK(hextwist_field_at_points(before, n_fields, points, 2, NULL) == HEXTWIST_FAILED);
+  CHECK(hextwist_locate(before, NULL, 2, hexes, distances) == HEXTWIST_FAILED);
+  CHECK(hextwist_locate(before, points, -1, hexes, distances) == HEXTWIST_FAILED);
+  CHECK(hextwist_interpolation(NULL, points, 2, &first, &columns, &matrix) == HEXTWIST_FAILED);
+  const double lost[3] = {0, NAN, 0};
+  CHECK(hextwist_locate(before, lost, 1, hexes, distances) == HEXTWIST_FAILED && strstr(hextwist_error(), "points[0]"));
+  hextwist_free_array(origin);
+  free(flags), free(values);
+  hextwist_mesh_free(after), hextwist_mesh_free(before), hextwist_mesh_free(bare);
+  hextwist_free(session);
+}
+
+static void groups_and_surfaces_are_looked_up(void) {
+  hextwist_session* session = bracket();
+  hextwist_mesh* mesh = hextwist_mesh_of(session);
+  for (int64_t i = 0; i < hextwist_n_groups(mesh, HEXTWIST_SIDE_SET); ++i) {
+    const hextwist_group set = hextwist_group_at(mesh, HEXTWIST_SIDE_SET, i);
+    CHECK(hextwist_group_named(mesh, HEXTWIST_SIDE_SET, set.name).id == set.id);
+    const int32_t* sides = hextwist_side_set_sides(mesh, i);
+    for (int64_t k = 0; k < set.n; ++k) { /* the nodes of that face of the hex are those of the quad */
+      const int32_t* hex = hextwist_bit_hexes(mesh) + 8 * sides[2 * k];
+      int n_found = 0;
+      for (int c = 0; c < 8; ++c)
+        if ((c >> (sides[2 * k + 1] >> 1) & 1) == (sides[2 * k + 1] & 1))
+          for (int j = 0; j < 4; ++j) n_found += set.members[4 * k + j] == hex[c];
+      CHECK(n_found == 4);
+    }
+  }
+  CHECK(hextwist_n_groups(mesh, HEXTWIST_SIDE_SET) > 0 && hextwist_side_set_sides(mesh, -1) == NULL &&
+        hextwist_side_set_sides(mesh, 1000) == NULL && hextwist_side_set_sides(NULL, 0) == NULL);
+  CHECK(hextwist_group_named(mesh, HEXTWIST_BLOCK, "no such").name == NULL &&
+        hextwist_group_named(mesh, HEXTWIST_BLOCK, NULL).name == NULL &&
+        hextwist_group_named(NULL, HEXTWIST_BLOCK, "a").name == NULL);
+  const int64_t n = hextwist_n_surface_quads(mesh);
+  int32_t* surfaces = malloc((size_t)n * sizeof *surfaces);
+  CHECK(hextwist_surfaces_of(mesh, hextwist_surface_quads(mesh), n, surfaces) == HEXTWIST_OK);
+  CHECK(memcmp(surfaces, hextwist_quad_surfaces(mesh), (size_t)n * sizeof *surfaces) == 0);
+  const int32_t none[4] = {0, 0, -7, 2000000000};
+  CHECK(hextwist_surfaces_of(mesh, none, 1, surfaces) == HEXTWIST_OK && surfaces[0] == 0);
+  CHECK(hextwist_surfaces_of(mesh, NULL, 1, surfaces) == HEXTWIST_FAILED);
+  CHECK(hextwist_surfaces_of(mesh, none, 1, NULL) == HEXTWIST_FAILED);
+  CHECK(hextwist_surfaces_of(NULL, none, 1, surfaces) == HEXTWIST_FAILED);
+  CHECK(hextwist_surfaces_of(mesh, NULL, 0, NULL) == HEXTWIST_OK);
+  free(surfaces);
   hextwist_mesh_free(mesh);
   hextwist_free(session);
 }
@@ -414,6 +540,8 @@ int main(int argc, char** argv) {
   ranges_give_ids();
   arrays_go_round();
   hexes_are_adapted();
+  fields_are_set_and_taken_along();
+  groups_and_surfaces_are_looked_up();
   an_empty_session_has_an_empty_mesh();
   if (n_failed) fprintf(stderr, "%d checks failed\n", n_failed);
   return n_failed != 0;

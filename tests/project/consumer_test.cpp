@@ -73,6 +73,21 @@ TEST_F(SlowConsumer, builds_the_Gmsh_example_through_find_package) {
   EXPECT_TRUE(conformal(read_mesh(out).mesh));
 }
 
+TEST_F(SlowConsumer, builds_the_deal_II_example_which_refines_without_hanging_nodes) {
+  if (run("ls /usr/share/cmake/deal.II/deal.IIConfig.cmake /usr/lib/*/cmake/deal.II/deal.IIConfig.cmake 2>/dev/null | "
+          "grep .")
+          .status != 0)
+    GTEST_SKIP() << "deal.II is not installed (Debian: libdeal.ii-dev)";
+  const auto folder = output_folder() / "build";
+  const Outcome built = build_with_cmake(prefix, examples / "adapters/dealii", folder);
+  ASSERT_EQ(built.status, 0) << built.output;
+  const auto models = source_folder() / "models";
+  const Outcome ran = run(quoted(folder / "adapt_dealii") + " " + quoted(models / "bracket.brep") + " " +
+                          quoted(models / "bracket.msh"));
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_NE(ran.output.find("hanging nodes: no (deal.II's own: yes)"), std::string::npos) << ran.output;
+}
+
 TEST_F(SlowConsumer, imports_the_installed_Python_package) {
   const Outcome found = run("cd " + quoted(prefix) + " && find \"$PWD\" -path '*/hextwist/__init__.py'");
   if (found.output.empty()) GTEST_SKIP() << "the Python module is not built";

@@ -1,0 +1,47 @@
+#include "mpi/options.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "exit_status.h"
+
+namespace hextwist::app {
+
+int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) {
+  CLI::App app(
+      "Refines a mesh by several processes: mpirun -n 8 hextwist-mpi --cad part.step mesh.e -c 'refine curve 3' -o "
+      "out.e\n"
+      "writes out.e.8.0 .. out.e.8.7, whose join is what hextwist writes. Refinements only.",
+      "hextwist-mpi");
+  app.add_option("MESH", options.mesh, "mesh to start from; of a split one, any part: mesh.e.8.0")->required();
+  app.add_option("-c,--commands", options.commands, "refinements, separated by ';'")
+      ->type_name("COMMANDS")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->required();
+  app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
+  app.add_option("-o,--output", options.output, "OUT: each process writes its part to OUT.n.i (Exodus)");
+  app.add_option("--by", options.by,
+                 "how hexes are shared out: scotch (default, where it was built in), slabs, ids or random")
+      ->check(CLI::IsMember({"scotch", "slabs", "ids", "random"}));
+  app.add_option("--rings", options.rings, "of hexes of others around a part, to begin with; default 6")
+      ->check(CLI::Range(2, 250));
+  app.add_option("--threads", options.threads, "threads of each process; default 1; 0: all")
+      ->check(CLI::Range(0, 1024));
+  app.set_version_flag("--version", "hextwist-mpi " HEXTWIST_VERSION);
+  if (options.describe) {
+    options.describe(app);
+    return done;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, err;
+    const int status = app.exit(error, out, err);
+    if (is_first) std::cout << out.str(), std::cerr << err.str();
+    return status == 0 ? done : wrong_usage;
+  }
+  return -1;
+}
+
+}  // namespace hextwist::app
