@@ -9,6 +9,7 @@ set(HEXTWIST_HEADERS
   geom/occ/model.h
   geom/primitives.h
   mesh/mesh.h
+  mesh/others.h
   mesh/corners.h
   mesh/topology.h
   mesh/entity.h

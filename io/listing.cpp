@@ -86,7 +86,14 @@ Index Listing::node(std::int64_t id, std::int64_t element, const char* at) const
 }
 
 MeshFile Listing::result(bool parts_count_always) {
-  if (hexes_.ids.empty()) fail(cursor_.begin == cursor_.end ? nullptr : cursor_.end, "there is no hex in the file");
+  if (hexes_.ids.empty()) {
+    std::string others;
+    for (std::size_t t = 0; t < others_.heads.types.size(); ++t)
+      others += (t == 0 ? ", but " : ", ") +
+                counted(std::ranges::count(others_.heads.type, static_cast<int>(t)), "element") + " " +
+                others_.heads.types[t].name;
+    fail(cursor_.begin == cursor_.end ? nullptr : cursor_.end, "there is no hex in the file" + others);
+  }
   nodes_ =
       Ids(std::move(node_ids_), "node", [&](std::size_t item, const std::string& what) { fail(node_at_[item], what); });
   nodes_.sort(out_.mesh.points);
@@ -94,6 +101,7 @@ MeshFile Listing::result(bool parts_count_always) {
   assemble_hexes();
   assemble_quads();
   assemble_groups(parts_count_always);
+  assemble_others();
   for (const auto& [type, n] : n_dropped_) note("dropped " + counted(n, "element") + " of type " + type);
   if (!bent_hexes_.empty()) assemble_middles();
   return std::move(out_);
@@ -143,8 +151,14 @@ void Listing::assemble_quads() {
   }
   std::ranges::sort(quad_of_id_);
   quad_sides_ = oriented_sides(out_.mesh, cycles);
-  if (const auto lost = std::ranges::count(quad_sides_, -1, &Side::hex))
-    note("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") + " no side of a hex");
+  auto lost = std::ranges::count(quad_sides_, -1, &Side::hex);
+  for (auto& [q, kept] : kept_quads_) {
+    if (quad_sides_[q].hex >= 0) continue;
+    --lost;
+    add_other({OtherShape::quad, 4, kept.first}, quads_.ids[q], quads_.parts[q],
+              std::span(quads_.nodes).subspan(4 * q, 4), std::move(kept.second), false, quads_.at[q]);
+  }
+  if (lost > 0) note("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") + " no side of a hex");
 }
 
 void Listing::assemble_groups(bool parts_count_always) {

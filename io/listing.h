@@ -8,6 +8,7 @@
 #include <map>
 
 #include "hextwist/io/middles.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 
@@ -23,7 +24,17 @@ class Listing {
                const char* at);
   /// The same for a quad, by its corners in cyclic order: a side of a hex, in the side set of its part.
   void add_quad(std::int64_t id, int part, std::span<const std::int64_t> corners, const char* at);
-  /// Beams, triangles, masses, ...: counted, and told in the end.
+  /// An element beside the hexes: its nodes (those of the shape in the order of mesh/others.h, then others that it
+  /// names) and what else the file says of it. part: of a block, 0 none. rigid: OtherHeads::is_rigid.
+  void add_other(const OtherType& type, std::int64_t id, int part, std::span<const std::int64_t> nodes,
+                 std::string rest, bool rigid, const char* at);
+  /// Of the quad added last: an element of this name where it is no side of a hex.
+  void keep_quad(const std::string& name, std::string rest) {
+    kept_quads_[quads_.ids.size() - 1] = {name, std::move(rest)};
+  }
+  /// Whose words `rest` and the names of types are.
+  void set_format(const char* format) { others_.heads.format = format; }
+  /// What has no place, counted and told in the end.
   void drop(std::int64_t id, const std::string& type);
   /// Throws Error: a tetrahedron, say.
   [[noreturn]] void refuse(std::int64_t id, const std::string& type, const char* at) const;
@@ -60,6 +71,7 @@ class Listing {
   void assemble_hexes();
   void assemble_middles();
   void assemble_quads();
+  void assemble_others();
   void assemble_groups(bool parts_count_always);
 
   const Cursor& cursor_;
@@ -67,6 +79,14 @@ class Listing {
   std::vector<std::int64_t> node_ids_;
   std::vector<const char*> node_at_;
   Elements hexes_, quads_;
+  struct Others {
+    OtherHeads heads;
+    std::vector<std::int64_t> nodes;
+    std::vector<std::size_t> first = {0};
+    std::vector<int> parts;
+    std::vector<const char*> at;
+  } others_;
+  std::map<std::size_t, std::pair<std::string, std::string>> kept_quads_;  // by their place: name and rest
   std::vector<std::size_t> bent_hexes_;     // those with middle nodes, as they were added
   std::vector<std::int64_t> middle_nodes_;  // of each, as MiddleOrder counts them; 0: there is none
   std::map<std::string, std::int64_t> n_dropped_;

@@ -3,6 +3,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -89,6 +90,11 @@ void take_middles(MeshFile& file, const FoundMiddles& found) {
     for (int f = 0; f < n_hex_faces; ++f)
       of_face.add(mesh_faces.of_hex[h][f], middles[static_cast<std::size_t>(n_hex_edges + f)], h);
   }
+  for (Index e = 0; e < n_others(mesh); ++e)
+    for (const Index node : mesh.others->nodes_of(e))
+      if (is_middle[node])
+        throw Error(other_text(mesh, e) + " has node " + std::to_string(node_id(mesh, node)) +
+                    ", which is a middle node of a hex: those are made anew here, and other elements can't have them");
   if (n_straight > 0)
     file.notices.push_back(counted(n_straight, "hex", "hexes") +
                            " without middle nodes beside others that have some: " +
@@ -126,6 +132,7 @@ void take_middles(MeshFile& file, const FoundMiddles& found) {
   mesh.points = items_at(mesh.points, kept);
   for (Hex& hex : mesh.hexes)
     for (Index& node : hex) node = now[node];
+  mesh.others = renumbered(mesh.others, now);
   for (NodeSet& set : mesh.node_sets) {
     std::erase_if(set.nodes, [&](Index n) { return now[n] < 0; });
     for (Index& node : set.nodes) node = now[node];

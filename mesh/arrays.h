@@ -112,6 +112,7 @@ inline void copy_heads(const Mesh& from, Mesh& to) {
   copy(from.node_sets, to.node_sets);
   copy(from.side_sets, to.side_sets);
   copy(from.fields, to.fields);
+  to.others = from.others;
   to.results = from.results;
 }
 

@@ -73,10 +73,11 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-struct FileResults;  // io/results.h
+struct FileResults;    // io/results.h
+struct OtherElements;  // others.h
 
-/// Hexes on nodes, with groups and fields. Plain data: a copy shares nothing but `results`. Functions want hexes that
-/// name existing nodes and ids that ascend; what else makes a mesh sound is for validate() to say.
+/// Hexes on nodes, with groups and fields. Plain data: a copy shares nothing but `others` and `results`. Functions want
+/// hexes that name existing nodes and ids that ascend; what else makes a mesh sound is for validate() to say.
 struct Mesh {
   std::vector<Vec3> points;  ///< per node, model units
   std::vector<Hex> hexes;    ///< per hex its nodes, 0-based, in the order of corners.h
@@ -87,6 +88,9 @@ struct Mesh {
   std::vector<NodeSet> node_sets;     ///< ascending by id
   std::vector<SideSet> side_sets;     ///< ascending by id
   std::vector<Field> fields;          ///< of nodes and of hexes, in any order
+  /// Elements beside the hexes (others.h), null where there are none. Their nodes are among `points`, their ids differ
+  /// from those of hexes.
+  std::shared_ptr<const OtherElements> others;
   /// What the file said for which there is no array here (time steps, ...), null where that is nothing.
   std::shared_ptr<const FileResults> results;
   /// Where `results` have its values: per hex the hex of the file (0-based) that it lies in. Empty: not known.
@@ -96,7 +100,7 @@ struct Mesh {
   Index n_nodes() const { return static_cast<Index>(points.size()); }
   /// Number of hexes; 0: no mesh.
   Index n_hexes() const { return static_cast<Index>(hexes.size()); }
-  /// Equal in everything; results when they are the same object.
+  /// Equal in everything; others and results when they are the same object.
   bool operator==(const Mesh&) const = default;
 };
 

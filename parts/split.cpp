@@ -6,6 +6,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {
@@ -58,6 +59,7 @@ Splitting::Splitting(const MeshedModel& whole, std::span<const int> part_of_hex,
       hexes_(static_cast<std::size_t>(n_parts)),
       borders_(borders_of(whole.mesh.hexes, whole.mesh.n_nodes(), part_of_hex)) {
   const Mesh& mesh = whole.mesh;
+  if (mesh.others) throw Error("a mesh with other elements can't be split: it has " + others_text(mesh));
   for (Index h = 0; h < mesh.n_hexes(); ++h) hexes_[part_of_hex[h]].push_back(h);
   std::vector<char> used(mesh.points.size(), 0);
   for (const Hex& hex : mesh.hexes)

@@ -13,6 +13,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/refine/marks.h"
@@ -29,7 +30,7 @@ Forest bare_forest(Forest forest) {
   auto grown = std::make_shared<GrownForest>();
   grown->hexes.n_base = base.n_hexes();
   grown->next_node_id = node_id(base, base.n_nodes() - 1) + 1;
-  grown->next_hex_id = hex_id(base, base.n_hexes() - 1) + 1;
+  grown->next_hex_id = highest_element_id(base) + 1;
   forest.grown = std::move(grown);
   return forest;
 }
@@ -350,7 +351,7 @@ LevellingPtr planted(const PatchResult& made, const Request& request, const Mesh
     hexes.origin.push_back(std::uint32_t{1} << 28 | std::uint32_t{codes[parent]} << 16 | place);
   }
   grown->next_node_id = node_id(base.mesh, base.mesh.n_nodes() - 1) + 1 + std::ssize(made.splice->nodes().come);
-  grown->next_hex_id = hex_id(base.mesh, base.mesh.n_hexes() - 1) + 1 + std::ssize(made.come);
+  grown->next_hex_id = highest_element_id(base.mesh) + 1 + std::ssize(made.come);
   Levelling result = *after;
   result.forest.grown = std::move(grown);
   return std::make_shared<const Levelling>(std::move(result));
@@ -361,6 +362,8 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
   const Levelling& asked = *request.levelling;
   const bool is_base = asked.forest.is_bare();
   if (!is_base && !asked.forest.grown) return std::nullopt;
+  // Nodes of the base keep their numbers; other elements that are pieces have others, which a splice would change.
+  if (input.mesh.others && input.mesh.others != asked.forest.base->mesh.others) return std::nullopt;
   if (request.finish.level_field && !level_field(input.mesh)) return std::nullopt;
   Levelling whole = asked;
   if (!whole.forest.grown) whole.forest = bare_forest(std::move(whole.forest));
@@ -414,7 +417,7 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
   }
   if (!rings) return std::nullopt;
   std::vector<Index> hexes = hexes_in(grown.hexes, rings->hexes);
-  if (hexes.size() > limit) return std::nullopt;
+  if (hexes.size() > limit || touch_others(input.mesh, hexes)) return std::nullopt;
   ForestPatch part(input, whole, *rings, std::move(hexes));
   if (levels.is_bare && part.levelling.overlay.nodes.size() < whole.overlay.nodes.size()) return std::nullopt;
   levels.wished = part.cells.local(next.wished);

@@ -5,6 +5,8 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/arrays.h"
+#include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {
@@ -96,8 +98,15 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   patch.nodes = number.nodes();
   patch.meshed.model = whole.model;
   copy_heads(whole.mesh, patch.meshed.mesh);
+  patch.meshed.mesh.others = nullptr;
   for_each_array(CutOut{patch, number}, whole, patch.meshed);
   return patch;
+}
+
+bool touch_others(const Mesh& mesh, std::span<const Index> hexes) {
+  if (!mesh.others) return false;
+  const std::vector<std::uint8_t> is_theirs = nodes_of_others(mesh);
+  return std::ranges::any_of(hexes, [&](Index h) { return has_marked_corner(mesh.hexes[h], is_theirs); });
 }
 
 void set_ids(const Mesh& whole, const Patch& patch, Mesh& part) {

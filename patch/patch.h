@@ -55,7 +55,10 @@ struct Patch {
   /// Position among `nodes`, -1 where it is not there.
   Index local_node(Index node) const;
 };
+/// Other elements (mesh/others.h) are not cut out: who changes a patch sees to it that none touches it.
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes);
+/// Has any of these hexes a node that another element has too?
+bool touch_others(const Mesh& mesh, std::span<const Index> hexes);
 /// Gives the mesh of a patch, which has none, the ids of the whole.
 void set_ids(const Mesh& whole, const Patch& patch, Mesh& part);
 

@@ -146,7 +146,7 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
     Stages stages(report, progress);
     stages.begin("patch", 0);
     std::optional<Rings> rings = rings_of(mesh, around.nodes, around.hexes, n_rings, limit);
-    if (!rings) return std::nullopt;
+    if (!rings || touch_others(mesh, rings->hexes)) return std::nullopt;
     PatchResult made;
     made.patch = make_patch(input, std::move(rings->hexes));
     const Request local = request_in_part(asked, made.patch.meshed.mesh, made.patch.nodes, made.patch.hexes,

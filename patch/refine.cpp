@@ -4,6 +4,7 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/mesh/association/meant.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/patch/patch_refine.h"
 #include "hextwist/sizing/levelling.h"
 
@@ -19,6 +20,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
     // Where sizes or distances are measured between passes, only the whole run tells what comes of it.
     Request done = request;
     done.finish.dry_run = request.finish.dry_run && !is_by_places(request);
+    done.finish.fixed = with_nodes_of_others(input.mesh, std::move(done.finish.fixed));
     State state(input, done, report, progress);
     result = run_passes(state, approach);
     if (!done.finish.dry_run) {

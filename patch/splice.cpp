@@ -7,6 +7,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/same_bits.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/patch/splice_lists_internal.h"
 #include "hextwist/refine/split.h"
 
@@ -165,7 +166,7 @@ PatchNumbers::PatchNumbers(const Patch& of, const MeshedModel& whole, const Mesh
   has_hex_ids = !mesh.hex_ids.empty() || !hexes.gone.empty();
   for (std::size_t i = 0; has_node_ids && i < come_nodes.size(); ++i)
     node_ids.push_back(mesh.node_ids.back() + 1 + static_cast<std::int64_t>(i));
-  const std::int64_t last = hex_id(mesh, mesh.n_hexes() - 1);
+  const std::int64_t last = highest_element_id(mesh);
   for (std::size_t i = 0; has_hex_ids && i < come.size(); ++i)
     hex_ids.push_back(last + hex_id(refined, come[i]) - patch.meshed.mesh.n_hexes());
 }

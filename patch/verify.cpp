@@ -13,6 +13,7 @@
 #include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/measure.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_parts.h"
@@ -99,7 +100,7 @@ struct Difference {
     if (hex < change.n_kept) return hex_id(input, change.whole_hex(before_gaps(change.gone, hex)));
     if (!change.come_ids.empty()) return change.come_ids[hex - change.n_kept];
     // New ids follow the highest one.
-    return hex_id(change.after.mesh, hex) - hex_id(before, before.n_hexes() - 1) + hex_id(input, input.n_hexes() - 1);
+    return hex_id(change.after.mesh, hex) - highest_element_id(before) + highest_element_id(input);
   }
 };
 

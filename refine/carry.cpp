@@ -8,6 +8,7 @@
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/refine/node_sets.h"
 #include "hextwist/refine/origin.h"
+#include "hextwist/refine/others.h"
 
 namespace hextwist {
 namespace {
@@ -274,7 +275,7 @@ struct Carry {
     }
     resize_for_overwrite(now, parent.size());
     parallel_each(split.n_kept(), [&](std::size_t i) { now[i] = hex_id(old_mesh, parent[i]); });
-    count_on(now, split.n_kept(), hex_id(old_mesh, old_mesh.n_hexes() - 1) + 1);
+    count_on(now, split.n_kept(), highest_element_id(old_mesh) + 1);
   }
 };
 
@@ -290,6 +291,7 @@ Carried carry(const Mesh& old_mesh, const Association& old_association, Split& s
   copy_heads(old_mesh, carried.mesh);
   const Carry carry_array{old_mesh, split};
   for_each_array(carry_array, old_mesh, carried.mesh);
+  carried.mesh.others = carried_others(old_mesh, split, carried.mesh.points, carried.mesh.hexes);
   if (!old_association.empty()) {
     for_each_array(carry_array, old_association, carried.association);
     carry_node_owners(old_association, split, carried.association);

@@ -9,6 +9,7 @@
 #include "hextwist/io/format.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/refine/levels/reorder.h"
 #include "hextwist/session/load.h"
 #include "hextwist/sizing/levelling.h"
@@ -178,6 +179,8 @@ void check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
 
 void write_levels(const Transaction& run, const std::filesystem::path& file, bool overwrite) {
   if (!run.state.levelling) throw Error("there are no levels to export: this mesh is a base");
+  if (run.meshed->mesh.others)
+    throw Error("levels of a mesh with other elements can't be exported: it has " + others_text(run.meshed->mesh));
   Levelling levelling = *run.state.levelling;
   levelling.forest = with_stack(grown(std::move(levelling.forest)), run.meshed->mesh);
   const MeshedModel& base = *levelling.forest.base;

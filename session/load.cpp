@@ -13,6 +13,7 @@
 #include "hextwist/mesh/association/meant.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/untangle.h"
@@ -364,6 +365,7 @@ void say_mesh(const Transaction& run, const std::string& what) {
     line += ", " + counted(static_cast<std::int64_t>(mesh.node_sets.size()), EntityKind::nodeset);
   if (!mesh.side_sets.empty())
     line += ", " + counted(static_cast<std::int64_t>(mesh.side_sets.size()), EntityKind::sideset);
+  if (mesh.others) line += "; beside them " + others_text(mesh);
   const Summary& shape = run.state.measured.shape;
   line += "; smallest shape " + short_number(shape.min) + " (hex " + std::to_string(hex_id(mesh, shape.min_hex)) + ")";
   run.say(line + off_text("; ", run.state.measured.off_cad, run.state.has_cad));

@@ -9,6 +9,7 @@
 #include "hextwist/io/results.h"
 #include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/move.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/second_order/second_order.h"
 #include "hextwist/session/load.h"
 
@@ -96,6 +97,8 @@ void move(Transaction& run, const Similarity& similarity) {
   MeshedModel meshed = *run.meshed;
   Mesh& mesh = meshed.mesh;
   if (mesh.n_hexes() == 0 && !meshed.model) throw Error("there is neither mesh nor CAD to move");
+  if (mesh.others && similarity.mirrors())
+    throw Error("a mesh with other elements can't be reflected: it has " + others_text(mesh));
   run.stage("move");
   MiddleNodes middles;
   if (!state.has_cad) middles = skin_middles(meshed);
@@ -118,6 +121,8 @@ void move(Transaction& run, const Similarity& similarity) {
   const bool turns = !similarity.turn.isIdentity(0);
   if (turns && std::ranges::any_of(mesh.fields, [](const Field& field) { return field.components > 1; }))
     run.note("fields keep their values: vectors among them are not turned");
+  if (mesh.others && (turns || similarity.factor != 1))
+    run.note("other elements keep what is said of them (thicknesses, directions) as it was");
   if (!state.sizing.empty()) run.note("sizing functions stay where they are: they are of the place before");
   const Measured before = state.measured;
   replace_and_measure(run, std::move(meshed));

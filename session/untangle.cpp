@@ -4,6 +4,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/mesh/validate/validate.h"
@@ -40,6 +41,7 @@ std::vector<Index> untangle_in(const Transaction& run, Mesh& mesh, Association& 
   options.free_boundary = boundary == Boundary::is_free;
   options.iterations = max_sweeps;
   options.nodes = nodes_of_hexes(mesh, hexes);
+  options.fixed = with_nodes_of_others(mesh, {});
   const std::vector<Index> nodes = *options.nodes;
   const std::vector<Vec3> points = items_at(mesh.points, nodes);
   const bool has_parameters = !association.node_parameters.empty();

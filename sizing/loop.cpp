@@ -15,6 +15,7 @@
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
+#include "hextwist/refine/others.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/lift_new.h"
@@ -44,6 +45,7 @@ void State::run(Technique& technique) {
 MeshedModel State::pass(Cut cut) {
   ++n_passes_;
   const MeshedModel& from = *current_;
+  check_others(from.mesh, *cut.table, cut.codes);
   begin("split");
   Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(cut.table), cut.codes);
   begin("carry");
@@ -67,7 +69,8 @@ MeshedModel State::pass(Cut cut) {
       return !stopped;
     };
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
-                                      request.finish.fixed, keep_going, request.finish.keep_jumps),
+                                      with_inner_nodes(next.mesh, next.association, request.finish.fixed), keep_going,
+                                      request.finish.keep_jumps),
                       std::back_inserter(report.off_nodes));
     if (stopped) throw Cancelled();
   }
@@ -123,6 +126,15 @@ std::vector<Index> State::new_nodes() const {
   });
 }
 
+std::vector<Index> State::fixed_now() const {
+  const std::vector<Index>& old = result_.old_node;
+  if (old.empty()) return with_nodes_of_others(mesh(), request.finish.fixed);
+  const std::vector<Index> fixed = sorted_unique(request.finish.fixed);
+  return with_nodes_of_others(mesh(), indices_where(mesh().n_nodes(), [&](Index n) {
+                                return old[n] >= 0 && std::ranges::binary_search(fixed, old[n]);
+                              }));
+}
+
 void State::smooth_band(bool fix_boundary) {
   smooth_around(new_hexes(), fix_boundary);
 }
@@ -134,7 +146,7 @@ void State::smooth_around(std::vector<Index> hexes, bool fix_boundary) {
   const std::vector<Vec3> before = mesh.points;
   SmoothOptions options;
   options.nodes = nodes_inside(mesh, with_layers(mesh, std::move(hexes), smooth_layers));
-  options.fixed = request.finish.fixed;
+  options.fixed = fixed_now();
   options.keep_jumps = request.finish.keep_jumps;
   options.fix_boundary = fix_boundary;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,
@@ -195,7 +207,9 @@ void State::close() {
   // Layers are as thin as they were asked for.
   const bool only_new_hexes = result_.old_node.empty();  // else nodes of others may lie elsewhere, too
   if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty())) {
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, new_nodes(), request.finish);
+    Finish finish = request.finish;
+    finish.fixed = fixed_now();
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, new_nodes(), finish);
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }

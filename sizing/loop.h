@@ -69,6 +69,9 @@ class State {
   /// Hexes of the input that a mesh made of it still has.
   Index n_kept(const Mesh& mesh) const;
   std::vector<Index> new_hexes() const;
+  /// Nodes that smoothing is not to move, by the numbers that they have now: pieces of other elements stay as they were
+  /// placed, where only the repair of inverted hexes may slide them.
+  std::vector<Index> fixed_now() const;
   /// And those that are not where they were.
   std::vector<Index> new_nodes() const;
   void smooth_around(std::vector<Index> hexes, bool fix_boundary);

@@ -17,6 +17,7 @@
 #include "hextwist/mesh/interpolation.h"
 #include "hextwist/mesh/mesh.h"
 #include "hextwist/mesh/meshed_model.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/primitives.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "hextwist/io/middles.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 
@@ -13,6 +14,23 @@ namespace hextwist::io {
 inline constexpr std::array<int, 6> abaqus_face = {
     face_of_file_corners({1, 2, 3, 4}), face_of_file_corners({5, 8, 7, 6}), face_of_file_corners({1, 5, 6, 2}),
     face_of_file_corners({2, 6, 7, 3}), face_of_file_corners({3, 7, 8, 4}), face_of_file_corners({4, 8, 5, 1})};
+
+/// What a type is to us. Names: C3D8R, AC3D20, S4R, T3D2, MASS, ...
+struct AbaqusElement {
+  enum Kind {
+    hex,      ///< of 8, 20 or 27 nodes
+    other,    ///< kept beside the hexes
+    unknown,  ///< likewise, by its nodes alone
+    refused
+  } kind;
+  OtherShape shape;  ///< of `other`
+  int n_nodes;       ///< 0: any number
+};
+AbaqusElement abaqus_element(std::string_view type);
+/// A line with a middle node, which stands between its ends in these files.
+inline bool is_bent_line(const OtherType& type) {
+  return type.shape == OtherShape::line && type.n_nodes == 3;
+}
 
 /// A name or number as it stands in a set or surface; the instance it belongs to, where it says so.
 struct AbaqusMember {
@@ -59,8 +77,12 @@ struct AbaqusScope {
   std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> hex_middles;  ///< hex, what follows its corners
   std::vector<const char*> hex_at;
   std::vector<std::pair<std::size_t, std::string>> hex_types;  ///< from which hex on
-  std::vector<std::int64_t> quad_ids, quad_nodes;
-  std::vector<std::int64_t> other_ids;  ///< beams, triangles, ...
+  std::vector<std::int64_t> other_ids;                         ///< shells, beams, masses, ...
+  std::vector<const char*> other_at;
+  std::vector<std::size_t> other_first;                           ///< per element: where its nodes begin
+  std::vector<std::int64_t> other_nodes;                          ///< 0: named otherwise
+  std::vector<std::pair<std::size_t, std::string>> other_types;   ///< from which element on
+  std::vector<std::pair<std::size_t, AbaqusMember>> named_nodes;  ///< place in other_nodes, "Instance.17"
   std::vector<AbaqusSet> sets;
   std::vector<AbaqusRawCard> cards;
 };
@@ -111,9 +133,7 @@ struct AbaqusPlaced {
 struct AbaqusParts {
   std::vector<AbaqusPlaced> placed;  ///< the model itself, then instances, then the assembly if there is one
   Ids nodes, hexes;
-  std::vector<Quad> quads;
-  std::vector<Side> quad_sides;
-  std::map<std::int64_t, Index> quad_of_id;
+  Ids others;  ///< in the order of the mesh's other elements
   std::vector<int> type_of_hex;
   std::vector<std::string> types;
   FoundMiddles middles;

@@ -17,8 +17,10 @@ class AbaqusAssembly {
   AbaqusParts result() {
     place();
     elements();
+    others();
     for (const auto& [type, n] : in_.n_dropped)
-      out_.notices.push_back("dropped " + counted(n, "element") + " of type " + type);
+      out_.notices.push_back("dropped " + counted(n, "element") + " of type " + type + ", which " +
+                             (n == 1 ? "leaves" : "leave") + " a node out");
     return std::move(parts_);
   }
 
@@ -71,7 +73,7 @@ class AbaqusAssembly {
     }
     placed.nodes = numbers(placed, highest_[0], [](const AbaqusScope& scope, const auto& f) { f(scope.node_ids); });
     placed.elements = numbers(placed, highest_[1], [](const AbaqusScope& scope, const auto& f) {
-      for (const auto* ids : {&scope.hex_ids, &scope.quad_ids, &scope.other_ids}) f(*ids);
+      for (const auto* ids : {&scope.hex_ids, &scope.other_ids}) f(*ids);
     });
     const bool still = position.turn.isIdentity(0) && position.shift.isZero(0);
     for (const AbaqusScope* scope : placed.scopes) {
@@ -134,7 +136,7 @@ class AbaqusAssembly {
   }
 
   void number() {
-    if (hex_ids_.empty()) throw Error(in_.sources[0]->name + ": there is no hex in the file");
+    if (hex_ids_.empty()) throw Error(in_.sources[0]->name + ": there is no hex in the file" + only_others());
     const auto few = [&](const char* what, std::size_t n, std::int64_t announced) {
       if (static_cast<std::int64_t>(n) < announced)
         throw Error(in_.sources[0]->name + ": " + std::to_string(n) + " of the " + std::to_string(announced) + " " +
@@ -169,13 +171,21 @@ class AbaqusAssembly {
     }
     parts_.hexes.sort(out_.mesh.hexes);
     parts_.hexes.sort(parts_.type_of_hex);
-    for (const AbaqusPlaced& placed : parts_.placed)
-      for (const AbaqusScope* scope : placed.scopes)
-        if (scope) quads(placed, *scope);
-    parts_.quad_sides = oriented_sides(out_.mesh, parts_.quads);
-    if (const auto lost = std::ranges::count(parts_.quad_sides, -1, &Side::hex))
-      out_.notices.push_back("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") +
-                             " no side of a hex");
+  }
+
+  /// ", but 12 elements S4, 3 elements MASS"
+  std::string only_others() const {
+    std::map<std::string, std::size_t> n;
+    for (const auto& scope : in_.scopes)
+      for (std::size_t run = 0; run < scope->other_types.size(); ++run) {
+        const std::size_t end =
+            run + 1 < scope->other_types.size() ? scope->other_types[run + 1].first : scope->other_ids.size();
+        n[scope->other_types[run].second] += end - scope->other_types[run].first;
+      }
+    std::string text;
+    for (const auto& [type, count] : n)
+      text += (text.empty() ? ", but " : ", ") + counted(static_cast<std::int64_t>(count), "element") + " " + type;
+    return text;
   }
 
   int type_number(const std::string& type) {
@@ -215,22 +225,92 @@ class AbaqusAssembly {
       parts_.middles.add(out_.mesh.hexes.size() - 1, nodes, abaqus_middles);
     }
   }
-  void quads(const AbaqusPlaced& placed, const AbaqusScope& scope) {
-    for (std::size_t i = 0; i < scope.quad_ids.size(); ++i) {
-      Quad quad;
-      for (std::size_t c = 0; c < 4; ++c) {
-        const std::int64_t id = scope.quad_nodes[4 * i + c];
-        quad[c] = find_node(placed, id);
-        if (quad[c] < 0)
-          in_.fail(scope.at ? scope.at : in_.sources[0]->data.get(), "element " + std::to_string(scope.quad_ids[i]) +
-                                                                         " names node " + std::to_string(id) +
-                                                                         ", which is not there");
+
+  /// Where a node is that an element names.
+  Index other_node(const AbaqusPlaced& placed, const AbaqusScope& scope, std::size_t element, std::size_t at) const {
+    const std::int64_t id = scope.other_nodes[at];
+    const auto named = std::ranges::lower_bound(scope.named_nodes, at, {}, [](const auto& one) { return one.first; });
+    std::string text = std::to_string(id);
+    Index node = find_node(placed, id);
+    if (named != scope.named_nodes.end() && named->first == at) {
+      text = shown(named->second.text);
+      node = -1;
+      const std::string_view said = named->second.text;
+      for (const AbaqusPlaced& other : parts_.placed) {
+        if (other.name.empty() || said.size() <= other.name.size() + 1 || said[other.name.size()] != '.') continue;
+        const std::string_view rest = said.substr(other.name.size() + 1);
+        std::int64_t in_part = 0;
+        const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), in_part);
+        if (same_word(said.substr(0, other.name.size()), other.name) && error == std::errc{} &&
+            stop == rest.data() + rest.size())
+          node = find_node(other, in_part);
       }
-      const auto at =
-          parts_.quad_of_id.emplace(scope.quad_ids[i] + placed.elements.shift, static_cast<Index>(parts_.quads.size()));
-      if (at.second) parts_.quads.push_back(quad);
     }
+    if (node < 0)
+      in_.fail(scope.other_at[element],
+               "element " + std::to_string(scope.other_ids[element]) + " names node " + text + ", which is not there");
+    return node;
   }
+
+  void others() {
+    struct One {
+      std::int64_t id;
+      const char* at;
+      int type;
+      std::size_t begin, end;  // of its nodes
+    };
+    std::vector<One> all;
+    std::vector<Index> nodes;
+    OtherHeads heads;
+    heads.format = "abaqus";
+    for (const AbaqusPlaced& placed : parts_.placed)
+      for (const AbaqusScope* scope : placed.scopes) {
+        if (!scope) continue;
+        // Some programs write the mesh both in a part and in its instance.
+        std::vector<std::int64_t> repeated;
+        if (scope == placed.scopes[1]) repeated = sorted_unique(placed.scopes[0]->other_ids);
+        std::size_t run = 0;
+        int type = 0;
+        for (std::size_t e = 0; e < scope->other_ids.size(); ++e) {
+          if (run < scope->other_types.size() && scope->other_types[run].first == e)
+            type = other_type(heads, scope->other_types[run++].second);
+          if (std::ranges::binary_search(repeated, scope->other_ids[e])) continue;
+          const std::size_t begin = nodes.size();
+          const std::size_t end =
+              e + 1 < scope->other_first.size() ? scope->other_first[e + 1] : scope->other_nodes.size();
+          for (std::size_t i = scope->other_first[e]; i < end; ++i) nodes.push_back(other_node(placed, *scope, e, i));
+          // Here corners come first, there the middle node of a line is the second.
+          if (is_bent_line(heads.types[type])) std::swap(nodes[begin + 1], nodes[begin + 2]);
+          all.push_back({scope->other_ids[e] + placed.elements.shift, scope->other_at[e], type, begin, nodes.size()});
+        }
+      }
+    if (all.empty()) return;
+    std::vector<std::int64_t> ids;
+    for (const One& one : all) {
+      if (parts_.hexes.find(one.id) >= 0) in_.fail(one.at, "element id " + std::to_string(one.id) + " occurs twice");
+      ids.push_back(one.id);
+    }
+    parts_.others =
+        Ids(std::move(ids), "element", [&](std::size_t i, const std::string& what) { in_.fail(all[i].at, what); });
+    parts_.others.sort(all);
+    std::vector<Index> in_order, starts = {0};
+    for (const One& one : all) {
+      heads.ids.push_back(one.id);
+      heads.type.push_back(one.type);
+      in_order.insert(in_order.end(), nodes.begin() + static_cast<std::ptrdiff_t>(one.begin),
+                      nodes.begin() + static_cast<std::ptrdiff_t>(one.end));
+      starts.push_back(static_cast<Index>(in_order.size()));
+    }
+    out_.mesh.others = other_elements(std::move(heads), std::move(starts), std::move(in_order));
+  }
+  static int other_type(OtherHeads& heads, const std::string& name) {
+    const auto at = std::ranges::find(heads.types, name, &OtherType::name);
+    if (at != heads.types.end()) return static_cast<int>(at - heads.types.begin());
+    const AbaqusElement element = abaqus_element(name);
+    heads.types.push_back({element.shape, element.n_nodes, name});
+    return static_cast<int>(heads.types.size()) - 1;
+  }
+
   Index find_node(const AbaqusPlaced& placed, std::int64_t id) const { return parts_.nodes.find(placed.nodes(id)); }
 
   const AbaqusContents& in_;

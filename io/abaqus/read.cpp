@@ -2,8 +2,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 #include <numbers>
+#include <set>
 
-#include "hextwist/base/sorted.h"
 #include "hextwist/io/abaqus/abaqus_internal.h"
 
 namespace hextwist::io {
@@ -31,31 +31,6 @@ void AbaqusContents::fail(const char* at, const std::string& what) const {
 }
 
 namespace {
-
-enum class Shape { hex, quad, other, refused };
-
-/// Nodes of a solid by the number in its name ("C3D20R": 20), 0 where there is none.
-int nodes_of_solid(const std::string& type) {
-  const std::size_t digit =
-      type.find_first_of("0123456789", type.find("3D") == std::string::npos ? 0 : type.find("3D") + 2);
-  return digit == std::string::npos ? 0 : std::atoi(type.c_str() + digit);
-}
-
-/// Element types by what they are made of. Names: C3D8R, AC3D20, S4R, T3D2, ...
-Shape shape_of(const std::string& type) {
-  const auto has = [&](std::string_view start) { return type.starts_with(start); };
-  for (const std::string_view solid : {"C3D", "AC3D", "DC3D", "DCC3D", "Q3D", "F3D", "FC3D", "EC3D", "CIN3D", "COH3D"})
-    if (has(solid)) {
-      const int n =
-          solid == "COH3D" || solid == "CIN3D" ? (type.substr(solid.size(), 1) == "8" ? 8 : 0) : nodes_of_solid(type);
-      return n == 8 || n == 20 || n == 27 ? Shape::hex : Shape::refused;
-    }
-  if (has("SC8")) return Shape::hex;  // continuum shell: eight corners as well
-  if (has("SC6") || has("CSS8")) return has("SC6") ? Shape::refused : Shape::hex;
-  for (const std::string_view quad : {"S4", "M3D4", "R3D4", "SFM3D4", "DS4", "CPS4", "CPE4", "DC2D4", "CAX4"})
-    if (has(quad)) return Shape::quad;
-  return Shape::other;
-}
 
 class Parser {
  public:
@@ -87,7 +62,6 @@ class Parser {
       out_.notices.push_back(cursor.where(cursor.end) + ": the last line has no end; the file may be cut short");
   }
   void finish() {
-    for (const auto& scope : out_.scopes) sort_unique(scope->other_ids);
     if (out_.announced[1] > 0 && !ended_)
       throw Error(out_.sources[0]->name + ": the file ends before '** hextwist end': it is cut short");
   }
@@ -306,54 +280,98 @@ class Parser {
   void elements(Cursor& cursor, const Keyword& keyword) {
     if (keyword.find("INPUT")) out_.fail(keyword.at, "*ELEMENT with INPUT= is not supported");
     const std::string type = upper_case(required(keyword, "TYPE"));
-    const Shape shape = shape_of(type);
-    const bool second_order = shape == Shape::hex && !type.starts_with("SC8") && !type.starts_with("CSS8") &&
-                              !type.starts_with("COH") && nodes_of_solid(type) > 8;
+    const AbaqusElement element = abaqus_element(type);
     AbaqusScope& to = *scope_;
     std::vector<std::int64_t> ids;
     bool ignored = false;
     while (data_line(cursor, ignored)) {
       const char* at = cursor.at;
       const auto id = cursor.integer("an element id");
-      ids.push_back(id);
-      if (shape == Shape::refused)
+      if (element.kind == AbaqusElement::refused)
         cursor.fail_at(at, "element " + std::to_string(id) + " is of type " + type +
-                               "; only hexes of 8, 20 or 27 nodes are accepted");
-      bool more = comma(cursor);
-      if (shape == Shape::hex || shape == Shape::quad) {
-        const int n = shape == Shape::quad ? 4 : second_order ? nodes_of_solid(type) : 8;
-        std::vector<std::int64_t> middles;
-        for (int c = 0; c < n; ++c) {
-          auto& nodes = c >= 8 ? middles : shape == Shape::hex ? to.hex_nodes : to.quad_nodes;
-          // Many nodes go on in the next line, with or without a comma at the end of this one.
-          if (!more && second_order && c >= 8 && line_ends(cursor)) more = data_line(cursor, ignored);
-          if (!more)
-            cursor.fail_at(at, "element " + std::to_string(id) + " has " + std::to_string(c) + " of " +
-                                   std::to_string(n) + " nodes");
-          if (line_ends(cursor)) data_line(cursor, ignored);  // goes on in the next line
-          nodes.push_back(cursor.integer("a node"));
-          more = comma(cursor);
-        }
-        if (shape == Shape::hex) to.hex_at.push_back(at);
-        if (!middles.empty()) to.hex_middles.emplace_back(to.hex_at.size() - 1, std::move(middles));
-      } else {
-        // Its nodes may be of instances ("part-1.3"), and it is not kept: only where it ends matters.
-        while (more) {
-          if (line_ends(cursor) && !data_line(cursor, ignored)) break;
-          more = trimmed(cursor.line()).ends_with(',');
-          if (more && (cursor.at == cursor.end || *cursor.at == '*')) break;
-        }
+                               "; of solids, hexes of 8, 20 or 27 nodes and tetrahedra, pyramids and wedges of usual "
+                               "numbers of nodes are accepted");
+      const bool more = comma(cursor);
+      if (element.kind != AbaqusElement::hex) {
+        if (other_element(cursor, type, element, id, at, more)) ids.push_back(id);
         continue;
       }
-      skip_inline(cursor);
-      if (!line_ends(cursor)) cursor.fail("element " + std::to_string(id) + " has more nodes than a " + type);
+      ids.push_back(id);
+      hex_nodes(cursor, type, element.n_nodes, id, at, more);
     }
     if (const std::string* set = keyword.find("ELSET"))
       to.sets.push_back({.kind = AbaqusSet::elements, .name = *set, .at = keyword.at, .ids = ids});
-    if (shape == Shape::hex && !ids.empty()) to.hex_types.emplace_back(to.hex_ids.size(), type);
-    auto& kept = shape == Shape::hex ? to.hex_ids : shape == Shape::quad ? to.quad_ids : to.other_ids;
+    if (ids.empty()) return;
+    const bool hexes = element.kind == AbaqusElement::hex;
+    if (hexes) to.hex_types.emplace_back(to.hex_ids.size(), type);
+    if (!hexes) to.other_types.emplace_back(to.other_ids.size(), type);
+    auto& kept = hexes ? to.hex_ids : to.other_ids;
     kept.insert(kept.end(), ids.begin(), ids.end());
-    if (shape == Shape::other) out_.n_dropped[type] += std::ssize(ids);
+    if (element.kind == AbaqusElement::unknown && known_.insert(type).second)
+      out_.notices.push_back(out_.where(keyword.at) + ": elements of type " + type +
+                             " are kept by their nodes: whether they share edges with hexes is not known");
+  }
+
+  void hex_nodes(Cursor& cursor, const std::string& type, int n, std::int64_t id, const char* at, bool more) {
+    AbaqusScope& to = *scope_;
+    bool ignored = false;
+    std::vector<std::int64_t> middles;
+    for (int c = 0; c < n; ++c) {
+      auto& nodes = c >= 8 ? middles : to.hex_nodes;
+      // Many nodes go on in the next line, with or without a comma at the end of this one.
+      if (!more && c >= 8 && line_ends(cursor)) more = data_line(cursor, ignored);
+      if (!more)
+        cursor.fail_at(
+            at, "element " + std::to_string(id) + " has " + std::to_string(c) + " of " + std::to_string(n) + " nodes");
+      if (line_ends(cursor)) data_line(cursor, ignored);  // goes on in the next line
+      nodes.push_back(cursor.integer("a node"));
+      more = comma(cursor);
+    }
+    to.hex_at.push_back(at);
+    if (!middles.empty()) to.hex_middles.emplace_back(to.hex_at.size() - 1, std::move(middles));
+    skip_inline(cursor);
+    if (!line_ends(cursor)) cursor.fail("element " + std::to_string(id) + " has more nodes than a " + type);
+  }
+
+  /// Behind the id. False: it leaves a node out (one end of a connector may be the ground), and is dropped.
+  bool other_element(Cursor& cursor, const std::string& type, const AbaqusElement& element, std::int64_t id,
+                     const char* at, bool more) {
+    AbaqusScope& to = *scope_;
+    // A node more says how a beam is turned.
+    const bool any = element.n_nodes == 0;
+    const std::size_t least = static_cast<std::size_t>(element.n_nodes),
+                      most = least + (element.shape == OtherShape::line ? 1 : 0);
+    std::vector<AbaqusMember> words;
+    bool ignored = false;
+    for (;;) {
+      if (more && line_ends(cursor) && (any || words.size() < least)) more = data_line(cursor, ignored);
+      if (!more && words.size() < least && least >= 8 && line_ends(cursor)) more = data_line(cursor, ignored);
+      if (!more || line_ends(cursor)) break;
+      skip_inline(cursor);
+      const char* start = cursor.at;
+      while (!line_ends(cursor) && *cursor.at != ',') ++cursor.at;
+      words.push_back({std::string(trimmed({start, static_cast<std::size_t>(cursor.at - start)})), start});
+      more = comma(cursor);
+    }
+    const bool is_short = !any && words.size() < least, has_gap = std::ranges::any_of(
+                                                            words, [](const auto&word) { return word.text.empty(); });
+    if (element.shape == OtherShape::connector && (is_short || has_gap || words.empty())) {
+      ++out_.n_dropped[type];
+      return false;
+    }
+    if (is_short || has_gap)
+      out_.fail(at, "element " + std::to_string(id) + " has " + std::to_string(words.size()) + " of " +
+                        std::to_string(least) + " nodes");
+    if (!any && words.size() > most)
+      out_.fail(words[most].at, "element " + std::to_string(id) + " has more nodes than a " + type);
+    to.other_at.push_back(at);
+    to.other_first.push_back(to.other_nodes.size());
+    for (const AbaqusMember& word : words) {
+      const auto node = number(word.text);
+      if (!node) to.named_nodes.emplace_back(to.other_nodes.size(), AbaqusMember{unquoted(word.text), word.at});
+      to.other_nodes.push_back(node.value_or(0));
+    }
+    return true;
   }
 
   /// Words of a data line, separated by commas.
@@ -476,6 +494,7 @@ class Parser {
   AbaqusContents& out_;
   const std::filesystem::path only_below_;
   AbaqusScope* scope_;
+  std::set<std::string> known_;  // types that were told of
   bool begun_ = false, ended_ = false;
 };
 

@@ -1,6 +1,6 @@
 // Sets and surfaces of an Abaqus file become blocks, side sets and node sets; element types and cards follow them.
 //
-// Element sets are blocks (their hexes) and side sets (their quads), node sets and surfaces of nodes are node sets,
+// Element sets are blocks (of hexes and other elements), node sets and surfaces of nodes are node sets,
 // surfaces of elements side sets; ids count them in the order of the file. Sets of a part or an instance are named
 // instance.set, as Abaqus names them from outside.
 #include <limits>
@@ -14,10 +14,11 @@ namespace {
 
 using Reference = AbaqusCard::Reference;
 
-/// Members of a set: indices of the mesh, and of the file's quads.
+/// Members of a set: indices of the mesh, others by their place among the other elements.
 struct Members {
-  std::vector<Index> nodes, hexes, quads;
+  std::vector<Index> nodes, hexes, others;
   std::vector<Side> sides;
+  std::vector<std::pair<Index, std::string>> other_sides;
 };
 
 class Sets {
@@ -67,15 +68,9 @@ class Sets {
       to.hexes.push_back(hex);
       return true;
     }
-    if (const auto quad = parts_.quad_of_id.find(in_mesh); quad != parts_.quad_of_id.end()) {
-      to.quads.push_back(quad->second);
-      if (const Side side = parts_.quad_sides[quad->second]; side.hex >= 0) to.sides.push_back(side);
-      return true;
-    }
-    bool other = false;  // dropped
-    each_scope(placed,
-               [&](const AbaqusScope& scope) { other = other || std::ranges::binary_search(scope.other_ids, id); });
-    return other;
+    const Index other = parts_.others.find(in_mesh);
+    if (other >= 0) to.others.push_back(other);
+    return other >= 0;
   }
   void add(const AbaqusPlaced& placed, bool nodes, std::int64_t id, Members& to) {
     if (!(nodes ? add_node(placed, id, to) : add_element(placed, id, to))) missing(nodes ? "node" : "element", id, 1);
@@ -111,7 +106,7 @@ class Sets {
     }
     missing(nodes ? "node" : "element", lost ? lost : first < own.low ? first : last, size + 1 - n);
   }
-  Index n_elements() const { return parts_.hexes.size() + static_cast<Index>(parts_.quads.size()); }
+  Index n_elements() const { return parts_.hexes.size() + parts_.others.size(); }
   /// The same over the ids that there are.
   void add_sparse_range(const AbaqusPlaced& placed, bool nodes, const std::array<std::int64_t, 3>& range, Members& to) {
     const auto [first, last, step] = range;
@@ -123,7 +118,7 @@ class Sets {
     };
     each_scope(placed, [&](const AbaqusScope& scope) {
       if (nodes) return take(scope.node_ids);
-      for (const auto* ids : {&scope.hex_ids, &scope.quad_ids, &scope.other_ids}) take(*ids);
+      for (const auto* ids : {&scope.hex_ids, &scope.other_ids}) take(*ids);
     });
     missing(nodes ? "node" : "element", first,
             (static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)) / static_cast<std::uint64_t>(step) +
@@ -148,8 +143,10 @@ class Sets {
       resolve_member(*home, false, {set.elset, set.at}, elements, depth);
       for (const Index h : elements.hexes)
         to.nodes.insert(to.nodes.end(), out_.mesh.hexes[h].begin(), out_.mesh.hexes[h].end());
-      for (const Index q : elements.quads)
-        to.nodes.insert(to.nodes.end(), parts_.quads[q].begin(), parts_.quads[q].end());
+      for (const Index e : elements.others) {
+        const auto nodes = out_.mesh.others->nodes_of(e);
+        to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
+      }
     }
   }
   /// The place and the rest of "Instance.rest"; the place itself where no instance is named.
@@ -198,9 +195,12 @@ class Sets {
     if (in_.ours && (key == "NALL" || key == "EALL") && !in_.real_names.contains({kind_words[set.kind], key})) return;
     auto& to = sets_[{set.kind, key}];
     if (to.order == 0) to = {sets_.size(), name, {}};
-    for (auto [from, into] : {std::pair(&members.nodes, &to.members.nodes), {&members.hexes, &to.members.hexes}})
+    for (auto [from, into] : {std::pair(&members.nodes, &to.members.nodes),
+                              {&members.hexes, &to.members.hexes},
+                              {&members.others, &to.members.others}})
       into->insert(into->end(), from->begin(), from->end());
     to.members.sides.insert(to.members.sides.end(), members.sides.begin(), members.sides.end());
+    to.members.other_sides.insert(to.members.other_sides.end(), members.other_sides.begin(), members.other_sides.end());
   }
 
   void add_surface(const AbaqusPlaced& placed, const AbaqusSet& set, const AbaqusMember& member,
@@ -209,7 +209,7 @@ class Sets {
     if (!home) in_.fail(set.at, "there is no instance " + shown(set.instance));
     Members elements;
     resolve_member(*home, false, member, elements, 0);
-    to.sides.insert(to.sides.end(), elements.sides.begin(), elements.sides.end());  // quads: SPOS, SNEG
+    for (const Index e : elements.others) to.other_sides.emplace_back(e, face);
     if (elements.hexes.empty()) return;
     if (face.empty()) {
       // Without a face: those that are on the skin.
@@ -230,11 +230,17 @@ class Sets {
     std::ranges::sort(order);
     Mesh& mesh = out_.mesh;
     std::string empty;
+    std::vector<OtherSet> sets_of_others;
+    std::vector<OtherSides> sides_of_others;
+    std::vector<std::uint8_t> is_rigid(static_cast<std::size_t>(n_others(mesh)), 0);
+    bool any_rigid = false;
     for (const auto& [position, key] : order) {
       auto& [unused, name, members, block, other] = sets_[key];
       sort_unique(members.nodes);
       sort_unique(members.hexes);
       sort_unique(members.sides);
+      sort_unique(members.others);
+      sort_unique(members.other_sides);
       const auto real = [&](const char* kind, auto& groups) -> auto& {
         const auto known = in_.real_names.find({kind, key.second});
         auto& group = group_of_id(groups, known == in_.real_names.end() ? free_id(groups) : known->second.first);
@@ -251,24 +257,35 @@ class Sets {
         SideSet& set = real("sideset", mesh.side_sets);
         set.sides = std::move(members.sides);
         other = {Reference::side_set, set.id};
+        if (!members.other_sides.empty()) {
+          OtherSides& to = sides_of_others.emplace_back();
+          to.id = set.id;
+          for (auto& [element, side] : members.other_sides) {
+            // Edges of shells and ends of beams: pieces have them in part.
+            if (side.starts_with("E")) is_rigid[element] = 1, any_rigid = true;
+            to.elements.push_back(element);
+            to.sides.push_back(std::move(side));
+          }
+        }
       }
       if (key.first != AbaqusSet::elements) continue;
-      const bool quads = !members.sides.empty(), known = in_.real_names.contains({"block", key.second});
-      if (!members.hexes.empty() || known) {
+      if (!members.hexes.empty() || !members.others.empty() || in_.real_names.contains({"block", key.second})) {
         Block& set = real("block", mesh.blocks);
         set.hexes = std::move(members.hexes);
+        if (!members.others.empty()) sets_of_others.push_back({set.id, std::move(members.others)});
         block = set.id;
-      } else if (!quads) {
+      } else {
         empty += (empty.empty() ? "'" : ", '") + name + "'";
-      }
-      if (quads) {
-        SideSet& set = real("sideset", mesh.side_sets);
-        set.sides = std::move(members.sides);
-        other = {Reference::side_set, set.id};
       }
     }
     std::ranges::sort(out_.extras.node_surfaces);
-    if (!empty.empty()) out_.notices.push_back("element sets without a hex or a side are left out: " + empty);
+    if (!empty.empty()) out_.notices.push_back("element sets without an element are left out: " + empty);
+    if (!mesh.others) return;
+    OtherHeads heads = *mesh.others->heads;
+    heads.sets = std::move(sets_of_others);
+    heads.sides = std::move(sides_of_others);
+    if (any_rigid) heads.is_rigid = std::move(is_rigid);
+    mesh.others = other_elements(std::move(heads), mesh.others->first, mesh.others->nodes);
   }
 
   /// Types by blocks, which refinements carry. A type whose hexes are no block gets one.
@@ -317,7 +334,8 @@ class Sets {
     const auto [home, name] = split(placed, word);
     if (const auto id = number(name)) {
       const bool nodes = kind == AbaqusNamed::nodes;
-      const Index at = nodes ? parts_.nodes.find(home->nodes(*id)) : parts_.hexes.find(home->elements(*id));
+      Index at = nodes ? parts_.nodes.find(home->nodes(*id)) : parts_.hexes.find(home->elements(*id));
+      if (!nodes && at < 0) at = parts_.others.find(home->elements(*id));
       if (at < 0 || (nodes && !parts_.is_middle.empty() && parts_.is_middle[at])) return {{}, true};
       return {std::pair(nodes ? Reference::node : Reference::hex, nodes ? home->nodes(*id) : home->elements(*id)),
               false};

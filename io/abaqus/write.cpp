@@ -4,6 +4,7 @@
 #include <set>
 
 #include "hextwist/io/abaqus/abaqus_internal.h"
+#include "hextwist/io/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -92,6 +93,59 @@ std::vector<std::pair<std::string, std::vector<Index>>> hexes_by_type(const Mesh
   return result;
 }
 
+/// What elements of another format are called: empty where there is nothing like them.
+std::string usual_abaqus_type(const OtherType& type) {
+  const int n = type.n_nodes;
+  switch (type.shape) {
+    case OtherShape::point:
+      return "MASS";
+    case OtherShape::line:
+      return n == 2 ? "B31" : n == 3 ? "B32" : "";
+    case OtherShape::triangle:
+      return n == 3 ? "S3" : n == 6 ? "STRI65" : "";
+    case OtherShape::quad:
+      return n == 4 ? "S4" : n == 8 ? "S8R" : n == 9 ? "S9R5" : "";
+    case OtherShape::tetrahedron:
+      return n == 4 ? "C3D4" : n == 10 ? "C3D10" : "";
+    case OtherShape::pyramid:
+      return n == 5 ? "C3D5" : "";
+    case OtherShape::wedge:
+      return n == 6 ? "C3D6" : n == 15 ? "C3D15" : "";
+    case OtherShape::connector:
+      return n == 2 ? "CONN3D2" : "";
+  }
+  return "";
+}
+
+/// Elements beside the hexes, by type; per element whether it is in the file.
+void write_abaqus_others(Output& out, const Mesh& mesh, std::span<const std::int64_t> node_ids,
+                         const std::vector<std::int64_t>& ids, std::vector<std::string>& notices) {
+  const OtherElements& others = *mesh.others;
+  const bool own = others.heads->format == "abaqus";
+  for (std::size_t t = 0; t < others.heads->types.size(); ++t) {
+    const OtherType& type = others.heads->types[t];
+    const std::string name = own ? type.name : usual_abaqus_type(type);
+    std::int64_t n = 0;
+    for (Index e = 0; e < others.size(); ++e) {
+      if (others.heads->type[others.of[e]] != static_cast<int>(t)) continue;
+      if (n++ == 0 && !name.empty()) out << "*ELEMENT, TYPE=" << name << '\n';
+      if (name.empty()) continue;
+      std::vector<Index> nodes(others.nodes_of(e).begin(), others.nodes_of(e).end());
+      if (is_bent_line(type)) std::swap(nodes[1], nodes[2]);
+      out << ids[e];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        out << (i > 0 && i % 15 == 0 ? ",\n" : ", ") << id_of(node_ids, nodes[i]);
+      out << '\n';
+    }
+    if (n > 0 && name.empty())
+      notices.push_back(counted(n, std::string("other element of type ") + type.name,
+                                std::string("other elements of type ") + type.name) +
+                        " left out: Abaqus has nothing like them");
+    if (n > 0 && !own && !name.empty())
+      notices.push_back(counted(n, hextwist::name(type.shape)) + " written as " + name + ", which need a section");
+  }
+}
+
 /// Cards with the labels that their sets have now, without those and the lines that are about nothing any more.
 void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const AllLabels& labels,
                  std::vector<std::string>& notices) {
@@ -106,7 +160,8 @@ void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const 
       const Reference at = card.references[k];
       std::string now;
       if (at.kind == Reference::node && find_node(mesh, at.id) >= 0) now = std::to_string(at.id);
-      if (at.kind == Reference::hex && find_hex(mesh, at.id) >= 0) now = std::to_string(at.id);
+      if (at.kind == Reference::hex && (find_hex(mesh, at.id) >= 0 || find_other(mesh, at.id) >= 0))
+        now = std::to_string(at.id);
       if (at.kind <= Reference::side_set)
         if (const std::string* label = labels[at.kind].of(at.id)) now = *label;
       if (!now.empty()) {
@@ -172,6 +227,8 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
       out << '\n';
     }
   }
+  const std::vector<std::int64_t> other_ids = other_ids_in_file(mesh, hex_ids, highest_id, limit, notices);
+  if (mesh.others) write_abaqus_others(out, mesh, node_ids, other_ids, notices);
   const auto begin = [&](const char* kind, const char* keyword, const auto& group, AbaqusCard::Reference::Kind which) {
     const std::string& label = *labels[which].of(group.id);
     out << "** hextwist " << kind << ' ' << group.id << ' ' << label << ' ' << one_line(group.name) << '\n'
@@ -180,6 +237,8 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
   for (const Block& block : mesh.blocks) {
     begin("block", "*ELSET, ELSET=", block, AbaqusCard::Reference::block);
     write_ids(out, block.hexes.size(), [&](std::size_t i) { return id_of(hex_ids, block.hexes[i]); });
+    const std::vector<Index> others = others_of_block(mesh, block.id);
+    write_ids(out, others.size(), [&](std::size_t i) { return other_ids[others[i]]; });
   }
   for (const NodeSet& set : mesh.node_sets) {
     begin("nodeset", "*NSET, NSET=", set, AbaqusCard::Reference::node_set);
@@ -193,6 +252,8 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
   for (const SideSet& set : mesh.side_sets) {
     begin("sideset", "*SURFACE, TYPE=ELEMENT, NAME=", set, AbaqusCard::Reference::side_set);
     for (const Side& side : set.sides) out << id_of(hex_ids, side.hex) << ", S" << number[side.face] << '\n';
+    for (const auto& [element, side] : other_sides_of(mesh, set.id))
+      out << other_ids[element] << (side.empty() ? "" : ", ") << side << '\n';
   }
   write_cards(out, mesh, extras, labels, notices);
   out << "** hextwist end\n";

@@ -2,16 +2,19 @@
 //
 // Element blocks are blocks. Element sets are blocks as well: one with the id of an element block that lies wholly in
 // it is that block (blocks that overlap are written so), any other one gets an id of its own if its id is taken.
-// Blocks of quads (SHELL, QUAD) become side sets where they are sides of hexes. Ids that no int holds are replaced,
-// with a note, and are there again when the mesh is written.
+// Blocks of anything but hexes are other elements (mesh/others.h), with their attributes. Ids that no int holds are
+// replaced, with a note, and are there again when the mesh is written.
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "hextwist/base/fenced.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/io/exodus/exodus_internal.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -52,6 +55,7 @@ class ExodusReader {
     side_sets();
     node_sets();
     element_sets();
+    finish_others();
     fields(EX_NODAL, Field::On::node);
     fields(EX_ELEM_BLOCK, Field::On::hex);
     out_.mesh.fields = merge_components(std::move(out_.mesh.fields));
@@ -163,6 +167,7 @@ class ExodusReader {
     if (n_elements) check(ex_get_id_map(file_.id, EX_ELEM_MAP, map.data()), "the element id map");
     reserve_large(out_.mesh.hexes, n_elements);
     resize_large(hex_of_element_, n_elements, Index{-1});
+    heads_.format = "exodus";
     std::int64_t first = 0;
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
       ex_block block{};
@@ -174,11 +179,14 @@ class ExodusReader {
       read_block(block, std::span(map).subspan(first, n), first);
       first += n;
     }
-    if (out_.mesh.hexes.empty()) fail("there is no hex in the file");
+    if (out_.mesh.hexes.empty()) fail("there is no hex in the file" + only_others());
     if (out_.mesh.hexes.size() < map.size()) {
       std::size_t n_kept = 0;
       for (std::size_t e = 0; e < map.size(); ++e)
-        if (hex_of_element_[e] >= 0) map[n_kept++] = map[e];
+        if (hex_of_element_[e] >= 0)
+          map[n_kept++] = map[e];
+        else if (const Index other = other_of(static_cast<std::int64_t>(e)); other >= 0)
+          heads_.ids[other] = map[e];
       map.resize(n_kept);
     }
     hexes_ = Ids(std::move(map), "element", [&](std::size_t, const std::string& what) { fail(what); });
@@ -200,16 +208,76 @@ class ExodusReader {
                       hex_of_element_.begin() + block.first + block.n);
       sort_unique(to.hexes);
     }
-    quad_sides_ = oriented_sides(out_.mesh, quads_);
+    other_blocks();
+  }
+
+  /// ", but 12 SHELL4 (element block 3)"
+  std::string only_others() const {
+    std::string text;
+    for (const FileBlock& block : blocks_)
+      if (block.n > 0)
+        text += (text.empty() ? ", but " : ", ") + std::to_string(block.n) + " " +
+                heads_.types[heads_.type[other_of(block.first)]].name + " (element block " + std::to_string(block.id) +
+                ")";
+    return text;
+  }
+
+  void other_blocks() {
+    if (heads_.ids.empty()) return;
+    const Ids ids(heads_.ids, "element", [&](std::size_t, const std::string& what) { fail(what); });
+    for (const std::int64_t id : heads_.ids)
+      if (hexes_.find(id) >= 0) fail("element id " + std::to_string(id) + " occurs twice");
     for (const FileBlock& block : blocks_) {
-      if (block.hexes || block.n == 0 || quad(block.first) < 0) continue;
-      const auto side_sets = ids(EX_SIDE_SET, init_.num_side_sets);
-      const bool taken = !fits(block.id) || std::ranges::find(side_sets, block.id) != side_sets.end();
-      quad_sets_.push_back({taken ? -1 : group_id(EX_ELEM_BLOCK, block.id), group_name(EX_ELEM_BLOCK, block.id), {}});
-      for (std::int64_t e = block.first; e < block.first + block.n; ++e)
-        if (const Side side = quad_sides_[quad(e)]; side.hex >= 0) quad_sets_.back().sides.push_back(side);
-      sort_unique(quad_sets_.back().sides);
+      if (block.hexes || block.n == 0) continue;
+      const int id = group_id(EX_ELEM_BLOCK, block.id);
+      const std::string name = group_name(EX_ELEM_BLOCK, block.id);
+      other_attributes(block);
+      if (name == exodus_rest_block) continue;
+      group_of_id(out_.mesh.blocks, id).name = name;
+      OtherSet set{id, std::vector<Index>(static_cast<std::size_t>(block.n))};
+      std::iota(set.elements.begin(), set.elements.end(), other_of(block.first));
+      heads_.sets.push_back(std::move(set));
     }
+  }
+
+  void other_attributes(const FileBlock& block) {
+    int n = 0;
+    if (ex_get_attr_param(file_.id, EX_ELEM_BLOCK, block.id, &n) < 0 || n <= 0) return;
+    const std::size_t length = std::max<std::size_t>(name_length_, MAX_STR_LENGTH) + 1;
+    std::vector<std::string> names(size(n, "attributes"), std::string(length, '\0'));
+    std::vector<char*> pointers;
+    for (std::string& name : names) pointers.push_back(name.data());
+    check(ex_get_attr_names(file_.id, EX_ELEM_BLOCK, block.id, pointers.data()), "names of attributes");
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      OtherField field{std::string(trimmed(names[a].c_str())), 1, {}, true, false};
+      if (field.name.empty()) field.name = "attribute_" + std::to_string(a + 1);
+      std::vector<double> of_block(static_cast<std::size_t>(block.n));
+      check(ex_get_one_attr(file_.id, EX_ELEM_BLOCK, block.id, static_cast<int>(a) + 1, of_block.data()),
+            "attribute " + field.name);
+      field.values.assign(heads_.ids.size(), std::numeric_limits<double>::quiet_NaN());
+      std::ranges::copy(of_block, field.values.begin() + other_of(block.first));
+      heads_.fields.push_back(std::move(field));
+    }
+  }
+
+  /// Adds the other elements when all is said of them.
+  void finish_others() {
+    if (heads_.ids.empty()) return;
+    std::vector<std::string> lost;
+    int n = 0;
+    if (ex_get_variable_param(file_.id, EX_ELEM_BLOCK, &n) >= 0 && n > 0 && ex_inquire_int(file_.id, EX_INQ_TIME) > 0)
+      for (int v = 1; v <= n; ++v)
+        for (const FileBlock& block : blocks_) {
+          if (block.hexes || block.n == 0) continue;
+          std::vector<double> values(static_cast<std::size_t>(block.n));
+          if (ex_get_var(file_.id, 1, EX_ELEM_BLOCK, v, block.id, block.n, values.data()) != 0) continue;
+          lost.push_back(std::to_string(block.id));
+        }
+    sort_unique(lost);
+    if (!lost.empty())
+      out_.notices.push_back("dropped the variables of other elements (element block" +
+                             std::string(lost.size() == 1 ? " " : "s ") + joined(lost, ", ") + ")");
+    out_.mesh.others = other_elements(std::move(heads_), std::move(other_first_), std::move(other_nodes_));
   }
 
   /// Turns positions of nodes into indices. element(i): the id of the element that number i belongs to.
@@ -240,19 +308,16 @@ class ExodusReader {
     const bool hexes = map.empty() ? unnamed || starts("hex") : sized && (starts("hex") || unnamed);
     blocks_.push_back({block.id, first, std::ssize(map), hexes});
     if (map.empty()) return;
-    const bool quads = n_nodes == 4 && (starts("quad") || starts("shell"));
-    const bool small = quads || starts("shell") || starts("tri") || starts("quad") || starts("bar") || starts("beam") ||
-                       starts("truss") || starts("edge") || starts("rod") || starts("sphere") || starts("circle") ||
-                       starts("point") || n_nodes == 1;
-    if (!hexes && !small)
+    const int type_of_others = hexes ? -1 : other_type(block.topology, type, static_cast<int>(n_nodes));
+    if (!hexes && type_of_others < 0)
       fail(name + ": element " + std::to_string(map[0]) + " is of type " + block.topology + " with " +
-           std::to_string(n_nodes) + " nodes; only hexes of 8, 20 or 27 nodes are accepted");
-    if (!hexes && !quads) {
-      out_.notices.push_back("dropped " + std::to_string(map.size()) + " elements of type " + block.topology + " (" +
-                             name + ")");
-      return;
+           std::to_string(n_nodes) + " nodes; only hexes of 8, 20 or 27 nodes, and spheres, bars, triangles, shells, " +
+           "tetrahedra, pyramids and wedges beside them are accepted");
+    if (!hexes) {
+      if (other_of_element_.empty()) other_of_element_.resize(hex_of_element_.size(), -1);
+      const OtherType& of = heads_.types[type_of_others];
+      swaps_ = of.shape == OtherShape::wedge && of.n_nodes == 15;
     }
-    if (quads) quad_of_element_.resize(hex_of_element_.size(), -1);
     Ints nodes(exodus_piece * static_cast<std::size_t>(n_nodes));
     in_pieces(map.size(), [&](std::size_t begin, std::size_t size) {
       check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, exodus_position(begin), exodus_position(size - 1),
@@ -275,8 +340,14 @@ class ExodusReader {
         }
       } else {
         for (std::size_t k = 0; k < size; ++k) {
-          quad_of_element_[first_element + k] = static_cast<Index>(quads_.size());
-          quads_.push_back({nodes[4 * k], nodes[4 * k + 1], nodes[4 * k + 2], nodes[4 * k + 3]});
+          other_of_element_[first_element + k] = static_cast<Index>(heads_.ids.size());
+          heads_.ids.push_back(0);  // when the map is sorted out
+          heads_.type.push_back(type_of_others);
+          const auto width = static_cast<std::ptrdiff_t>(n_nodes);
+          const auto own = nodes.begin() + width * static_cast<std::ptrdiff_t>(k);
+          if (swaps_) std::swap_ranges(own + 9, own + 12, own + 12);
+          other_nodes_.insert(other_nodes_.end(), own, own + width);
+          other_first_.push_back(static_cast<Index>(other_nodes_.size()));
         }
       }
     });
@@ -301,7 +372,39 @@ class ExodusReader {
     return hex_of_element_[element - 1];
   }
 
-  Index quad(std::int64_t element) const { return quad_of_element_.empty() ? -1 : quad_of_element_[element]; }
+  Index other_of(std::int64_t element) const { return other_of_element_.empty() ? -1 : other_of_element_[element]; }
+
+  /// Of a block, by the start of its name and its number of nodes; -1: unknown.
+  int other_type(const char* name, const std::string& lower, int n_nodes) {
+    const auto starts = [&](std::string_view word) { return lower.starts_with(word); };
+    const auto one_of = [&](std::initializer_list<int> known) {
+      return std::ranges::find(known, n_nodes) != known.end();
+    };
+    std::optional<OtherShape> shape;
+    if (starts("sphere") || starts("circle") || starts("point") || n_nodes == 1)
+      shape = n_nodes == 1 ? std::optional(OtherShape::point) : std::nullopt;
+    else if (starts("bar") || starts("beam") || starts("truss") || starts("edge") || starts("rod") || starts("line"))
+      shape = one_of({2, 3}) ? std::optional(OtherShape::line) : std::nullopt;
+    else if (starts("tri") || (starts("shell") && one_of({3, 6, 7})))
+      shape = one_of({3, 4, 6, 7}) ? std::optional(OtherShape::triangle) : std::nullopt;
+    else if (starts("quad") || starts("shell"))
+      shape = one_of({4, 5, 8, 9}) ? std::optional(OtherShape::quad) : std::nullopt;
+    else if (starts("tet"))
+      shape = one_of({4, 5, 8, 10, 11, 14, 15}) ? std::optional(OtherShape::tetrahedron) : std::nullopt;
+    else if (starts("pyr"))
+      shape = one_of({5, 13, 14, 18, 19}) ? std::optional(OtherShape::pyramid) : std::nullopt;
+    else if (starts("wedge"))
+      shape = one_of({6, 15, 16, 18, 20, 21}) ? std::optional(OtherShape::wedge) : std::nullopt;
+    if (!shape) return -1;
+    const OtherType type{*shape, n_nodes, name};
+    const auto place = std::ranges::find(heads_.types, type) - heads_.types.begin();
+    if (place == std::ssize(heads_.types)) heads_.types.push_back(type);
+    return static_cast<int>(place);
+  }
+  /// Whether pieces of an element have this side whole: the two faces of a shell.
+  static bool is_face_of_shell(const OtherType& type, int side) {
+    return type.shape == OtherShape::quad && lower_case(type.name).starts_with("shell") && side <= 2;
+  }
 
   void side_sets() {
     for (const std::int64_t id : ids(EX_SIDE_SET, init_.num_side_sets)) {
@@ -310,27 +413,33 @@ class ExodusReader {
       to.name = group_name(EX_SIDE_SET, id);
       const auto [elements, sides] = set(EX_SIDE_SET, id);
       std::int64_t dropped = 0;
+      std::vector<std::pair<Index, int>> others;
       for (std::size_t i = 0; i < elements.size(); ++i) {
         const Index h = hex(elements[i], who);
         if (h >= 0 && (sides[i] < 1 || sides[i] > 6)) fail(who + " names side " + std::to_string(sides[i]));
-        // A shell's front (1) and back (2) are the quad itself; its edges are no sides of hexes.
-        const Index q = h < 0 ? quad(elements[i] - 1) : -1;
+        const Index other = h < 0 ? other_of(elements[i] - 1) : -1;
         if (h >= 0)
           to.sides.push_back({h, exodus_face[sides[i] - 1]});
-        else if (q >= 0 && sides[i] <= 2 && quad_sides_[q].hex >= 0)
-          to.sides.push_back(quad_sides_[q]);
+        else if (other >= 0)
+          others.emplace_back(other, sides[i]);
         else
           ++dropped;
       }
       sort_unique(to.sides);
+      sort_unique(others);
+      if (!others.empty()) {
+        OtherSides& list = heads_.sides.emplace_back();
+        list.id = to.id;
+        for (const auto& [element, side] : others) {
+          list.elements.push_back(element);
+          list.sides.push_back(std::to_string(side));
+          if (is_face_of_shell(heads_.types[heads_.type[element]], side)) continue;
+          heads_.is_rigid.resize(heads_.ids.size(), 0);
+          heads_.is_rigid[element] = 1;
+        }
+      }
       if (dropped)
         out_.notices.push_back(who + ": dropped " + std::to_string(dropped) + " sides that are not sides of a hex");
-    }
-    for (SideSet& quads : quad_sets_) {
-      const bool taken = std::ranges::find(out_.mesh.side_sets, quads.id, &SideSet::id) != out_.mesh.side_sets.end();
-      SideSet& to = group_of_id(out_.mesh.side_sets, taken || quads.id < 0 ? free_id(out_.mesh.side_sets) : quads.id);
-      to.name = quads.name;
-      to.sides = std::move(quads.sides);
     }
   }
 
@@ -347,9 +456,13 @@ class ExodusReader {
   void element_sets() {
     for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets)) {
       Block group{group_id(EX_ELEM_SET, id), group_name(EX_ELEM_SET, id), {}};
-      for (const std::int64_t element : set(EX_ELEM_SET, id).first)
+      std::vector<Index> others;
+      for (const std::int64_t element : set(EX_ELEM_SET, id).first) {
         if (const Index h = hex(element, "element set " + std::to_string(id)); h >= 0) group.hexes.push_back(h);
+        if (const Index other = other_of(element - 1); other >= 0) others.push_back(other);
+      }
       sort_unique(group.hexes);
+      sort_unique(others);
       auto& blocks = out_.mesh.blocks;
       const auto same = std::ranges::find(blocks, group.id, &Block::id);
       const bool whole =
@@ -360,6 +473,12 @@ class ExodusReader {
                                ": an element block has its id");
       }
       group_of_id(blocks, group.id) = group;
+      if (others.empty()) continue;
+      const auto known = std::ranges::find(heads_.sets, group.id, &OtherSet::id);
+      if (known == heads_.sets.end())
+        heads_.sets.push_back({group.id, std::move(others)});
+      else
+        known->elements = union_of(known->elements, others);
     }
   }
 
@@ -405,11 +524,11 @@ class ExodusReader {
   std::vector<FileBlock> blocks_;
   std::map<std::pair<ex_entity_type, std::int64_t>, int> number_of_wide_;
   std::vector<FileResults::WideId> wide_ids_;
-  std::vector<Index> hex_of_element_;   // -1 for others
-  std::vector<Index> quad_of_element_;  // the same; empty where there are none
-  std::vector<Quad> quads_;
-  std::vector<Side> quad_sides_;
-  std::vector<SideSet> quad_sets_;
+  std::vector<Index> hex_of_element_;    // -1 for others
+  std::vector<Index> other_of_element_;  // the same; empty where there are none
+  OtherHeads heads_;
+  std::vector<Index> other_first_ = {0}, other_nodes_;
+  bool swaps_ = false;  // middle nodes of wedges: around, then upwards
 };
 
 }  // namespace

@@ -4,14 +4,19 @@
 // block which covers all others does not swallow them; a block that lost hexes that way is written whole as an element
 // set of the same id and name. Hexes in no block go to an element block of their own that readers of ours recognise by
 // its name.
+#include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/write_internal.h"
 #include "hextwist/io/file_part.h"
+#include "hextwist/io/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -113,6 +118,7 @@ class ExodusWriter {
         if (!of_whole_) tell_overlap(block, part.own.size(), block_of_hex);
       }
       part.in_whole = counts_.own[b];
+      if (block.hexes.empty() && !others_of_block(mesh_, block.id).empty()) continue;
       if (counts_.own[b] > 0 || counts_.hexes[b] == 0) parts_.push_back(std::move(part));
     }
     const int id = free_id(blocks);
@@ -125,6 +131,101 @@ class ExodusWriter {
       notices_.push_back(std::to_string(rest.own.size()) + " hexes that are in no block are in " +
                          named("element block", id, rest.name));
     if (counts_.rest > 0) parts_.push_back(std::move(rest));
+    if (mesh_.others) divide_others();
+  }
+
+  /// Element blocks of other elements: of the smallest block that each is in, one for each type. The first of a block
+  /// without hexes is it.
+  void divide_others() {
+    const OtherElements& others = *mesh_.others;
+    constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
+    other_ids_ = other_ids_in_file(mesh_, mesh_.hex_ids, highest, "is too large", notices_);
+    std::vector<int> block_of(static_cast<std::size_t>(others.size()), -1);
+    std::vector<std::pair<std::size_t, const Block*>> by_size;
+    for (const Block& block : mesh_.blocks) {
+      const std::size_t n = others_of_block(mesh_, block.id).size();
+      if (n > 0) by_size.emplace_back(n, &block);
+    }
+    std::ranges::stable_sort(by_size, std::ranges::greater{}, &std::pair<std::size_t, const Block*>::first);
+    for (const auto& [n, block] : by_size)
+      for (const Index e : others_of_block(mesh_, block->id)) block_of[e] = block->id;
+    int next_id = 0;
+    for (const ExodusPart& part : parts_) next_id = std::max(next_id, part.id);
+    for (const Block& block : mesh_.blocks) next_id = std::max(next_id, block.id);
+    std::map<std::pair<int, std::string>, std::size_t> part_of;  // by block and type
+    std::map<std::string, std::int64_t> n_lost;
+    std::int64_t n_shortened = 0, n_connectors = 0;
+    for (Index e = 0; e < others.size(); ++e) {
+      const OtherType& type = others.type_of(e);
+      const std::string name = others.heads->format == "exodus" ? type.name : exodus_type(type);
+      if (name.empty()) {
+        ++n_lost[type.name];
+        continue;
+      }
+      n_connectors += type.shape == OtherShape::connector;
+      n_shortened += std::ssize(others.nodes_of(e)) > type.n_nodes;
+      const std::pair key(block_of[e], name + "/" + std::to_string(type.n_nodes));
+      auto at = part_of.find(key);
+      if (at == part_of.end()) {
+        const Index b = position_in(mesh_.blocks, block_of[e], &Block::id);
+        const bool is_it = b >= 0 && mesh_.blocks[b].hexes.empty() &&
+                           std::ranges::find(parts_, block_of[e], &ExodusPart::id) == parts_.end();
+        const int id = is_it ? block_of[e] : ++next_id;
+        if (id < 0) throw Error("no id is left for a block of other elements");
+        const std::string called = b >= 0 ? mesh_.blocks[b].name : exodus_rest_block;
+        ExodusPart part{id, is_it ? in_file(Of::block, id) : id, called, {}};
+        part.type = name;
+        if (!is_it)
+          notices_.push_back("other elements of type " + type.name +
+                             (b < 0 ? " that are in no block" : " of block " + std::to_string(block_of[e])) +
+                             " are in element block " + std::to_string(id));
+        at = part_of.emplace(key, parts_.size()).first;
+        parts_.push_back(std::move(part));
+      }
+      parts_[at->second].others.push_back(e);
+    }
+    for (const auto& [type, n] : n_lost)
+      notices_.push_back(counted(n, "other element of type " + type, "other elements of type " + type) +
+                         " left out: Exodus has nothing like them");
+    if (n_connectors > 0)
+      notices_.push_back(counted(n_connectors, "connector") +
+                         " written as BAR2, which are cut where they lie on edges");
+    if (n_shortened > 0)
+      notices_.push_back(counted(n_shortened, "other element") +
+                         " written without nodes that say how they are turned, which Exodus has no place for");
+    // Blocks that are in several element blocks, or in those of others, are sets as well.
+    for (const Block& block : mesh_.blocks) {
+      const std::vector<Index> all = others_of_block(mesh_, block.id);
+      if (all.empty() || std::ranges::find(whole_, &block) != whole_.end()) continue;
+      const auto part = std::ranges::find(parts_, block.id, &ExodusPart::id);
+      if (part == parts_.end() || part->others != all || !block.hexes.empty()) whole_.push_back(&block);
+    }
+  }
+
+  /// What elements of another format are called; empty where there is nothing like them.
+  static std::string exodus_type(const OtherType& type) {
+    const auto with = [&](const char* name, std::initializer_list<int> known) {
+      return std::ranges::find(known, type.n_nodes) != known.end() ? name + std::to_string(type.n_nodes) : "";
+    };
+    switch (type.shape) {
+      case OtherShape::point:
+        return "SPHERE";
+      case OtherShape::line:
+        return with("BAR", {2, 3});
+      case OtherShape::triangle:
+        return with("TRISHELL", {3, 6});
+      case OtherShape::quad:
+        return with("SHELL", {4, 8, 9});
+      case OtherShape::tetrahedron:
+        return with("TETRA", {4, 10});
+      case OtherShape::pyramid:
+        return with("PYRAMID", {5, 13});
+      case OtherShape::wedge:
+        return with("WEDGE", {6, 15});
+      case OtherShape::connector:
+        return with("BAR", {2});
+    }
+    return "";
   }
 
   void tell_overlap(const Block& block, std::size_t n_own, std::span<const Index> block_of_hex) {
@@ -151,8 +252,9 @@ class ExodusWriter {
 
   void create() {
     const std::int64_t highest = of_whole_ ? of_whole_->highest_id
-                                           : std::max(mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
-                                                      mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1));
+                                           : std::max({mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
+                                                       mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1),
+                                                       other_ids_.empty() ? 0 : std::ranges::max(other_ids_)});
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     wide_ =
         highest > most ||
@@ -183,7 +285,7 @@ class ExodusWriter {
     std::strncpy(init.title, has_title ? extras_->title.c_str() : "hextwist", sizeof init.title - 1);
     init.num_dim = 3;
     init.num_nodes = mesh_.n_nodes();
-    init.num_elem = mesh_.n_hexes();
+    for (const ExodusPart& part : parts_) init.num_elem += std::ssize(part.hexes) + std::ssize(part.others);
     init.num_elem_blk = std::ssize(parts_);
     init.num_node_sets = std::ssize(mesh_.node_sets);
     init.num_side_sets = std::ssize(mesh_.side_sets);
@@ -226,6 +328,10 @@ class ExodusWriter {
     const std::string type = "HEX" + std::to_string(nodes_per_hex);
     std::vector<Index> nodes(exodus_piece * static_cast<std::size_t>(nodes_per_hex));
     for (const ExodusPart& part : parts_) {
+      if (!part.others.empty()) {
+        other_block(part);
+        continue;
+      }
       const auto n = std::ssize(part.hexes);
       std::vector<std::string> attributes = values_.attributes(part);
       check(
@@ -255,10 +361,46 @@ class ExodusWriter {
     }
     // Parts follow each other.
     std::size_t part = 0, before = 0;
-    put_map(EX_ELEM_MAP, mesh_.hexes.size(), [&](std::size_t element) {
-      while (element - before == parts_[part].hexes.size()) before += parts_[part++].hexes.size();
-      return id_of(mesh_.hex_ids, parts_[part].hexes[element - before]);
+    std::size_t n_elements = 0;
+    for (const ExodusPart& one : parts_) n_elements += one.size();
+    put_map(EX_ELEM_MAP, n_elements, [&](std::size_t element) {
+      while (element - before == parts_[part].size()) before += parts_[part++].size();
+      const ExodusPart& of = parts_[part];
+      return of.others.empty() ? id_of(mesh_.hex_ids, of.hexes[element - before])
+                               : other_ids_[of.others[element - before]];
     });
+  }
+
+  void other_block(const ExodusPart& part) {
+    const OtherElements& others = *mesh_.others;
+    const OtherType& type = others.type_of(part.others.front());
+    std::vector<const OtherField*> attributes;
+    for (const OtherField& field : others.heads->fields)
+      if (field.is_attribute && field.components == 1 &&
+          std::ranges::any_of(part.others, [&](Index e) { return !std::isnan(field.values[others.of[e]]); }))
+        attributes.push_back(&field);
+    check(ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, part.type.c_str(), std::ssize(part.others), type.n_nodes, 0, 0,
+                       std::ssize(attributes)));
+    put_name(EX_ELEM_BLOCK, part.in_file, part.name);
+    Ints nodes;
+    for (const Index e : part.others) {
+      const std::size_t first = nodes.size();
+      for (const Index n : others.nodes_of(e).first(static_cast<std::size_t>(type.n_nodes))) nodes.push_back(n + 1);
+      if (type.shape == OtherShape::wedge && type.n_nodes == 15)
+        std::swap_ranges(&nodes[first + 9], &nodes[first + 12], &nodes[first + 12]);
+    }
+    check(ex_put_conn(id_, EX_ELEM_BLOCK, part.in_file, nodes.data(), nullptr, nullptr));
+    std::vector<std::string> names;
+    for (std::size_t a = 0; a < attributes.size(); ++a) {
+      std::vector<double> values;
+      for (const Index e : part.others) values.push_back(attributes[a]->values[others.of[e]]);
+      check(ex_put_one_attr(id_, EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1, values.data()));
+      names.push_back(exodus_name(attributes[a]->name));
+      names.back().resize(257);
+    }
+    std::vector<char*> pointers;
+    for (std::string& name : names) pointers.push_back(name.data());
+    if (!pointers.empty()) check(ex_put_attr_names(id_, EX_ELEM_BLOCK, part.in_file, pointers.data()));
   }
 
   void put_name(ex_entity_type type, std::int64_t id, const std::string& name) {
@@ -293,18 +435,52 @@ class ExodusWriter {
     return result;
   }
 
+  static bool is_number(const std::string& text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  }
   /// Per hex its 1-based place in the file.
   Ints elements_of_hexes() const {
     Ints element_of_hex;
     resize_for_overwrite(element_of_hex, mesh_.hexes.size());
     int element = 0;
     for (const ExodusPart& part : parts_)
-      for (const Index h : part.hexes) element_of_hex[h] = ++element;
+      for (std::size_t i = 0; i < part.size(); ++i, ++element)
+        if (part.others.empty()) element_of_hex[part.hexes[i]] = element + 1;
     return element_of_hex;
+  }
+  /// The same of other elements, 0 where they are not in the file.
+  Ints elements_of_others() const {
+    Ints element_of(static_cast<std::size_t>(n_others(mesh_)), 0);
+    int element = 0;
+    for (const ExodusPart& part : parts_) {
+      element += static_cast<int>(part.hexes.size());
+      for (const Index e : part.others) element_of[e] = ++element;
+    }
+    return element_of;
+  }
+  /// Nodes of a side as the library counts them for distribution factors.
+  static std::size_t n_nodes_of_side(const OtherType& type, const std::string& side) {
+    const bool shell = lower_case(type.name).starts_with("shell") || lower_case(type.name).starts_with("trishell");
+    const std::size_t n = static_cast<std::size_t>(std::max(std::atoi(side.c_str()), 1));
+    const bool second = type.n_nodes > n_corners(type.shape);
+    switch (type.shape) {
+      case OtherShape::triangle:
+      case OtherShape::quad:
+        return shell && n <= 2 ? static_cast<std::size_t>(type.n_nodes) : second ? 3 : 2;
+      case OtherShape::tetrahedron:
+        return second ? 6 : 3;
+      case OtherShape::pyramid:
+        return n <= 4 ? (second ? 6 : 3) : (second ? 8 : 4);
+      case OtherShape::wedge:
+        return n <= 3 ? (second ? 8 : 4) : (second ? 6 : 3);
+      default:
+        return 1;
+    }
   }
 
   void sets() {
     const Ints element_of_hex = mesh_.side_sets.empty() && whole_.empty() ? Ints() : elements_of_hexes();
+    const Ints element_of_other = elements_of_others();
     for (const NodeSet& set : mesh_.node_sets) {
       Ints members;
       for (const Index n : set.nodes) members.push_back(n + 1);
@@ -318,11 +494,41 @@ class ExodusWriter {
         members.push_back(element_of_hex[side.hex]);
         sides.push_back(side_of_face[side.face]);
       }
-      put_set(EX_SIDE_SET, in_file(Of::side_set, set.id), set.name, members, sides, values_.factors(set));
+      std::vector<double> factors = values_.factors(set);
+      const bool alike = std::ranges::adjacent_find(factors, std::ranges::not_equal_to{}) == factors.end();
+      std::int64_t n_lost = 0;
+      bool has_others = false;
+      for (const auto& [element, side] : other_sides_of(mesh_, set.id)) {
+        const int number =
+            is_number(side) ? std::atoi(side.c_str())
+            : side == "SPOS" || (side.empty() && mesh_.others->type_of(element).shape == OtherShape::quad) ? 1
+            : side == "SNEG"                                                                               ? 2
+                                                                                                           : 0;
+        if (element_of_other[element] == 0 || number == 0) {
+          ++n_lost;
+          continue;
+        }
+        has_others = true;
+        members.push_back(element_of_other[element]);
+        sides.push_back(number);
+        if (!factors.empty() && alike)
+          factors.insert(factors.end(), n_nodes_of_side(mesh_.others->type_of(element), side), factors[0]);
+      }
+      if (n_lost > 0)
+        notices_.push_back("side set " + std::to_string(set.id) + ": left out " +
+                           counted(n_lost, "side of another element", "sides of other elements"));
+      if (has_others && !alike) {
+        factors.clear();
+        notices_.push_back("side set " + std::to_string(set.id) +
+                           ": left out its distribution factors, as it has sides of other elements");
+      }
+      put_set(EX_SIDE_SET, in_file(Of::side_set, set.id), set.name, members, sides, factors);
     }
     for (const Block* block : whole_) {
       Ints members;
       for (const Index h : block->hexes) members.push_back(element_of_hex[h]);
+      for (const Index e : others_of_block(mesh_, block->id))
+        if (element_of_other[e] > 0) members.push_back(element_of_other[e]);
       put_set(EX_ELEM_SET, in_file(Of::block, block->id), block->name, members, {}, {});
     }
   }
@@ -337,6 +543,7 @@ class ExodusWriter {
   BlockCounts counts_;
   std::vector<ExodusPart> parts_;
   std::vector<const Block*> whole_;  // written as element sets
+  std::vector<std::int64_t> other_ids_;
   int id_ = -1;
   bool wide_ = false;  // ids beyond 32 bits
 };

@@ -4,6 +4,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/write_internal.h"
+#include "hextwist/io/others.h"
 #include "hextwist/mesh/arrays.h"
 
 namespace hextwist::io {
@@ -229,6 +230,12 @@ void ExodusValues::write_sets(const ExodusTarget& to, ex_entity_type type, const
         const auto v = static_cast<std::size_t>(std::ranges::find(names, variable.name) - names.begin());
         values[g * n + v] = &variable;
         is_on[g * n + v] = !items_of(groups[g]).empty();
+        if constexpr (!of_nodes)
+          if (!other_sides_of(mesh_, groups[g].id).empty()) {
+            is_on[g * n + v] = 0;
+            notices_.push_back("side set " + std::to_string(groups[g].id) + ": left out its variable '" +
+                               variable.name + "', as it has sides of other elements");
+          }
       }
   to.check(ex_put_truth_table(to.file, type, static_cast<int>(groups.size()), static_cast<int>(n), is_on.data()));
   for (std::size_t t = 0; t < times_.size(); ++t)

@@ -15,8 +15,12 @@ struct ExodusPart {
   std::int64_t in_file;
   std::string name;
   std::span<const Index> hexes;
-  std::vector<Index> own = {};  ///< what `hexes` is where it is no list of the mesh
-  std::int64_t in_whole = 0;    ///< hexes, also of the other files that a mesh is split into
+  std::vector<Index> own = {};     ///< what `hexes` is where it is no list of the mesh
+  std::int64_t in_whole = 0;       ///< hexes, also of the other files that a mesh is split into
+  std::vector<Index> others = {};  ///< instead of hexes: other elements of one type
+  std::string type = {};           ///< of these, in the file
+
+  std::size_t size() const { return hexes.size() + others.size(); }
 };
 
 struct ExodusTarget {

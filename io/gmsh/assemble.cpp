@@ -10,6 +10,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/io/gmsh/others.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
@@ -51,9 +52,10 @@ class GmshAssembly {
     blocks();
     quads();
     lines_and_points();
+    others();
     fields();
     for (const auto& [name, n] : in_.n_dropped)
-      notice("dropped " + std::to_string(n) + " elements of type " + name + ", which are not sides or edges of a hex");
+      notice("dropped " + std::to_string(n) + " elements of type " + name + ", which have no place here");
     tidy(file_.tags);
     file_.extras.periodic = std::move(in_.periodic);
     if (in_.middles.any()) take_middles(file_, in_.middles);
@@ -141,7 +143,7 @@ class GmshAssembly {
 
   void hexes() {
     GmshElements& elements = in_.elements[3];
-    if (elements.tags.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file");
+    if (elements.tags.empty()) cursor_.fail_at(cursor_.end, "there is no hex in the file" + only_others());
     // Drop repetitions, remembering to which hex they go.
     const auto first = first_copies(elements, in_.hexes);
     std::vector<std::int64_t> tags;
@@ -211,8 +213,8 @@ class GmshAssembly {
       for (int k = 0; k < 4; ++k) cycles[i][k] = elements.nodes[4 * i + k];
     std::vector<Side> lower;
     const auto sides = oriented_sides(file_.mesh, cycles, &lower);
-    const auto lost = std::ranges::count(sides, -1, &Side::hex);
-    if (lost) notice("dropped " + counted(lost, "quad") + (lost == 1 ? " that is" : " that are") + " no side of a hex");
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      if (sides[i].hex < 0) beside(2, i);
     for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>&group) {
            if (sides[i].hex >= 0) group.push_back(sides[i]);
          }))
@@ -230,9 +232,11 @@ class GmshAssembly {
     const GmshElements& lines = in_.elements[1];
     std::vector<Edge> owned;
     std::vector<int> curves;
+    std::vector<std::size_t> of_owned;
     for (std::size_t i = 0; i < lines.tags.size(); ++i) {
       const Owner owner = in_.owner({1, lines.entity[i]});
       if (owner.dim != 1) continue;
+      of_owned.push_back(i);
       owned.push_back(
           {std::min(lines.nodes[2 * i], lines.nodes[2 * i + 1]), std::max(lines.nodes[2 * i], lines.nodes[2 * i + 1])});
       curves.push_back(owner.id);
@@ -243,8 +247,8 @@ class GmshAssembly {
         file_.tags.curve_edges.push_back(owned[i]);
         file_.tags.edge_curve.push_back(curves[i]);
       }
-    if (const auto lost = std::ranges::count(good, 0))
-      notice("dropped " + counted(lost, "line") + (lost == 1 ? " that is" : " that are") + " no edge of a hex");
+    for (std::size_t i = 0; i < good.size(); ++i)
+      if (!good[i]) beside(1, of_owned[i]);
     derive_node_owners(1);
     derive_node_owners(0);
 
@@ -262,6 +266,48 @@ class GmshAssembly {
           notice("physical curve group " + std::to_string(id) + " is node set " + std::to_string(set.id) +
                  ": a physical point group has its id");
       }
+  }
+
+  std::vector<int> groups_of(int dim, int list, std::size_t i) const {
+    const GmshElements& elements = in_.elements[list];
+    if (!elements.physical.empty()) return {elements.physical[i]};
+    const auto found = in_.entity_physicals.find({dim, elements.entity[i]});
+    return found == in_.entity_physicals.end() ? std::vector<int>() : found->second;
+  }
+  /// A line or quad that lies on no hex. Of second order only its corners are known.
+  void beside(int dim, std::size_t i) {
+    const GmshElements& elements = in_.elements[dim];
+    if (in_.middles.any()) {
+      ++n_bent_[dim];
+      return;
+    }
+    const auto n = static_cast<std::size_t>(gmsh_corners[dim]);
+    others_.add(gmsh_kept[dim], elements.tags[i], in_.owner({dim, elements.entity[i]}), groups_of(dim, dim, i),
+                std::span(elements.nodes).subspan(n * i, n));
+  }
+  void others() {
+    const GmshElements& elements = in_.elements[gmsh_beside];
+    for (std::size_t i = 0; i < elements.tags.size(); ++i) {
+      const int dim = gmsh_type(in_.other_types[i])->dim;
+      others_.add(in_.other_types[i], elements.tags[i], in_.owner({dim, elements.entity[i]}),
+                  groups_of(dim, gmsh_beside, i),
+                  std::span(elements.nodes)
+                      .subspan(static_cast<std::size_t>(in_.other_first[i]),
+                               static_cast<std::size_t>(in_.other_first[i + 1] - in_.other_first[i])));
+    }
+    for (const auto& [dim, what] : {std::pair(1, "line"), {2, "quad"}})
+      if (n_bent_[dim] > 0)
+        notice("dropped " + counted(n_bent_[dim], what) + (n_bent_[dim] == 1 ? " that is no " : " that are no ") +
+               (dim == 1 ? "edge" : "side") + " of a hex");
+    others_.finish(
+        file_.mesh, [this](int dim, int id) { return group_name(dim, id); }, file_.notices);
+  }
+  std::string only_others() const {
+    std::map<std::string, std::int64_t> n;
+    for (const int type : in_.other_types) ++n[gmsh_type(type)->name];
+    std::string text;
+    for (const auto& [name, count] : n) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + name;
+    return text;
   }
 
   void fields() {
@@ -301,6 +347,8 @@ class GmshAssembly {
   GmshContents in_;
   const Cursor& cursor_;
   MeshFile file_;
+  GmshOthersFound others_;
+  std::array<std::int64_t, 3> n_bent_ = {0, 0, 0};  // per dimension: of second order, on no hex
   Ids hex_ids_;
   bool owned_by_entities_ = false;     // nodes; else by the elements around them
   std::vector<Index> hex_of_element_;  // file order

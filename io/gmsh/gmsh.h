@@ -44,9 +44,12 @@ struct GmshContents {
   int version = 0;  ///< 1, 22, 41
   Ids nodes;
   std::vector<Vec3> points;
-  std::vector<Owner> node_entity;           ///< 4.1 only
-  std::vector<Parameters> node_parameters;  ///< 4.1 only, empty when there are none
-  std::array<GmshElements, 4> elements;
+  std::vector<Owner> node_entity;                      ///< 4.1 only
+  std::vector<Parameters> node_parameters;             ///< 4.1 only, empty when there are none
+  std::array<GmshElements, 5> elements;                ///< per dimension; and other elements (gmsh/others.h)
+  std::vector<int> other_types;                        ///< of elements[4]
+  std::vector<Index> other_first = {0};                ///< of elements[4]: where the nodes of each begin
+  int last_type = 0;                                   ///< that check_gmsh_type() was asked about
   std::vector<Hex> hexes;                              ///< nodes of elements[3], in our corner order
   FoundMiddles middles;                                ///< of these
   std::map<Owner, std::vector<int>> entity_physicals;  ///< 4.1 only
@@ -101,8 +104,10 @@ struct GmshSource {
   }
 };
 
-/// Refuses what is no point, line, quad or hex but has a volume; counts what else there is. Returns the dimension if
-/// the element is to be kept, else -1.
+/// Where elements of a type go: GmshContents::elements[4].
+inline constexpr int gmsh_beside = 4;
+/// Refuses what has a volume and is not known; counts what else there is. Returns the dimension of a point, line, quad
+/// or hex, gmsh_beside of another one that is to be kept, else -1.
 int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at, int type, std::int64_t tag,
                     std::int64_t count);
 /// Adds an element of a kept type by the ids of its nodes.

@@ -7,6 +7,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -187,7 +188,7 @@ class Planner {
 
   /// Hexes have their own ids; everything else is counted after them.
   void number_elements() {
-    std::int64_t next = mesh_.hexes.empty() ? 1 : hex_id(mesh_, mesh_.n_hexes() - 1) + 1;
+    std::int64_t next = highest_element_id(mesh_) + 1 + n_others(mesh_);
     for (int dim = 0; dim < 3; ++dim) {
       plan_.elements[dim].first_tag = next;
       next += static_cast<std::int64_t>(plan_.elements[dim].size);
@@ -306,6 +307,7 @@ PlannedEntity& GmshPlan::entity(int dim, int tag) {
 std::size_t GmshPlan::n_elements() const {
   std::size_t n = 0;
   for (const auto& of_dim : elements) n += of_dim.size;
+  for (const PlannedOthers& of_entity : others) n += of_entity.tags.size();
   return n;
 }
 

@@ -44,10 +44,19 @@ struct PlannedGroup {
   std::vector<std::int64_t> more;  ///< versions before 4: members whose own physical tag is another group
 };
 
+/// Elements beside the hexes, of one type on one entity.
+struct PlannedOthers {
+  int dim = 0, entity = 0, type = 0;
+  int physical = 0;                     ///< the first group, 0 none
+  std::vector<std::int64_t> tags = {};  ///< ascending
+  std::vector<Index> nodes = {};        ///< of all, Gmsh's order
+};
+
 struct GmshPlan {
   std::array<std::vector<PlannedEntity>, 4> entities;
   std::array<PlannedElements, 4> elements;
   std::vector<PlannedGroup> groups;
+  std::vector<PlannedOthers> others;
   int nobody = 0;  ///< volume entity for nodes without owner, 0 when there are none
 
   PlannedEntity& entity(int dim, int tag);

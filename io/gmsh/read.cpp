@@ -1,5 +1,6 @@
 // Gmsh's .msh: the sections in turn (Gmsh reference manual, "MSH file format", versions 1, 2.2 and 4.1).
 #include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/io/gmsh/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -125,9 +126,12 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
                            ", which is not a hex, quad, line or point");
   if (type == gmsh_kept[known->dim] || std::ranges::find(gmsh_second_order, type) != gmsh_second_order.end())
     return known->dim;
+  contents.last_type = type;
+  if (is_gmsh_other(type)) return gmsh_beside;
   if (known->dim == 3)
-    cursor.fail_at(at, "element " + std::to_string(tag) + " is a " + known->name +
-                           "; only hexes of 8, 20 or 27 nodes are accepted");
+    cursor.fail_at(at,
+                   "element " + std::to_string(tag) + " is a " + known->name +
+                       "; hexes of 8, 20 or 27 nodes and, beside them, solids of at most second order are accepted");
   contents.n_dropped[known->name] += count;
   return -1;
 }
@@ -150,6 +154,10 @@ void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std
     std::array<Index, 19> middles;
     for (std::size_t i = 8; i < node_ids.size(); ++i) middles[i - 8] = node(node_ids[i]);
     contents.middles.add(contents.hexes.size() - 1, std::span(middles).first(node_ids.size() - 8), gmsh_middles);
+  } else if (dim == gmsh_beside) {
+    contents.other_types.push_back(contents.last_type);
+    for (const std::int64_t id : node_ids) contents.elements[dim].nodes.push_back(node(id));
+    contents.other_first.push_back(static_cast<Index>(contents.elements[dim].nodes.size()));
   } else {
     for (const std::int64_t id : node_ids.first(static_cast<std::size_t>(gmsh_corners[dim])))
       contents.elements[dim].nodes.push_back(node(id));

@@ -226,7 +226,7 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
       reserve_large(elements.tags, most);
       reserve_large(elements.entity, most);
       if (dim == 3) reserve_large(contents.hexes, most);
-      elements.entity.insert(elements.entity.end(), size, entity_dim == dim ? std::max(entity, 0) : 0);
+      elements.entity.insert(elements.entity.end(), size, entity_dim == gmsh_type(type)->dim ? std::max(entity, 0) : 0);
     }
     std::array<std::int64_t, most_gmsh_nodes> ids;
     const auto nodes = std::span(ids).first(static_cast<std::size_t>(n_nodes));

@@ -9,6 +9,7 @@
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/io/gmsh/others.h"
 #include "hextwist/io/gmsh/plan_internal.h"
 
 namespace hextwist::io {
@@ -261,13 +262,28 @@ std::pair<std::int64_t, std::int64_t> element_tags(const Mesh& mesh, const GmshP
   }
   for (int dim = 0; dim < 3; ++dim)
     if (const std::size_t n = plan.elements[dim].size; n > 0) add(plan.tag(mesh, dim, 0), plan.tag(mesh, dim, n - 1));
+  for (const PlannedOthers& others : plan.others) add(std::ranges::min(others.tags), std::ranges::max(others.tags));
   return {high == 0 ? 0 : low, high};
+}
+
+/// Elements beside the hexes; head(run, k): what stands between the tag of element k and its nodes.
+template <class Id, class Head>
+void write_gmsh_others(const Writer& to, const Mesh& mesh, const PlannedOthers& others, const Head& head) {
+  const std::size_t width = others.nodes.size() / others.tags.size();
+  for (std::size_t k = 0; k < others.tags.size(); ++k) {
+    to.value(static_cast<Id>(others.tags[k]));
+    head();
+    for (std::size_t c = 0; c < width; ++c)
+      to.value(static_cast<Id>(id_of(mesh.node_ids, others.nodes[width * k + c])));
+    to.end_line();
+  }
 }
 
 template <int nodes_per_hex>
 void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan, const SecondOrder* second) {
   std::size_t n_blocks = 0;
   for (const auto& elements : plan.elements) n_blocks += elements.runs.size();
+  n_blocks += plan.others.size();
   const auto [low, high] = element_tags(mesh, plan);
   to.out << "$Elements\n";
   to.large(n_blocks);
@@ -279,6 +295,12 @@ void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan, 
   write_elements_4<1, nodes_per_hex>(to, mesh, plan, second);
   write_elements_4<2, nodes_per_hex>(to, mesh, plan, second);
   write_elements_4<3, nodes_per_hex>(to, mesh, plan, second);
+  for (const PlannedOthers& others : plan.others) {
+    for (const int x : {others.dim, others.entity, others.type}) to.integer(x);
+    to.large(others.tags.size());
+    to.end_line();
+    write_gmsh_others<std::int64_t>(to, mesh, others, [] {});
+  }
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -331,6 +353,15 @@ void write_elements_2(const Writer& to, const Mesh& mesh, const GmshPlan& plan, 
   write_elements_2<1, nodes_per_hex>(to, mesh, plan, second);
   write_elements_2<2, nodes_per_hex>(to, mesh, plan, second);
   write_elements_2<3, nodes_per_hex>(to, mesh, plan, second);
+  for (const PlannedOthers& others : plan.others) {
+    if (to.binary)
+      for (const int x : {others.type, static_cast<int>(others.tags.size()), 2}) to.integer(x);
+    write_gmsh_others<std::int32_t>(to, mesh, others, [&] {
+      if (!to.binary)
+        for (const int x : {others.type, 2}) to.integer(x);
+      for (const int x : {others.physical, others.entity}) to.integer(x);
+    });
+  }
   if (to.binary) to.out << '\n';
   to.out << "$EndElements\n";
 }
@@ -421,6 +452,9 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   const int nodes_per_hex = second ? second->nodes_per_hex : 8;
   GmshPlan plan =
       plan_gmsh(mesh, association, v4, options.model, options.extras, second ? second->n_corners : mesh.n_nodes());
+  if (mesh.others && !options.groups_only) plan_gmsh_others(mesh, v4, plan, notices);
+  if (mesh.others && options.groups_only)
+    notices.push_back("files of groups only have no other elements here: left out " + others_text(mesh));
   const Selection selection = options.groups_only ? groups_only(plan, mesh, v4, second, notices) : Selection{};
   if (!v4 && std::ranges::any_of(plan.groups, [](const PlannedGroup& group) { return !group.more.empty(); }))
     notices.emplace_back(

@@ -18,6 +18,22 @@ inline constexpr MiddleOrder med_middles =
     middle_order({{{1, 4}, {4, 3}, {3, 2}, {2, 1}, {5, 8}, {8, 7}, {7, 6}, {6, 5}, {1, 5}, {4, 8}, {3, 7}, {2, 6}}},
                  {{{1, 4, 3, 2}, {1, 4, 8, 5}, {4, 3, 7, 8}, {3, 2, 6, 7}, {2, 1, 5, 6}, {5, 8, 7, 6}}});
 
+/// Elements beside the hexes (mesh/others.h). MED goes round them the other way too: its node i is number order[i].
+struct MedOther {
+  med_geometry_type type;
+  OtherShape shape;
+  std::size_t n_nodes;
+  const char* name;
+  std::array<std::size_t, 6> order;
+};
+inline constexpr MedOther med_others[] = {{001, OtherShape::point, 1, "POINT1", {0}},
+                                          {102, OtherShape::line, 2, "SEG2", {0, 1}},
+                                          {203, OtherShape::triangle, 3, "TRIA3", {0, 2, 1}},
+                                          {204, OtherShape::quad, 4, "QUAD4", {0, 3, 2, 1}},
+                                          {304, OtherShape::tetrahedron, 4, "TETRA4", {0, 2, 1, 3}},
+                                          {305, OtherShape::pyramid, 5, "PYRA5", {0, 3, 2, 1, 4}},
+                                          {306, OtherShape::wedge, 6, "PENTA6", {0, 2, 1, 3, 5, 4}}};
+
 /// Open until it goes out of scope.
 class MedFile {
  public:

@@ -15,11 +15,12 @@ struct GeoType {
   int n_nodes;
   const char* name;
 };
-constexpr GeoType refused[] = {{304, 4, "tetrahedron"}, {310, 10, "tetrahedron"},    {305, 5, "pyramid"},
-                               {313, 13, "pyramid"},    {306, 6, "wedge"},           {315, 15, "wedge"},
-                               {318, 18, "wedge"},      {312, 12, "hexagonal prism"}};
-constexpr GeoType dropped[] = {{001, 1, "POINT1"}, {102, 2, "SEG2"},  {103, 3, "SEG3"}, {104, 4, "SEG4"},
-                               {203, 3, "TRIA3"},  {206, 6, "TRIA6"}, {207, 7, "TRIA7"}};
+constexpr GeoType refused[] = {{310, 10, "tetrahedron of 10 nodes"},
+                               {313, 13, "pyramid of 13 nodes"},
+                               {315, 15, "wedge of 15 nodes"},
+                               {318, 18, "wedge of 18 nodes"},
+                               {312, 12, "hexagonal prism"}};
+constexpr GeoType dropped[] = {{103, 3, "SEG3"}, {104, 4, "SEG4"}, {206, 6, "TRIA6"}, {207, 7, "TRIA7"}};
 constexpr GeoType hexes[] = {{MED_HEXA8, 8, ""}, {MED_HEXA20, 20, ""}, {MED_HEXA27, 27, ""}};
 constexpr GeoType quads[] = {{MED_QUAD4, 4, ""}, {MED_QUAD8, 8, ""}, {MED_QUAD9, 9, ""}};
 
@@ -37,10 +38,13 @@ class MedReader {
     for (const GeoType& type : refused)
       if (const std::int64_t n = count(MED_CELL, type.type); n > 0)
         fail("element 1 of " + std::to_string(n) + " of its kind is a " + type.name +
-             "; only hexes of 8, 20 or 27 nodes are accepted");
+             "; only hexes of 8, 20 or 27 nodes, and straight elements beside them, are accepted");
     if (count(MED_CELL, MED_POLYHEDRON) > 0) fail("there are polyhedra; only hexes of 8, 20 or 27 nodes are accepted");
     for (const GeoType& type : hexes) elements(type, true);
     for (const GeoType& type : quads) elements(type, false);
+    listing_.set_format("med");
+    for (const MedOther& type : med_others)
+      if (type.shape != OtherShape::quad) others(type);
     for (const GeoType& type : dropped)
       for (std::int64_t i = count(MED_CELL, type.type); i > 0; --i) listing_.drop(0, type.name);
     groups();
@@ -164,10 +168,34 @@ class MedReader {
         listing_.add_hex(ids[e], 0, nodes, med_middles, nullptr);
       else
         listing_.add_quad(ids[e], 0, nodes, nullptr);
+      if (type.type == MED_QUAD4) listing_.keep_quad("QUAD4", "");
       if (!family.empty() && family[e] != 0) elements_of_family_[family[e]].push_back(ids[e]);
       if (hex) hex_ids_[type.type].push_back(ids[e]);
     }
     next_ = std::max<std::int64_t>(next_, *std::ranges::max_element(ids));
+  }
+
+  void others(const MedOther& type) {
+    const std::int64_t n = count(MED_CELL, type.type);
+    if (n == 0) return;
+    std::vector<med_int> connectivity(type.n_nodes * static_cast<std::size_t>(n));
+    if (MEDmeshElementConnectivityRd(file_.id(), mesh_.c_str(), MED_NO_DT, MED_NO_IT, MED_CELL, type.type, MED_NODAL,
+                                     MED_FULL_INTERLACE, connectivity.data()) < 0)
+      fail("elements cannot be read (damaged file)");
+    const std::vector<med_int> family = numbers(MED_CELL, type.type, n, MED_FAMILY_NUMBER);
+    std::vector<std::int64_t> nodes(type.n_nodes);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(n); ++e) {
+      const std::int64_t id = ++next_;
+      for (std::size_t i = 0; i < type.n_nodes; ++i) {
+        const med_int position = connectivity[type.n_nodes * e + i];
+        if (position < 1 || position > std::ssize(node_ids_))
+          fail("element " + std::to_string(id) + " (" + type.name + ") names node " + std::to_string(position) +
+               " of " + std::to_string(node_ids_.size()));
+        nodes[type.order[i]] = node_ids_[static_cast<std::size_t>(position - 1)];
+      }
+      listing_.add_other({type.shape, static_cast<int>(type.n_nodes), type.name}, id, 0, nodes, "", false, nullptr);
+      if (!family.empty() && family[e] != 0) elements_of_family_[family[e]].push_back(id);
+    }
   }
 
   void groups() {

@@ -1,7 +1,9 @@
 // MED through its library: blocks and side sets are groups of elements, node sets groups of nodes; who is in the same
 // groups is a family.
 #include "hextwist/base/replacement.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/med/med_internal.h"
+#include "hextwist/io/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -23,6 +25,7 @@ class MedWriter {
     nodes();
     hexes();
     quads();
+    others();
     fields();
     if (!file_.close()) fail();
   }
@@ -121,7 +124,8 @@ class MedWriter {
 
   void quads() {
     const PlannedSides plan = plan_sides(mesh_, {});
-    if (plan.sides.empty()) return;
+    const std::vector<Index> beside = other_quads();
+    if (plan.sides.empty() && beside.empty()) return;
     const med_geometry_type type = !second_ ? MED_QUAD4 : second_->nodes_per_hex == 20 ? MED_QUAD8 : MED_QUAD9;
     std::vector<med_int> connectivity;
     for (const Side& side : plan.sides) {
@@ -134,9 +138,68 @@ class MedWriter {
         connectivity.push_back(second_->middle_between(turned[c], turned[(c + 1) % 4]) + 1);
       if (second_->nodes_per_hex == 27) connectivity.push_back(second_->middle_of(q) + 1);
     }
-    elements(type, plan.sides.size(), connectivity);
+    for (const Index e : beside)
+      for (const std::size_t i : {0, 3, 2, 1}) connectivity.push_back(mesh_.others->nodes_of(e)[i] + 1);
+    elements(type, plan.sides.size() + beside.size(), connectivity);
     const std::vector<std::span<const Index>> members(plan.members.begin(), plan.members.end());
-    entities(MED_CELL, type, families(plan.sides.size(), members, names("sideset", mesh_.side_sets), -1), {});
+    std::vector<med_int> family = families(plan.sides.size(), members, names("sideset", mesh_.side_sets), -1);
+    if (!beside.empty()) {
+      const std::vector<med_int> more = families_of_others(beside, 0);
+      family.insert(family.end(), more.begin(), more.end());
+    }
+    entities(MED_CELL, type, family, {});
+  }
+
+  /// Beside the quads that are sides: of a kind MED has elements in one list.
+  void others() {
+    if (!mesh_.others) return;
+    const OtherElements& all = *mesh_.others;
+    std::vector<std::uint8_t> is_written(static_cast<std::size_t>(all.size()), 0);
+    std::int64_t n_shortened = 0;
+    for (const MedOther& type : med_others) {
+      if (type.type == MED_QUAD4) continue;  // with the sides
+      std::vector<med_int> connectivity;
+      std::vector<Index> written;
+      for (Index e = 0; e < all.size(); ++e) {
+        if (!is_of(all, e, type)) continue;
+        const auto nodes = all.nodes_of(e);
+        n_shortened += nodes.size() > type.n_nodes;
+        for (std::size_t i = 0; i < type.n_nodes; ++i) connectivity.push_back(nodes[type.order[i]] + 1);
+        written.push_back(e);
+        is_written[e] = 1;
+      }
+      if (written.empty()) continue;
+      elements(type.type, written.size(), connectivity);
+      entities(MED_CELL, type.type, families_of_others(written, 0), {});
+    }
+    for (const Index e : other_quads()) is_written[e] = 1;
+    if (const auto n = std::ranges::count(is_written, 0))
+      notices_.push_back("left out " + counted(n, "other element") + ", which MED has nothing like here");
+    if (n_shortened > 0)
+      notices_.push_back(counted(n_shortened, "other element") +
+                         " written without nodes that say how they are turned, which MED has no place for");
+  }
+  static bool is_of(const OtherElements& all, Index e, const MedOther& type) {
+    const OtherType& of = all.type_of(e);
+    return of.shape == type.shape && of.n_nodes == static_cast<int>(type.n_nodes);
+  }
+  std::vector<Index> other_quads() const {
+    std::vector<Index> quads;
+    for (Index e = 0; e < n_others(mesh_); ++e)
+      if (mesh_.others->type_of(e).shape == OtherShape::quad && mesh_.others->type_of(e).n_nodes == 4 && !second_)
+        quads.push_back(e);
+    return quads;
+  }
+  /// Families of elements behind `before` others that are in no block.
+  std::vector<med_int> families_of_others(const std::vector<Index>& written, std::size_t before) {
+    std::vector<std::vector<Index>> lists;
+    for (const Block& block : mesh_.blocks) {
+      std::vector<Index>& list = lists.emplace_back();
+      for (const Index e : others_of_block(mesh_, block.id))
+        if (const Index at = position_in(written, e); at >= 0) list.push_back(static_cast<Index>(before) + at);
+    }
+    const std::vector<std::span<const Index>> members(lists.begin(), lists.end());
+    return families(before + written.size(), members, names("block", mesh_.blocks), -1);
   }
 
   void fields() {

@@ -1,18 +1,15 @@
-// Nastran .bdf: GRID, CHEXA, CQUAD4 and its like, PLOAD4 and SET1. Properties are blocks.
+// Nastran .bdf: GRID, CHEXA, elements beside them, PLOAD4 and SET1. Properties are blocks.
 #include <limits>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/nastran/nastran_internal.h"
+#include "hextwist/io/nastran/others.h"
 
 namespace hextwist::io {
 namespace {
 
-/// What other solids and smaller elements are called; by the beginning of the card.
-constexpr std::pair<std::string_view, const char*> refused[] = {
-    {"CTETRA", "tetrahedron"}, {"CPENTA", "wedge"}, {"CPYRAM", "pyramid"}};
-constexpr std::string_view quads[] = {"CQUAD4", "CQUAD8", "CQUADR", "CQUAD"};
-constexpr std::string_view dropped[] = {"CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",   "CONROD", "CTUBE",
-                                        "CBUSH",  "CONM1",  "CONM2",  "CELAS1", "CELAS2", "RBE2",   "RBE3",   "CGAP",
-                                        "PLOTEL", "CSHEAR", "CBEND",  "CMASS1", "CMASS2", "CDAMP1", "CDAMP2"};
+/// Elements that have no place here.
+constexpr std::string_view dropped[] = {"CQUAD", "RBE3", "RBE1", "RSPLINE", "CELAS3", "CELAS4", "CDAMP3", "CMASS3"};
 
 class NastranReader {
  public:
@@ -29,6 +26,7 @@ class NastranReader {
     if (!ended_ && had_bulk_) cursor_.fail_at(cursor_.end, "the file ends before ENDDATA");
     if (!ended_) listing_.note(cursor_.where(cursor_.end) + ": there is no ENDDATA; the file may be cut short");
     groups();
+    listing_.set_format("nastran");
     if (n_other_ > 0) listing_.note(counted(n_other_, "other card") + " left out (the first: " + first_other_ + ")");
     return listing_.result(true);
   }
@@ -72,7 +70,7 @@ class NastranReader {
   void read(const NastranCard& card) {
     if (card.name == "GRID") return grid(card);
     if (card.name == "CHEXA") return hex(card);
-    if (std::ranges::find(quads, card.name) != std::end(quads)) return quad(card);
+    if (const NastranOther* other = nastran_other(card.name)) return beside(card, *other);
     if (card.name == "PLOAD4") return pressure(card);
     if (card.name == "SET1") return set(card);
     if (card.name == "ENDDATA") {
@@ -81,11 +79,9 @@ class NastranReader {
     }
     if (card.name == "INCLUDE" || card.name.starts_with("INCLUDE"))
       cursor_.fail_at(card.at, "INCLUDE is not supported: nodes or elements would be missing");
-    for (const auto& [name, type] : refused)
-      if (card.name == name) listing_.refuse(integer(card, 0, "an element id"), type, card.at);
     if (std::ranges::find(dropped, card.name) != std::end(dropped))
       return listing_.drop(integer(card, 0, "an element id"), card.name);
-    if (card.name == "PSOLID" || card.name == "PSHELL") return;  // their names are comments, as all of the kind
+    if (card.name == "PSOLID") return;  // their names are comments, as all of the kind
     if (n_other_++ == 0) first_other_ = card.name;
   }
 
@@ -108,11 +104,27 @@ class NastranReader {
     listing_.add_hex(element, card[1].empty() ? 0 : id(card, 1, "a property"), nodes, nastran_middles, card.at);
   }
 
-  void quad(const NastranCard& card) {
-    std::array<std::int64_t, 4> nodes;
-    for (std::size_t i = 0; i < 4; ++i) nodes[i] = integer(card, 2 + i, "a node");
-    listing_.add_quad(integer(card, 0, "an element id"), card[1].empty() ? 0 : id(card, 1, "a property"), nodes,
-                      card.at);
+  /// Kept with all its fields.
+  void beside(const NastranCard& card, const NastranOther& of) {
+    const std::int64_t element = integer(card, 0, "an element id");
+    const int part = of.property == 0 || card[of.property].empty() ? 0 : id(card, of.property, "a property");
+    std::vector<std::int64_t> nodes;
+    std::size_t n = of.n_nodes[0];
+    if (of.shape == OtherShape::connector) {
+      for (const std::size_t field : nastran_node_fields(card)) nodes.push_back(integer(card, field, "a node"));
+      n = 0;
+    } else {
+      for (std::size_t i = of.n_nodes[0]; i < of.n_nodes[1]; ++i)
+        if (!card[of.first + i].empty()) n = of.n_nodes[1];
+      nodes.resize(n);
+      for (std::size_t i = 0; i < n; ++i) nodes[i] = integer(card, of.first + nastran_place(of, n, i), "a node");
+      // A node that says how a bar is turned stands where the first number of a vector may.
+      const bool turned = (of.name == "CBAR" || of.name == "CBEAM") && card[4].find('.') == std::string::npos &&
+                          !card[4].empty() && card[5].empty() && card[6].empty();
+      if (turned) nodes.push_back(integer(card, 4, "a node"));
+    }
+    const OtherType type{of.shape, static_cast<int>(n), std::string(of.name)};
+    listing_.add_other(type, element, part, nodes, joined(card.fields, ","), is_rigid_card(card), card.at);
   }
 
   /// On a face of a solid, which two opposite corners name. Those on shells are no side of a hex by themselves.

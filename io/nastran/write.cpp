@@ -1,6 +1,11 @@
 // Nastran .bdf: GRID in large fields (16 characters of a number), CHEXA by blocks as PSOLID, node sets as SET1, sides
 // as PLOAD4, which does nothing before a load case asks for it. Comments keep the names.
+#include <map>
+
+#include "hextwist/base/text.h"
 #include "hextwist/io/nastran/nastran_internal.h"
+#include "hextwist/io/nastran/others.h"
+#include "hextwist/io/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -37,6 +42,107 @@ std::string large(const std::string& field) {
   return std::string(16 - std::min<std::size_t>(16, field.size()), ' ') + field;
 }
 
+/// A card in small fields, or in large ones where a field does not fit.
+void write_nastran_card(Output& out, std::string_view name, std::span<const std::string> fields) {
+  const bool small = std::ranges::all_of(fields, [](const std::string& field) { return field.size() <= 8; });
+  const std::size_t width = small ? 8 : 16, per_line = small ? 8 : 4;
+  std::string line = std::string(name) + (small ? "" : "*");
+  line.resize(8, ' ');
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0 && i % per_line == 0) {
+      out << line << "+\n";
+      line = small ? "+       " : "*       ";
+    }
+    line += std::string(width - std::min(width, fields[i].size()), ' ') + fields[i];
+  }
+  while (line.size() > 8 && line.back() == ' ') line.pop_back();
+  out << line << '\n';
+}
+
+/// What elements of another format are called; empty where there is nothing like them.
+std::string usual_card(const OtherType& type) {
+  switch (type.shape) {
+    case OtherShape::point:
+      return "CONM2";
+    case OtherShape::line:
+      return type.n_nodes == 2 ? "CBAR" : "";
+    case OtherShape::triangle:
+      return type.n_nodes == 3 ? "CTRIA3" : type.n_nodes == 6 ? "CTRIA6" : "";
+    case OtherShape::quad:
+      return type.n_nodes == 4 ? "CQUAD4" : type.n_nodes == 8 ? "CQUAD8" : "";
+    case OtherShape::tetrahedron:
+      return type.n_nodes == 4 || type.n_nodes == 10 ? "CTETRA" : "";
+    case OtherShape::pyramid:
+      return type.n_nodes == 5 || type.n_nodes == 13 ? "CPYRAM" : "";
+    case OtherShape::wedge:
+      return type.n_nodes == 6 || type.n_nodes == 15 ? "CPENTA" : "";
+    case OtherShape::connector:
+      return "";
+  }
+  return "";
+}
+
+std::vector<std::string> nastran_fields_of(const std::string& rest) {
+  std::vector<std::string> fields(1);
+  for (const char c : rest)
+    if (c == ',')
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
+
+void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::int64_t> node_ids,
+                          const std::vector<std::int64_t>& ids, std::vector<std::string>& notices) {
+  const OtherElements& others = *mesh.others;
+  const bool own = others.heads->format == "nastran";
+  const bool same_nodes = node_ids.data() == mesh.node_ids.data();
+  std::map<std::string, std::int64_t> n_lost, n_made;
+  std::vector<int> block_of(static_cast<std::size_t>(others.size()), 0);
+  for (const Block& block : mesh.blocks)
+    for (const Index e : others_of_block(mesh, block.id))
+      if (block_of[e] == 0) block_of[e] = block.id;
+  for (Index e = 0; e < others.size(); ++e) {
+    const OtherType& type = others.type_of(e);
+    const std::string name = own ? type.name : usual_card(type);
+    const NastranOther* card = nastran_other(name);
+    if (!card || (card->shape == OtherShape::connector && !same_nodes)) {
+      ++n_lost[type.name];
+      continue;
+    }
+    std::vector<std::string> fields = own && !others.heads->rest.empty()
+                                          ? nastran_fields_of(others.heads->rest[others.of[e]])
+                                          : std::vector<std::string>();
+    const auto set = [&](std::size_t field, const std::string& text) {
+      fields.resize(std::max(fields.size(), field + 1));
+      fields[field] = text;
+    };
+    set(0, std::to_string(ids[e]));
+    if (card->property > 0 && block_of[e] > 0) set(card->property, std::to_string(block_of[e]));
+    const auto nodes = others.nodes_of(e);
+    const auto n = static_cast<std::size_t>(type.n_nodes);
+    for (std::size_t i = 0; i < n && card->shape != OtherShape::connector; ++i)
+      set(card->first + nastran_place(*card, n, i), std::to_string(id_of(node_ids, nodes[i])));
+    const bool bar = name == "CBAR" || name == "CBEAM";
+    if (bar && nodes.size() > n) set(4, std::to_string(id_of(node_ids, nodes[n])));
+    if (bar && !own && nodes.size() == n) set(4, "0."), set(5, "0."), set(6, "1.");
+    for (std::string& field : fields)
+      if (field.size() > 16) {
+        double value = 0;
+        const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+        if (error == std::errc{} && stop == field.data() + field.size()) field = nastran_real(value, 16);
+      }
+    if (!own) ++n_made[name];
+    write_nastran_card(out, name, fields);
+  }
+  for (const auto& [type, n] : n_lost)
+    notices.push_back("left out " + counted(n, "other element of type ", "other elements of type ") + type +
+                      ", which Nastran has nothing like here");
+  for (const auto& [name, n] : n_made)
+    notices.push_back(counted(n, "other element") + " written as " + name +
+                      ": properties and the like are yours to add");
+}
+
 }  // namespace
 
 void write_nastran(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
@@ -66,6 +172,7 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
   for (const Block& block : mesh.blocks)
     if (block.id > 0) {
       out << "$ hextwist block " << block.id << ' ' << one_line(block.name) << '\n';
+      if (block.hexes.empty() && !others_of_block(mesh, block.id).empty()) continue;  // the property is no solid's
       SmallFields card(out, "PSOLID");
       card.add(block.id);
       card.add(1);
@@ -86,6 +193,8 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
     for (const Index n : nodes.all()) card.add(id_of(node_ids, n));
     card.finish();
   }
+  if (mesh.others)
+    write_nastran_others(out, mesh, node_ids, other_ids_in_file(mesh, hex_ids, highest_id, limit, notices), notices);
   for (const NodeSet& set : mesh.node_sets) {
     out << "$ hextwist nodeset " << set.id << ' ' << one_line(set.name) << '\n';
     SmallFields card(out, "SET1");

@@ -30,6 +30,7 @@ class UnvReader {
         skip(dataset);
     }
     if (!skipped_.empty()) listing_.note("left out datasets " + joined(skipped_, ", "));
+    listing_.set_format("unv");
     return listing_.result(false);
   }
 
@@ -70,19 +71,22 @@ class UnvReader {
       const char* at = cursor_.at;
       const std::int64_t id = cursor_.integer("an element id");
       const int kind = cursor_.small("an element's descriptor"), part = cursor_.small("a physical property");
-      cursor_.small("a material"), cursor_.small("a colour");
+      const int material = cursor_.small("a material"), colour = cursor_.small("a colour");
       const std::size_t n =
           cursor_.check_count(cursor_.integer("the number of nodes"), 2, "nodes of element " + std::to_string(id));
       cursor_.line();
-      if (kind == 11 || (kind >= 21 && kind <= 24)) cursor_.line();  // beams have a line of their own
+      // Beams have a line of their own.
+      std::string rest = std::to_string(part) + " " + std::to_string(material) + " " + std::to_string(colour);
+      if (kind == 11 || (kind >= 21 && kind <= 24)) rest += "|" + std::string(trimmed(cursor_.line()));
       std::vector<std::int64_t> nodes(n);
       for (std::int64_t& node : nodes) node = cursor_.integer("a node");
       cursor_.line();
-      element(id, kind, std::max(part, 0), nodes, at);
+      element(id, kind, std::max(part, 0), nodes, std::move(rest), at);
     }
   }
 
-  void element(std::int64_t id, int kind, int part, std::vector<std::int64_t>& nodes, const char* at) {
+  void element(std::int64_t id, int kind, int part, std::vector<std::int64_t>& nodes, std::string rest,
+               const char* at) {
     const auto expect = [&](std::size_t n) {
       if (nodes.size() != n)
         cursor_.fail_at(at, "element " + std::to_string(id) + " has " + std::to_string(nodes.size()) +
@@ -98,6 +102,14 @@ class UnvReader {
       for (std::size_t i = 0; i < 20; ++i) sorted[unv_place[i]] = nodes[i];
       return listing_.add_hex(id, part, sorted, vtk_middles, at);
     }
+    for (const UnvOther& other : unv_others) {
+      if (kind != other.kind) continue;
+      if (other.n_nodes > 0) expect(other.n_nodes);
+      std::vector<std::int64_t> sorted = nodes;
+      for (std::size_t i = 0; i < other.n_nodes; ++i) sorted[other.place[i]] = nodes[i];
+      return listing_.add_other({other.shape, static_cast<int>(other.n_nodes), std::to_string(kind)}, id, part, sorted,
+                                std::move(rest), false, at);
+    }
     for (const auto& [other, name] : unv_refused)
       if (kind == other) listing_.refuse(id, name, at);
     const bool quad = std::ranges::find(unv_quads, kind) != std::end(unv_quads);
@@ -107,6 +119,7 @@ class UnvReader {
     if (quad_8)
       for (std::size_t c = 0; c < 4; ++c) nodes[c] = nodes[2 * c];
     listing_.add_quad(id, part, std::span(nodes).first(4), at);
+    if (quad) listing_.keep_quad(std::to_string(kind), std::move(rest));
   }
 
   void groups(int dataset) {

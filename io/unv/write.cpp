@@ -1,7 +1,10 @@
 // I-deas universal files, .unv: nodes (2411), hexes and the quads of side sets (2412), and all sets as groups (2467).
+#include <cstdlib>
+#include <map>
 #include <set>
 
 #include "hextwist/io/listing.h"
+#include "hextwist/io/others.h"
 #include "hextwist/io/unv/unv_internal.h"
 
 namespace hextwist::io {
@@ -59,6 +62,62 @@ class Groups {
   std::vector<std::string> changed_;
 };
 
+/// Elements beside the hexes; per element whether it is in the file.
+std::vector<std::uint8_t> write_unv_others(Output& out, const Mesh& mesh, std::span<const std::int64_t> node_ids,
+                                           const std::vector<std::int64_t>& ids, std::vector<std::string>& notices) {
+  std::vector<std::uint8_t> is_written(static_cast<std::size_t>(n_others(mesh)), 0);
+  if (!mesh.others) return is_written;
+  const OtherElements& others = *mesh.others;
+  const bool own = others.heads->format == "unv";
+  std::map<std::string, std::int64_t> n_lost;
+  for (Index e = 0; e < others.size(); ++e) {
+    const OtherType& type = others.type_of(e);
+    const UnvOther* as = nullptr;
+    int kind = own ? std::atoi(type.name.c_str()) : 0;
+    for (const UnvOther& other : unv_others) {
+      const bool fits = own ? other.kind == kind
+                            : other.shape == type.shape && other.shape != OtherShape::connector &&
+                                  static_cast<int>(other.n_nodes) == type.n_nodes && other.kind != 11 &&
+                                  (other.shape != OtherShape::triangle || other.kind > 90);
+      if (fits && !as) as = &other;
+    }
+    const bool quad = type.shape == OtherShape::quad && type.n_nodes == 4;
+    if (!as && !quad) {
+      ++n_lost[type.name];
+      continue;
+    }
+    if (!own) kind = as ? as->kind : unv_quad;
+    const auto all = others.nodes_of(e);
+    const std::size_t n = type.n_nodes > 0 ? static_cast<std::size_t>(type.n_nodes) : all.size();
+    std::string numbers = "1 1 7", beam = "0 0 0";
+    if (!own && all.size() > n) beam = std::to_string(id_of(node_ids, all[n])) + " 0 0";  // how it is turned
+    if (own && !others.heads->rest.empty()) {
+      const std::string& rest = others.heads->rest[others.of[e]];
+      numbers = rest.substr(0, rest.find('|'));
+      if (rest.find('|') != std::string::npos) beam = rest.substr(rest.find('|') + 1);
+    }
+    const auto fields = [](const std::string& text) {
+      std::string line;
+      for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        if (end > at) line += field(std::atoll(text.substr(at, end - at).c_str()));
+        at = end + 1;
+      }
+      return line;
+    };
+    out << field(ids[e]) << field(kind) << fields(numbers) << field(static_cast<std::int64_t>(n)) << '\n';
+    if (kind == 11 || (kind >= 21 && kind <= 24)) out << fields(beam) << '\n';
+    for (std::size_t i = 0; i < n; ++i)
+      out << field(id_of(node_ids, all[as && as->n_nodes > 0 ? as->place[i] : i]))
+          << (i % 8 == 7 || i + 1 == n ? "\n" : "");
+    is_written[e] = 1;
+  }
+  for (const auto& [name, n] : n_lost)
+    notices.push_back("left out " + counted(n, "other element of type ", "other elements of type ") + name +
+                      ", which .unv has nothing like here");
+  return is_written;
+}
+
 }  // namespace
 
 void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
@@ -94,7 +153,9 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
   for (const SideSet& set : mesh.side_sets) sides.insert(sides.end(), set.sides.begin(), set.sides.end());
   std::ranges::sort(sides);
   sides.erase(std::ranges::unique(sides).begin(), sides.end());
-  const std::int64_t before = mesh.hexes.empty() ? 0 : id_of(hex_ids, mesh.n_hexes() - 1);
+  const std::vector<std::int64_t> other_ids = other_ids_in_file(mesh, hex_ids, highest_id, limit, notices);
+  std::int64_t before = mesh.hexes.empty() ? 0 : id_of(hex_ids, mesh.n_hexes() - 1);
+  for (const std::int64_t id : other_ids) before = std::max(before, id);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Quad q = face_node_cycle(mesh.hexes[sides[i].hex], sides[i].face);
     std::vector<std::int64_t> nodes;
@@ -104,11 +165,16 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
     }
     element(before + 1 + static_cast<std::int64_t>(i), second ? unv_quad_8 : unv_quad, nodes);
   }
+  const std::vector<std::uint8_t> is_written = write_unv_others(out, mesh, node_ids, other_ids, notices);
   out << "    -1\n    -1\n  2467\n";
   Groups groups(out, notices);
-  for (const Block& block : mesh.blocks)
-    groups.write("block", block.id, block.name, 8, block.hexes.size(),
-                 [&](std::size_t i) { return id_of(hex_ids, block.hexes[i]); });
+  for (const Block& block : mesh.blocks) {
+    std::vector<Index> others = others_of_block(mesh, block.id);
+    std::erase_if(others, [&](Index e) { return !is_written[e]; });
+    groups.write("block", block.id, block.name, 8, block.hexes.size() + others.size(), [&](std::size_t i) {
+      return i < block.hexes.size() ? id_of(hex_ids, block.hexes[i]) : other_ids[others[i - block.hexes.size()]];
+    });
+  }
   for (const SideSet& set : mesh.side_sets)
     groups.write("sideset", set.id, set.name, 8, set.sides.size(), [&](std::size_t i) {
       return before + 1 + (std::ranges::lower_bound(sides, set.sides[i]) - sides.begin());

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hextwist/io/middles.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 
@@ -118,6 +119,11 @@ struct VtkContents {
   /// Files before XML 2.1 and legacy 5.1 have the last two middle nodes of edges of Lagrange hexes the other way round.
   bool old_lagrange = false;
 };
+
+/// A cell type for other elements of a shape with so many nodes; 0: none.
+int vtk_type_of(OtherShape shape, std::size_t n_nodes);
+/// The other way round. Pixels are quads with their last two nodes exchanged.
+std::optional<OtherType> vtk_other(std::int64_t type, std::size_t n_nodes);
 
 /// Points from their array. Throws at coordinates that are not finite.
 std::vector<Vec3> vtk_points(const VtkArray& array, const Cursor& cursor);

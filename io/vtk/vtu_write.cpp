@@ -94,16 +94,18 @@ class Arrays {
 }  // namespace
 
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
-               std::vector<std::string>&) {
+               std::vector<std::string>& notices) {
   const auto n_nodes = mesh.points.size(), n_hexes = mesh.hexes.size();
   Arrays arrays(out, options.binary);
 
-  const VtkOutput output(mesh, association, options);
+  const OtherCells others(mesh, notices);
+  const std::size_t n_cells = n_hexes + others.types.size();
+  const VtkOutput output(mesh, association, options, &others);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
       << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
   output.field_data(arrays);
-  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_hexes
+  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_cells
       << "\">\n<PointData>\n";
   output.point_data(arrays);
   out << "</PointData>\n<CellData>\n";
@@ -111,12 +113,22 @@ void write_vtu(Output& out, const Mesh& mesh, const Association& association, co
   out << "</CellData>\n<Points>\n";
   arrays.add<double>("Points", coordinates(mesh.points), 3);
   out << "</Points>\n<Cells>\n";
-  const int nodes_per_hex = output.nodes_per_hex();
-  output.connectivity(arrays, "connectivity", 1);
-  arrays.add_each("offsets", n_hexes, 1,
-                  [=](std::size_t h) { return nodes_per_hex * (static_cast<std::int64_t>(h) + 1); });
-  const std::uint8_t type = nodes_per_hex == 8 ? 12 : nodes_per_hex == 20 ? 25 : 29;
-  arrays.add_each("types", n_hexes, 1, [=](std::size_t) { return type; });
+  const auto per_hex = static_cast<std::size_t>(output.nodes_per_hex());
+  if (others.types.empty())
+    output.connectivity(arrays, "connectivity", 1);
+  else
+    arrays.add_each("connectivity", n_hexes * per_hex + others.nodes.size(), 1,
+                    [&mesh, &others, second = options.second, per_hex, n = n_hexes * per_hex](std::size_t i) {
+                      if (i >= n) return others.nodes[i - n];
+                      return file_hex(mesh, second, static_cast<Index>(i / per_hex), vtk_middles).nodes[i % per_hex];
+                    });
+  arrays.add_each("offsets", n_cells, 1, [=, &others](std::size_t c) {
+    return c < n_hexes ? static_cast<std::int64_t>(per_hex * (c + 1))
+                       : static_cast<std::int64_t>(per_hex * n_hexes) + others.ends[c - n_hexes];
+  });
+  const std::uint8_t type = per_hex == 8 ? 12 : per_hex == 20 ? 25 : 29;
+  arrays.add_each("types", n_cells, 1,
+                  [=, &others](std::size_t c) { return c < n_hexes ? type : others.types[c - n_hexes]; });
   out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
   arrays.finish();
   out << "</VTKFile>\n";

@@ -15,6 +15,7 @@
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 
@@ -178,6 +179,8 @@ void find_unused_nodes(const Mesh& mesh, Report& report) {
   for (const Hex& hex : mesh.hexes)
     for (const Index node : hex)
       if (node >= 0 && node < mesh.n_nodes()) used[node] = 1;
+  if (mesh.others)
+    for (const Index node : mesh.others->nodes) used[node] = 1;
   for (Index n = 0; n < mesh.n_nodes(); ++n)
     if (!used[n]) report.add(ViolationKind::unused_node, {}, {n}, report.nodes({n}) + " belongs to no hex");
 }

@@ -7,6 +7,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/refine/levels/gradation.h"
 #include "hextwist/refine/levels/reorder.h"
 #include "hextwist/refine/levels/transfer.h"
@@ -14,17 +15,13 @@
 namespace hextwist {
 namespace {
 
-std::int64_t next_id(const Mesh& mesh, std::int64_t (*id)(const Mesh&, Index), Index n) {
-  return n == 0 ? 1 : id(mesh, n - 1) + 1;
-}
-
 std::shared_ptr<GrownForest> bare(const Mesh& base) {
   auto grown = std::make_shared<GrownForest>();
   grown->has_stack = true;
   grown->pieces = level_pieces({}, base.n_hexes());
   grown->hexes.n_base = base.n_hexes();
-  grown->next_node_id = next_id(base, node_id, base.n_nodes());
-  grown->next_hex_id = next_id(base, hex_id, base.n_hexes());
+  grown->next_node_id = base.points.empty() ? 1 : node_id(base, base.n_nodes() - 1) + 1;
+  grown->next_hex_id = highest_element_id(base) + 1;
   return grown;
 }
 

@@ -5,6 +5,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist {
 namespace {
@@ -105,6 +106,7 @@ MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_ord
         {field.name, field.on, field.components,
          (field.on == Field::On::node ? nodes : hexes).values(field.values, static_cast<std::size_t>(field.components)),
          field.integer});
+  mesh.others = node_order.empty() ? old.others : renumbered(old.others, nodes.to);
   mesh.results = old.results;
   mesh.file_hexes = hexes.values(old.file_hexes);
   if (!meshed.association.empty()) result.association = reordered(meshed.association, mesh, nodes, hexes);

@@ -8,6 +8,7 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/marks.h"
+#include "hextwist/refine/others.h"
 #include "hextwist/refine/templates/trisect.h"
 
 namespace hextwist {
@@ -22,6 +23,7 @@ MeshedModel without_fields(const MeshedModel& base) {
   bare.mesh.blocks = base.mesh.blocks;
   bare.mesh.node_sets = base.mesh.node_sets;
   bare.mesh.side_sets = base.mesh.side_sets;
+  bare.mesh.others = base.mesh.others;
   bare.mesh.results = base.mesh.results;
   bare.mesh.file_hexes = base.mesh.file_hexes;
   return bare;
@@ -68,8 +70,9 @@ struct Made {
 Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& marks, const StackOptions& options) {
   Made made;
   LevelPass& pass = made.pass;
-  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), trisect_table(),
-                      trisect_codes(from.mesh.hexes, marked_nodes(from.mesh, last, marks)));
+  const std::vector<std::uint16_t> codes = trisect_codes(from.mesh.hexes, marked_nodes(from.mesh, last, marks));
+  check_others(from.mesh, *trisect_table(), codes);
+  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), trisect_table(), codes);
   check_interrupt();
   Carried carried = carry(from.mesh, from.association, parts);
   made.mesh = {std::move(carried.mesh), from.model, std::move(carried.association)};
@@ -77,9 +80,11 @@ Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& 
   if (made.mesh.model && !made.mesh.association.empty() && !options.topology_only)
     place(from.mesh, from.association, parts, *made.mesh.model, made.mesh.mesh, made.mesh.association);
   check_interrupt();
+  const std::vector<Index> fixed = with_inner_nodes(made.mesh.mesh, made.mesh.association,
+                                                    std::vector<Index>(options.fixed.begin(), options.fixed.end()));
   if (!options.topology_only)
     pass.off_nodes = repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
-                                     options.fixed, options.progress, options.keep_jumps, &pass.is_repaired);
+                                     fixed, options.progress, options.keep_jumps, &pass.is_repaired);
   pass.marks = marks;
   pass.n_kept = parts.n_kept();
   pass.n_hexes = made.mesh.mesh.n_hexes();

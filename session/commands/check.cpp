@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "hextwist/mesh/association/check.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/session/commands/commands.h"
 
@@ -46,6 +47,7 @@ void do_check(Execution& run) {
             short_number(100 * (state.measured.volume - state.cad_volume) / state.cad_volume) + "%)");
   }
   run.say("mesh: " + counted(mesh.n_hexes(), EntityKind::hex) + ", " + counted(mesh.n_nodes(), EntityKind::node));
+  if (mesh.others) run.say("other elements, which are not checked: " + others_text(mesh));
   run.say(quality_text("shape", quality_row(mesh, state.measured.shape)));
   run.say(quality_text("scaled Jacobian", quality_row(mesh, state.measured.scaled_jacobian)));
   for (const ViolationRow& row : run.record().warnings) run.note(row.text);

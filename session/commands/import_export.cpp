@@ -8,6 +8,7 @@
 #include "hextwist/geom/similarity.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/move.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/levels_file.h"
 #include "hextwist/session/load.h"
@@ -171,6 +172,7 @@ MeshedModel chosen_blocks(Execution& run) {
   const Mesh &whole = run.meshed->mesh, &mesh = part.mesh;
   const auto n_gone = std::ssize(whole.node_sets) + std::ssize(whole.side_sets) - std::ssize(mesh.node_sets) -
                       std::ssize(mesh.side_sets);
+  if (whole.others) run.note("other elements are left out: " + others_text(whole));
   if (mesh.n_hexes() == whole.n_hexes() && mesh.blocks.size() == whole.blocks.size()) return part;
   std::string line = "only " + counted(std::ssize(mesh.blocks), EntityKind::block) + " of " +
                      std::to_string(whole.blocks.size()) + ": " + std::to_string(mesh.n_hexes()) + " of " +

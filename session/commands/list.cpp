@@ -9,6 +9,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/command/select/shapes.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/commands/commands.h"
 
@@ -279,6 +280,7 @@ void list_model(Execution& run) {
           ", volume " + short_number(state.measured.volume) + ", " + counted(n(mesh.blocks), EntityKind::block) + ", " +
           counted(n(mesh.node_sets), EntityKind::nodeset) + ", " + counted(n(mesh.side_sets), EntityKind::sideset) +
           ", " + counted(n(mesh.fields), "field") + (steps_text(mesh).empty() ? "" : ", " + steps_text(mesh)));
+  if (mesh.others) run.say("other elements: " + others_text(mesh));
   run.say("shape: smallest " + short_number(state.measured.shape.min) + " (hex " +
           std::to_string(hex_id(mesh, state.measured.shape.min_hex)) + "), average " +
           short_number(state.measured.shape.average));

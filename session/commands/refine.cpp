@@ -4,9 +4,11 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/histogram.h"
+#include "hextwist/refine/others.h"
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
+#include "hextwist/sizing/stop_at.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -225,6 +227,22 @@ void narrow(const Execution& run, Target& target) {
     for (Index& id : target.ids) ++id;
 }
 
+/// With `stop_at other` of as much of the target as no other element stands in the way of.
+Refining refining_of(Execution& run, const Request& request) {
+  constexpr int max_layers = 100;
+  for (int layers = 0;; ++layers) {
+    std::vector<std::string> told;
+    try {
+      Refining refining =
+          prepare_refining(run, layers == 0 ? request : away_from_others(*run.meshed, request, layers, told));
+      for (const std::string& line : told) run.note(line);
+      return refining;
+    } catch (const BlockedByOther&) {
+      if (!run.command.has("stop_at") || layers == max_layers) throw;
+    }
+  }
+}
+
 }  // namespace
 
 Target target_of(const Execution& run) {
@@ -247,9 +265,9 @@ Target target_of(const Execution& run) {
 void do_refine(Execution& run) {
   need_mesh(run, "to refine");
   run.stage("select");
-  Request request = request_of(run);
+  const Request request = request_of(run);
   run.close_stage();
-  Refining refining = prepare_refining(run, std::move(request));
+  Refining refining = refining_of(run, request);
   const Report& report = refining.report();
   const bool dry_run = refining.request.finish.dry_run;
   const std::string line = tell(run, report, dry_run);

@@ -4,6 +4,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/nodal_fields.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
@@ -78,6 +79,7 @@ void do_smooth(Execution& run) {
     options.scheme = scheme;
     options.nodes = related(run.core.selector(), range.kind, positions, EntityKind::node);
     if (state.fixed_nodes) options.fixed = *state.fixed_nodes;
+    options.fixed = with_nodes_of_others(meshed.mesh, std::move(options.fixed));
     options.keep_jumps = state.keep_jumps;
     options.fix_boundary = command.has("fixed");
     if (const Item* limit = command.find("sweeps")) options.iterations = static_cast<int>(limit->number);

@@ -1,3 +1,4 @@
+#include "hextwist/mesh/others.h"
 #include "io/io_support.h"
 
 namespace hextwist {
@@ -162,16 +163,18 @@ TEST(abaqus_files, other_peoples_files_are_understood) {
   EXPECT_EQ(read.mesh.hexes[0], (Hex{0, 1, 3, 2, 4, 5, 7, 6}));
   EXPECT_EQ(read.mesh.points[6], Vec3(1, 1, 1));
   EXPECT_EQ(read.mesh.hex_ids, (std::vector<std::int64_t>{4}));
-  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{1, "the brick", {0}}, {2, "ALL", {0}}, {3, "SAME", {0}}}));
+  EXPECT_EQ(
+      read.mesh.blocks,
+      (std::vector<Block>{{1, "the brick", {0}}, {2, "lid", {}}, {3, "beams", {}}, {4, "ALL", {0}}, {5, "SAME", {0}}}));
   EXPECT_EQ(read.mesh.node_sets, (std::vector<NodeSet>{{1, "Corners", {0, 1, 2, 3, 4, 5, 6, 7}},
                                                        {2, "EVEN", {1, 3, 5, 7}},
                                                        {3, "Ends", {0, 7}},
                                                        {4, "POINTS", {1, 2, 3, 5, 7}}}));
-  EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{1, "lid", {{0, 5}}},
-                                                       {2, "LOAD", {{0, 0}, {0, 4}}},
-                                                       {3, "SKIN", {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}}));
-  EXPECT_EQ(read.notices, (std::vector<std::string>{"dropped 1 element of type B31",
-                                                    "element sets without a hex or a side are left out: 'beams'"}));
+  EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{1, "LOAD", {{0, 0}, {0, 4}}},
+                                                       {2, "SKIN", {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}}));
+  EXPECT_EQ(others_text(read.mesh), "1 quad (S4R), 1 line (B31)");
+  EXPECT_EQ(read.mesh.others->heads->sets, (std::vector<OtherSet>{{2, {0}}, {3, {1}}}));
+  EXPECT_EQ(read.notices, std::vector<std::string>{});
 }
 
 TEST(abaqus_files, instances_are_placed_side_by_side) {
@@ -239,7 +242,7 @@ TEST(abaqus_files, each_part_instance_and_the_assembly_are_name_spaces) {
                               "part 'unused' has no instance: its 2 hexes are left out",
                               "ids that occur in several places of the file are moved: of instance 'b' nodes by 12 "
                               "elements by 2, of the assembly nodes by 24 elements by 4",
-                              "dropped 2 elements of type CONN3D2",
+                              "dropped 1 element of type CONN3D2, which leaves a node out",
                               "sets name 1 nodes or elements that are not there; the first is node 1 in 'none'"}));
 }
 
@@ -308,13 +311,10 @@ TEST(abaqus_files, cards_that_are_no_mesh_stand_in_the_next_file) {
                 "*BEAM SECTION, ELSET=beams, MATERIAL=Steel\n1.,1.\n*EQUATION\n2\n1,1,1.,2,1,-1.\n" + step);
   const std::string name = (test::output_folder() / "a.inp").string();
   EXPECT_EQ(read.notices,
-            (std::vector<std::string>{
-                name + ":29: *EQUATION is left out: it speaks of single nodes or elements",
-                "dropped 1 element of type B31", "element sets without a hex or a side are left out: 'beams'",
-                name + ":27: *BEAM SECTION is left out: it is about 'beams', of which nothing is kept",
-                "cards name nodes or elements by number, 1 times, first at " + name +
-                    ":35: what a refinement adds is not "
-                    "among them"}));
+            (std::vector<std::string>{name + ":29: *EQUATION is left out: it speaks of single nodes or elements",
+                                      "cards name nodes or elements by number, 1 times, first at " + name +
+                                          ":35: what a refinement adds is not "
+                                          "among them"}));
   const auto file = test::output_folder() / "cards.inp";
   WriteOptions options;
   options.extras = &read.extras;
@@ -323,7 +323,8 @@ TEST(abaqus_files, cards_that_are_no_mesh_stand_in_the_next_file) {
   const std::string text = test::text_of(file);
   EXPECT_EQ(text.find("*HEADING\nmy job\n"), 0u);
   std::string expected =
-      "*MATERIAL, NAME=Steel\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=Solid, MATERIAL=Steel\n,\n*STEP, NLGEOM\n"
+      "*MATERIAL, NAME=Steel\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=Solid, MATERIAL=Steel\n,\n"
+      "*BEAM SECTION, ELSET=beams, MATERIAL=Steel\n1.,1.\n*STEP, NLGEOM\n"
       "*STATIC\n1., 2.\n*BOUNDARY\nbase_1,1,3\n7, 1, 1\n*DSLOAD\nload, P, 1.\n*END STEP\n** hextwist end\n";
   EXPECT_EQ(text.substr(text.size() - expected.size()), expected);
   // Again, and without what they are about.
@@ -333,10 +334,12 @@ TEST(abaqus_files, cards_that_are_no_mesh_stand_in_the_next_file) {
   less.blocks.clear();
   EXPECT_EQ(write_mesh(file, less, nullptr, options),
             (std::vector<std::string>{name + ":25: *SOLID SECTION is left out: what it is about is gone",
+                                      name + ":27: *BEAM SECTION is left out: what it is about is gone",
                                       name + ":35: 1 line of *BOUNDARY left out: what they are about is gone"}));
-  EXPECT_EQ(write_mesh(test::output_folder() / "cards.vtu", read.mesh, nullptr, options),
-            (std::vector<std::string>{
-                "8 cards left out, which only .inp has: *MATERIAL, *ELASTIC, *SOLID SECTION, *STEP, *STATIC, ..."}));
+  EXPECT_EQ(
+      write_mesh(test::output_folder() / "cards.vtu", read.mesh, nullptr, options),
+      (std::vector<std::string>{"9 cards left out, which only .inp has: *MATERIAL, *ELASTIC, *SOLID SECTION, *BEAM "
+                                "SECTION, *STEP, ..."}));
 }
 
 TEST(abaqus_files, names_of_different_kinds_may_be_the_same) {
@@ -414,10 +417,8 @@ TEST(abaqus_files, what_is_wrong_is_said_with_its_line) {
   says("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8,9\n", ":15: element 1 has more nodes than a C3D8");
   says("*ELEMENT, TYPE=C3D20R\n8, 1,2\n", ":15: element 8 has 2 of 20 nodes");
   says("*ELEMENT, TYPE=C3D20\n8, 1,2,3,4,5,6,7,8,1,2,3,4,5,6,7,\n8,1,2,3\n", ":15: element 8 has 19 of 20 nodes");
-  says("*ELEMENT, TYPE=C3D4\n3, 1,2,3,5\n",
-       ":15: element 3 is of type C3D4; only hexes of 8, 20 or 27 nodes are accepted");
-  says("*ELEMENT, TYPE=C3D6\n3, 1,2,3,5,6,7\n",
-       ":15: element 3 is of type C3D6; only hexes of 8, 20 or 27 nodes are accepted");
+  says("*ELEMENT, TYPE=C3D4\n3, 1,2,3,5\n", ": there is no hex in the file, but 1 element C3D4");
+  says("*ELEMENT, TYPE=C3D6\n3, 1,2,3,5,6,7\n", ": there is no hex in the file, but 1 element C3D6");
   says("*ELEMENT\n1,2\n", ":14: *ELEMENT without TYPE=");
   says("", ": there is no hex in the file");
   says(hex + "*NODE\n9, 0, 1, nan\n", ":17: a coordinate of node 9 is not finite");

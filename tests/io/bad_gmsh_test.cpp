@@ -53,12 +53,9 @@ TEST(bad_gmsh_files, nodes_and_elements_of_version_4) {
   const auto elements = [](const std::string& text) { return head4 + nodes4 + "$Elements\n" + text; };
   says(elements("1 1 1 1\n3 1 5 1\n1 1 2 3 4 5 6 7 9\n$EndElements\n"),
        ":27: element 1 names node 9, which is not there");
-  says(elements("1 1 1 1\n3 1 4 1\n7 1 2 3 5\n$EndElements\n"),
-       ":27: element 7 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
-  says(elements("1 1 1 1\n3 1 6 1\n7 1 2 3 5 6 7\n$EndElements\n"),
-       ":27: element 7 is a wedge; only hexes of 8, 20 or 27 nodes are accepted");
-  says(elements("1 1 1 1\n3 1 7 1\n7 1 2 3 4 5\n$EndElements\n"),
-       ":27: element 7 is a pyramid; only hexes of 8, 20 or 27 nodes are accepted");
+  says(elements("1 1 1 1\n3 1 4 1\n7 1 2 3 5\n$EndElements\n"), ":29: there is no hex in the file, but 1 tetrahedron");
+  says(elements("1 1 1 1\n3 1 6 1\n7 1 2 3 5 6 7\n$EndElements\n"), ":29: there is no hex in the file, but 1 wedge");
+  says(elements("1 1 1 1\n3 1 7 1\n7 1 2 3 4 5\n$EndElements\n"), ":29: there is no hex in the file, but 1 pyramid");
   says(elements("1 1 1 1\n3 1 12 1\n7 1 2 3 4 5\n$EndElements\n"), ":28: expected a node, found '$EndElements'");
   says(elements("1 1 1 1\n3 1 99 1\n7 1 2 3 4 5\n$EndElements\n"),
        ":27: element 7 has type 99, which is not a hex, quad, line or point");
@@ -75,8 +72,7 @@ TEST(bad_gmsh_files, nodes_and_elements_of_versions_1_and_2) {
   says(head2 + "$Nodes\n1\n1 0 0 nan\n$EndNodes\n", ":6: a coordinate is not finite");
   const auto elements = [](const std::string& text) { return head2 + nodes2 + "$Elements\n" + text; };
   says(elements("1\n4 5 2 1 1 1 2 3 4 5 6 7 9\n$EndElements\n"), ":17: element 4 names node 9, which is not there");
-  says(elements("1\n4 4 2 1 1 1 2 3 4\n$EndElements\n"),
-       ":17: element 4 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
+  says(elements("1\n4 4 2 1 1 1 2 3 4\n$EndElements\n"), ":19: there is no hex in the file, but 1 tetrahedron");
   says(elements("1\n4 17 2 1 1 1 2 3 4\n$EndElements\n"), ":18: expected a node, found '$EndElements'");
   says(elements("1\n4 5 -2 1 1 1 2 3 4\n$EndElements\n"), ":17: a broken element header");
   says(elements("2\n4 5 2 1 1 1 2 3 4 5 6 7 8\n4 5 2 1 1 1 2 3 4 5 6 8 7\n$EndElements\n"),

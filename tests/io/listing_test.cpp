@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/second_order/second_order.h"
 #include "io/io_support.h"
 #include "support/meshed.h"
@@ -161,11 +162,11 @@ TEST(listed_files, nastran_is_understood_in_small_large_and_free_fields) {
   EXPECT_EQ(read.mesh.points[7], Vec3(0, 1, 1));
   EXPECT_EQ(read.mesh.hexes, (std::vector<Hex>{{0, 1, 3, 2, 4, 5, 7, 6}}));
   EXPECT_EQ(read.mesh.hex_ids, (std::vector<std::int64_t>{10}));
-  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{7, "", {0}}}));
+  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{1, "", {}}, {4, "", {}}, {7, "", {0}}}));
   EXPECT_EQ(read.mesh.node_sets, (std::vector<NodeSet>{{3, "", {0, 1, 2, 3, 5}}}));
-  EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{4, "", {{0, 5}}}, {5, "", {{0, 4}}}}));
-  EXPECT_EQ(read.notices,
-            (std::vector<std::string>{"1 other card left out (the first: MAT1)", "dropped 1 element of type CBAR"}));
+  EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{5, "", {{0, 4}}}}));
+  EXPECT_EQ(others_text(read.mesh), "1 line (CBAR), 1 quad (CQUAD4)");
+  EXPECT_EQ(read.notices, (std::vector<std::string>{"1 other card left out (the first: MAT1)"}));
 }
 
 TEST(listed_files, what_is_wrong_is_said_with_its_line) {
@@ -175,10 +176,8 @@ TEST(listed_files, what_is_wrong_is_said_with_its_line) {
     EXPECT_EQ(test::refusal(file), file.string() + expected);
   };
   const std::string grid = cube_grid, hex = "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n";
-  says("a.bdf", grid + "CTETRA,3,1,1,2,3,5\n",
-       ":10: element 3 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
-  says("a.bdf", grid + "CPENTA,3,1,1,2,3,5,6,7\n",
-       ":10: element 3 is a wedge; only hexes of 8, 20 or 27 nodes are accepted");
+  says("a.bdf", grid + "CTETRA,3,1,1,2,3,5\n", ":11: there is no hex in the file, but 1 element CTETRA");
+  says("a.bdf", grid + "CPENTA,3,1,1,2,3,5,6,7\n", ":11: there is no hex in the file, but 1 element CPENTA");
   says("a.bdf", grid + "CHEXA,1,1,1,2,3,4,5,6\n,7\n", ":10: element 1 has 7 of 8 corners");
   says("a.bdf", grid + "CHEXA,1,1,1,2,3,4,5,6\n,7,9\n", ":10: element 1 names node 9, which is not there");
   says("a.bdf", grid + hex + hex, ":12: element id 1 occurs twice");
@@ -200,7 +199,7 @@ TEST(listed_files, what_is_wrong_is_said_with_its_line) {
        ":5: the file ends inside of a dataset");
   says("a.unv",
        nodes + "    -1\n  2412\n         7       111         1         1         7         4\n 1 1 1 1\n    -1\n",
-       ":8: element 7 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
+       ":11: there is no hex in the file, but 1 element 111");
   says("a.unv",
        nodes + "    -1\n  2412\n         7       115         1         1         7         4\n 1 1 1 1\n    -1\n",
        ":8: element 7 has 4 nodes instead of 8");

@@ -1,3 +1,4 @@
+#include "hextwist/mesh/others.h"
 #include "io/io_support.h"
 
 namespace hextwist {
@@ -132,8 +133,9 @@ TEST(vtk_files, legacy_files_with_voxels_quads_and_arrays_are_understood) {
                            "0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n");
   const auto read = read_mesh(file);
   EXPECT_EQ(read.mesh.hexes[0], (Hex{0, 1, 2, 3, 4, 5, 6, 7}));
-  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{7, "", {0}}}));
+  EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{2, "", {}}, {7, "", {0}}}));
   EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{3, "", {{0, 4}}}}));
+  EXPECT_EQ(others_text(read.mesh), "1 line");
   EXPECT_EQ(
       read.mesh.fields,
       (std::vector<Field>{{"MaterialID", Field::On::hex, 1, {7}, true},
@@ -219,8 +221,7 @@ TEST(vtk_files, what_is_wrong_is_said) {
     EXPECT_EQ(test::refusal(file), file.string() + expected);
   };
   const std::string good = legacy;
-  says(good + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n",
-       ": cell 1 is a tetrahedron; only hexes of 8, 20 or 27 nodes are accepted");
+  says(good + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n", ":12: there is no hex in the file, but 1 tetrahedron");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n25\n", ": cell 1 has 8 nodes instead of 20");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n29\n", ": cell 1 has 8 nodes instead of 27");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", ": cell 1 names point 8 of 8 (counted from 0)");
@@ -235,7 +236,7 @@ TEST(vtk_files, what_is_wrong_is_said) {
        ": the nodes of cell 1 do not fit: they end at 9 of 8");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\n", ":10: the file ends without cells");
   says(good + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 2\n12 12\n", ":12: 2 cell types for 1 cells");
-  says(good + "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n", ":12: there is no hex in the file");
+  says(good + "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n", ":12: there is no hex in the file, but 1 point");
   says(good + "WONDERS 1\n", ":8: expected a section, found 'WONDERS'");
   says("# vtk DataFile Version 2.0\n\nASCII\nDATASET POLYDATA\n",
        ":4: data set 'POLYDATA'; only UNSTRUCTURED_GRID is read");
