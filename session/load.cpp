@@ -345,6 +345,7 @@ void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling
 }
 
 void forget_members(ModelState& state, bool also_cad) {
+  state.periodic = nullptr;
   if (!state.groups || also_cad) {
     state.groups = nullptr;
     return;

@@ -10,6 +10,7 @@
 #include "hextwist/mesh/association/check.h"
 #include "hextwist/mesh/move.h"
 #include "hextwist/mesh/others.h"
+#include "hextwist/mesh/periodic.h"
 #include "hextwist/mesh/second_order/second_order.h"
 #include "hextwist/session/load.h"
 
@@ -84,6 +85,20 @@ std::shared_ptr<const FileExtras> moved_extras(const std::shared_ptr<const FileE
   return result;
 }
 
+/// The same of periodic surfaces.
+std::shared_ptr<const PeriodicBoundary> moved_pairs(const std::shared_ptr<const PeriodicBoundary>& periodic,
+                                                    const Similarity& similarity) {
+  if (!periodic) return nullptr;
+  auto result = std::make_shared<PeriodicBoundary>(*periodic);
+  for (PeriodicPair& pair : result->pairs) {
+    pair.shift = similarity.factor * (similarity.turn * pair.shift);
+    pair.turn = (similarity.turn * pair.turn * similarity.turn.transpose()).eval();
+    pair.shift += similarity.shift - pair.turn * similarity.shift;
+    if (pair.turn.isIdentity(1e-14)) pair.turn.setIdentity();
+  }
+  return result;
+}
+
 }  // namespace
 
 void scale(Mesh& mesh, double factor) {
@@ -131,6 +146,7 @@ void move(Transaction& run, const Similarity& similarity) {
                 std::to_string(node_id(run.meshed->mesh, state.measured.off_cad.node)) + " by " +
                 short_number(state.measured.off_cad.max));
   state.tags = nullptr;
+  state.periodic = moved_pairs(state.periodic, similarity);
   state.extras = moved_extras(state.extras, similarity);
 }
 

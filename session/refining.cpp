@@ -21,6 +21,7 @@ Refining prepare_refining(Transaction& run, Request request) {
   Refining refining;
   if (!request.levelling) request.levelling = run.state.levelling;
   if (!request.levelling) request.levelling = levelling_of(run.meshed.lend());
+  request.finish.periodic = run.state.periodic;
   const Progress& progress = run.core.callbacks.progress;
   const Measured& known = run.state.measured;
   // The session knows who is whose neighbour.
@@ -33,7 +34,8 @@ Refining prepare_refining(Transaction& run, Request request) {
       return true;
     });
   };
-  refining.patch = refine_patch(*run.meshed, known, request, progress, rings);
+  // Images may be anywhere: no patch has both sides.
+  if (!run.state.periodic) refining.patch = refine_patch(*run.meshed, known, request, progress, rings);
   if (refining.patch && !refining.patch->is_verified && !request.finish.dry_run)
     refining.whole = whole_result(*std::exchange(refining.patch, std::nullopt), *run.meshed, known, request);
   else if (!refining.patch)

@@ -17,6 +17,7 @@
 namespace hextwist {
 
 struct Levelling;
+struct PeriodicBoundary;
 
 enum class Glue { automatic, on, off };
 /// Are the libraries of others fenced in where they read files? Automatic: where the program for it is there.
@@ -37,6 +38,7 @@ struct ModelState {
   /// Smoothing schemes of CAD entities that were given one; null: none.
   std::shared_ptr<const std::vector<std::pair<Owner, SmoothScheme>>> schemes;
   std::shared_ptr<const std::vector<Group>> groups;  ///< by ascending id; null: none
+  std::shared_ptr<const PeriodicBoundary> periodic;  ///< surfaces that repeat others; null: none
   std::shared_ptr<const Levelling> levelling;        ///< how the mesh came out of its base; null: it is one
 };
 

@@ -4,6 +4,7 @@
 
 #include "hextwist/base/memory.h"
 #include "hextwist/command/error_at.h"
+#include "hextwist/mesh/periodic.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {
@@ -102,11 +103,16 @@ void Transaction::end_levels() {
   note("levels end here: this mesh is the base of what is refined from now on");
 }
 
+void Transaction::check_pairs() const {
+  if (is_playback || is_history || !state.periodic || !(back || mesh_before_)) return;
+  check_periodic(*meshed, state.periodic->pairs);
+}
+
 std::optional<Step> Transaction::undo_step() {
   if (is_playback || is_history || !core.history.on) return std::nullopt;
   const ModelState &now = state, &then = state_before_;
   if (!back && !mesh_before_ && now.fixed_nodes == then.fixed_nodes && now.schemes == then.schemes &&
-      now.groups == then.groups && now.extras == then.extras)
+      now.groups == then.groups && now.extras == then.extras && now.periodic == then.periodic)
     return std::nullopt;
   if (!back) back = mesh_before_ ? difference(*meshed, **mesh_before_) : SameMesh();
   core.history.undo.reserve(core.history.undo.size() + 1);
@@ -168,6 +174,7 @@ void transact(Transaction& run, const std::function<void()>& f) {
     f();
     run.close_stage();
     run.end_levels();
+    run.check_pairs();
     step = run.undo_step();
   } catch (const CommandError& error) {
     run.fail(error);

@@ -61,6 +61,8 @@ class Transaction {
   void replace_alike(MeshedModel next);
   std::optional<Step> undo_step();
   void end_levels();
+  /// Throws Error where the mesh is no longer the same on periodic surfaces.
+  void check_pairs() const;
   void roll_back() noexcept;
   void close_record();
   void fail(const CommandError& error);

@@ -42,6 +42,8 @@ Levelling start_of(const State& state) {
   } else {  // for as long as the request runs
     start.forest = plant(std::shared_ptr<const MeshedModel>(std::shared_ptr<void>(), &input));
   }
+  if (const auto& periodic = state.request.finish.periodic; periodic && !start.forest.mirror)
+    start.forest.mirror = mirror_of(*start.forest.base, periodic->pairs);
   start.forest = with_stack(grown(std::move(start.forest)), input.mesh);
   return start;
 }

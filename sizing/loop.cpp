@@ -11,6 +11,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
+#include "hextwist/mesh/periodic.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
@@ -147,6 +148,9 @@ void State::smooth_around(std::vector<Index> hexes, bool fix_boundary) {
   SmoothOptions options;
   options.nodes = nodes_inside(mesh, with_layers(mesh, std::move(hexes), smooth_layers));
   options.fixed = fixed_now();
+  if (const auto& periodic = request.finish.periodic)  // smoothed by themselves, the two sides would not be alike
+    options.fixed =
+        union_of(sorted_unique(options.fixed), periodic_nodes(mesh, result_.refined.association, periodic->pairs));
   options.keep_jumps = request.finish.keep_jumps;
   options.fix_boundary = fix_boundary;
   const SmoothReport smoothed = smooth(mesh, result_.refined.association, input.model.get(), options,
@@ -209,13 +213,32 @@ void State::close() {
   if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty())) {
     Finish finish = request.finish;
     finish.fixed = fixed_now();
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, new_nodes(), finish);
+    std::vector<Index> nodes = new_nodes();
+    if (const auto& periodic = request.finish.periodic)
+      nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish);
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }
+  if (request.finish.periodic) repeat_periodic();
   report.poor = poor_hexes(input.mesh, report.scaled_jacobian_before, mesh(), low);
   report.off_nodes_allowed = request.finish.allow_off_cad;
   if (!report.off_nodes.empty()) report.off_nodes = still_off(result_.refined, report.off_nodes);
+}
+
+void State::repeat_periodic() {
+  begin("periodic");
+  try {
+    const std::vector<Index> moved = repeat_places(result_.refined, request.finish.periodic->pairs);
+    if (!moved.empty()) result_.smoothed = union_of(result_.smoothed, moved);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(
+        std::string(error.what()) +
+        " after this refinement: whole hexes and layers of them ('method single', 'depth 1'), sizes by levels and all "
+        "volumes at once keep periodic surfaces alike");
+  }
 }
 
 RefineResult run_passes(State& state, Approach approach) {

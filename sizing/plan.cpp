@@ -74,6 +74,7 @@ Plan plan_how(const MeshedModel& input, const Request& request, const Cuts& cuts
   }
   if (method == Method::combination) return {Approach::combination, 2};
   const int reach = target.radius ? 1 : target.depth.value_or(solid ? 0 : 1) + 1;
+  if (request.finish.periodic && is_regular(request)) return {Approach::levels};  // marks go to images
   if (!is_regular(request) || (cuts.numsplit == 1 && !has_levels(request))) return {Approach::trisect, reach};
   if (has_levels(request)) return {Approach::levels};  // from the base on
   return {Approach::levels, reach + 1};                // all rings that further levels add are within one of the first
@@ -95,7 +96,8 @@ Plan plan_how(const MeshedModel&, const Request& request, const Sizes& sizes) {
   const Method method = technique_of(request);
   if (method == Method::combination && (request.method == method || exactly)) return {Approach::size_by_combination};
   if (request.method == Method::parallel) return {Approach::size_by_halves};
-  const bool by_levels = is_regular(request) && (request.transition == Transition::regular || has_levels(request));
+  const bool by_levels = is_regular(request) &&
+                         (request.transition == Transition::regular || has_levels(request) || request.finish.periodic);
   if (by_levels || sizes.coarsen) return {Approach::size_by_levels};
   if (request.method == Method::single)
     return {is_regular(request) ? Approach::nearest_size : Approach::size_by_threes};

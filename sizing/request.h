@@ -15,6 +15,7 @@ namespace HEXTWIST_API hextwist {
 
 class SizeField;
 struct Levelling;
+struct PeriodicBoundary;
 
 /// What is to be refined.
 struct Target {
@@ -142,6 +143,8 @@ struct Finish {
   std::vector<std::string> keep_jumps = {};
   /// New nodes that can't be put on their curve or surface are left off it, and told.
   bool allow_off_cad = false;
+  /// Surfaces that repeat others, and still do afterwards; null: none. What can't keep that is refused by name.
+  std::shared_ptr<const PeriodicBoundary> periodic = nullptr;
 };
 
 /// All that refine() wants to know beside the mesh. What does not go together is refused by name.

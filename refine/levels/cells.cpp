@@ -24,6 +24,23 @@ void walk_along(const CellMarks& a, const CellMarks& b, const OnlyA& only_a, con
 
 }  // namespace
 
+CellPlace place_of(CellNumber cell, std::size_t level) {
+  CellPlace place{0, {0, 0, 0}};
+  Index weight = 1;
+  for (std::size_t k = 0; k < level; ++k, cell = cell_parent(cell), weight *= 3)
+    for (int axis = 0; axis < 3; ++axis) place.at[axis] += weight * cell_layer(cell, axis);
+  place.root = static_cast<Index>(cell);
+  return place;
+}
+
+CellNumber number_of(const CellPlace& place, Index n) {
+  CellNumber number = place.root;
+  for (Index weight = n / 3; weight > 0; weight /= 3)
+    number = first_cell_child(number) + 9 * (place.at[0] / weight % 3) + 3 * (place.at[1] / weight % 3) +
+             place.at[2] / weight % 3;
+  return number;
+}
+
 int max_level(Index n_base_hexes) {
   int level = 0;
   for (CellNumber n = std::max<Index>(n_base_hexes, 1); n <= (CellNumber{1} << 62) / n_cell_children;

@@ -34,6 +34,14 @@ constexpr int cell_layer(CellNumber cell, int axis) {
   return axis == 0 ? place / 9 : axis == 1 ? place / 3 % 3 : place % 3;
 }
 
+/// A cell by the base hex that it lies in and its layers there, each 0 .. n - 1, of the n along an edge of the hex.
+struct CellPlace {
+  Index root;
+  std::array<Index, 3> at;
+};
+CellPlace place_of(CellNumber cell, std::size_t level);
+CellNumber number_of(const CellPlace& place, Index n);
+
 /// Cells of a level are numbered in 62 bits: so many levels there can be at most (8 for a million hexes).
 int max_level(Index n_base_hexes);
 /// Throws Error when they are more.

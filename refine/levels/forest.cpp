@@ -106,10 +106,10 @@ Forest plant(std::shared_ptr<const MeshedModel> base, std::span<const Index> hex
 }
 
 LevelMarks with_gradation(Forest& forest) {
-  if (forest.wished.size() < 2) return forest.wished;
+  if (forest.wished.empty() || (forest.wished.size() < 2 && !forest.mirror)) return forest.wished;
   const Mesh& base = forest.base->mesh;
   if (!forest.base_corners) forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
-  return graded(forest.wished, base.hexes, *forest.base_corners);
+  return graded(forest.wished, base.hexes, *forest.base_corners, forest.mirror.get());
 }
 
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed) {

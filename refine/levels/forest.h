@@ -11,6 +11,7 @@
 
 #include "hextwist/refine/levels/handed.h"
 #include "hextwist/refine/levels/match.h"
+#include "hextwist/refine/levels/mirror.h"
 
 namespace hextwist {
 
@@ -36,6 +37,7 @@ struct Forest {
   LevelMarks wished;  ///< closed: with a cell its parent is wished too. Forced cells are not among them
   std::shared_ptr<const GrownForest> grown;            ///< null where its mesh came about otherwise: see grown()
   std::shared_ptr<const CompressedRows> base_corners;  ///< node_corners() of the base; made when first needed
+  std::shared_ptr<const Mirror> mirror;                ///< marks go from one side of its pairs to the other; null: none
 
   bool is_bare() const { return wished.empty(); }
 };

@@ -48,29 +48,6 @@ const Tables& tables() {
   return made;
 }
 
-/// A cell by the base hex that it lies in and its layers there, each 0 .. n - 1.
-struct CellPlace {
-  Index root;
-  std::array<Index, 3> at;
-};
-
-CellPlace place_of(CellNumber cell, std::size_t level) {
-  CellPlace place{0, {0, 0, 0}};
-  Index weight = 1;
-  for (std::size_t k = 0; k < level; ++k, cell = cell_parent(cell), weight *= 3)
-    for (int axis = 0; axis < 3; ++axis) place.at[axis] += weight * cell_layer(cell, axis);
-  place.root = static_cast<Index>(cell);
-  return place;
-}
-
-CellNumber number_of(const CellPlace& place, Index n) {
-  CellNumber number = place.root;
-  for (Index weight = n / 3; weight > 0; weight /= 3)
-    number = first_cell_child(number) + 9 * (place.at[0] / weight % 3) + 3 * (place.at[1] / weight % 3) +
-             place.at[2] / weight % 3;
-  return number;
-}
-
 /// Finds the cells of one level around features of a cell, beyond the base hex that it lies in.
 class Around {
  public:
@@ -179,11 +156,14 @@ CellMarks needed(const CellMarks& marks, std::size_t level, std::span<const Hex>
 
 }  // namespace
 
-LevelMarks graded(const LevelMarks& wished, std::span<const Hex> base_hexes, const CompressedRows& base_corners) {
+LevelMarks graded(const LevelMarks& wished, std::span<const Hex> base_hexes, const CompressedRows& base_corners,
+                  const Mirror* mirror) {
   LevelMarks marks = wished;
   trim(marks);
-  for (std::size_t level = marks.size(); level-- > 1;)
-    marks[level - 1] = united(marks[level - 1], needed(marks[level], level, base_hexes, base_corners));
+  for (std::size_t level = marks.size(); level-- > 0;) {
+    if (mirror) mark_images(marks[level], level, base_hexes, base_corners, *mirror);
+    if (level > 0) marks[level - 1] = united(marks[level - 1], needed(marks[level], level, base_hexes, base_corners));
+  }
   return marks;
 }
 

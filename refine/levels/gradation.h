@@ -7,7 +7,7 @@
 #pragma once
 
 #include "hextwist/mesh/topology.h"
-#include "hextwist/refine/levels/cells.h"
+#include "hextwist/refine/levels/mirror.h"
 
 namespace hextwist {
 
@@ -17,6 +17,8 @@ namespace hextwist {
 ///  3. monotone: more wishes never need less.
 /// wished: normalized, within max_level(); corners of cells that lie in the base mesh.
 /// Cost: O(cells * log), nothing that looks at all hexes; base_corners is node_corners(base) (loose_topology.h).
-LevelMarks graded(const LevelMarks& wished, std::span<const Hex> base_hexes, const CompressedRows& base_corners);
+/// mirror: null, or then the marks are the same on both sides of its pairs.
+LevelMarks graded(const LevelMarks& wished, std::span<const Hex> base_hexes, const CompressedRows& base_corners,
+                  const Mirror* mirror = nullptr);
 
 }  // namespace hextwist

@@ -8,6 +8,7 @@
 
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/syntax.h"
+#include "hextwist/geom/similarity.h"
 #include "hextwist/session/transaction.h"
 
 namespace hextwist {
@@ -42,7 +43,12 @@ void do_import(Execution& run);
 void do_list(Execution& run);
 void do_move(Execution& run);
 void do_node(Execution& run);
+void do_periodic(Execution& run);
 void do_playback(Execution& run);
+/// `list periodic`.
+void list_periodic(Execution& run);
+/// The rotation that the words 'angle ... about ...' of a command say.
+Similarity said_rotation(const Command& command);
 void do_project(Execution& run);
 void do_quality(Execution& run);
 void do_quit(Execution& run);

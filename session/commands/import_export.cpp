@@ -13,6 +13,7 @@
 #include "hextwist/session/levels_file.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/move.h"
+#include "hextwist/session/periodic.h"
 #include "hextwist/sizing/stages.h"
 
 namespace hextwist {
@@ -98,6 +99,7 @@ void import_mesh(Execution& run, const std::filesystem::path& file, std::string_
             &read.middles);
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
   run.state.extras = read.extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(read.extras));
+  if (run.state.extras) take_periodic(run, *run.state.extras);
   say_mesh(run, file.string());
 }
 
@@ -183,6 +185,8 @@ MeshedModel chosen_blocks(Execution& run) {
   return part;
 }
 
+constexpr const char* pairs_go = "surfaces are periodic no longer: that was said of the mesh before";
+
 }  // namespace
 
 void do_import(Execution& run) {
@@ -208,11 +212,13 @@ void do_import(Execution& run) {
       throw error_at(run.command.statement, factor->token,
                      "levels have the size that they were written with: say 'scale' afterwards");
     run.stage("read levels");
+    if (run.state.periodic) run.note(pairs_go);
     forget_members(run.state, !run.state.has_cad);
     read_levels(run, file.text);
     return say_mesh(run, file.text);
   }
   const bool is_cad = is_cad_word(word.name);
+  if (run.state.periodic) run.note(pairs_go);
   forget_members(run.state, is_cad || !run.state.has_cad);
   if (is_cad)
     import_cad(run, file.text);
@@ -234,7 +240,15 @@ void do_export(Execution& run) {
                    "levels are written of the whole mesh");
   const MeshedModel part = is_part ? chosen_blocks(run) : MeshedModel();
   const MeshedModel& meshed = is_part ? part : *run.meshed;
-  const WriteOptions options = write_options(run, lower_extension(file.text));
+  WriteOptions options = write_options(run, lower_extension(file.text));
+  FileExtras extras;
+  if (run.state.periodic && !is_part) {
+    extras = with_periodic(options.extras, meshed, *run.state.periodic);
+    options.extras = &extras;
+  }
+  if (run.state.periodic && word.name == "levels")
+    throw Error(
+        "levels of a mesh with periodic surfaces can't be written: 'periodic off' first, and then the mesh is a base");
   run.stage("write");
   if (word.name == "levels") {
     write_levels(run, file.text, run.command.has("overwrite"));

@@ -310,6 +310,7 @@ void list_fields(Execution& run) {
 void do_list(Execution& run) {
   const Item* range = run.command.find("range");
   if (run.command.has("field")) return list_fields(run);
+  if (run.command.has("periodic")) return list_periodic(run);
   if (run.command.has("undo")) return list_undo(run);
   if (!range) return list_model(run);
   if (run.asks_for_all_of_none(*range)) return;

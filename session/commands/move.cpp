@@ -50,6 +50,13 @@ Eigen::Matrix3d rotation(double degrees, const Vec3& axis) {
 
 }  // namespace
 
+Similarity said_rotation(const Command& command) {
+  Similarity turn{.turn = rotation(number(command, "degrees"), direction(command))};
+  const Vec3 about = command.find("x") ? vector(command, "x", "y", "z") : Vec3::Zero();
+  turn.shift = about - turn.turn * about;
+  return turn;
+}
+
 void do_move(Execution& run) {
   const Command& command = run.command;
   if (const Item* range = command.find("range")) {

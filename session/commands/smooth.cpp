@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/others.h"
+#include "hextwist/mesh/periodic.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
@@ -79,6 +81,9 @@ void do_smooth(Execution& run) {
     options.scheme = scheme;
     options.nodes = related(run.core.selector(), range.kind, positions, EntityKind::node);
     if (state.fixed_nodes) options.fixed = *state.fixed_nodes;
+    if (state.periodic)
+      options.fixed = union_of(sorted_unique(options.fixed),
+                               periodic_nodes(meshed.mesh, meshed.association, state.periodic->pairs));
     options.fixed = with_nodes_of_others(meshed.mesh, std::move(options.fixed));
     options.keep_jumps = state.keep_jumps;
     options.fix_boundary = command.has("fixed");
