@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -26,6 +27,22 @@ void all_of(Way& way, File& file) {
   way(middles.face_points);
   way.each(file.notices, [&](auto& line) { way(line); });
   way.map(file.extras.nodes_per_hex), way.map(file.extras.boundary_types);
+}
+
+template <class Way, class Heads>
+void all_of_others(Way& way, Heads& heads) {
+  way.each(heads.types, [&](auto& type) { way(type.shape), way(type.n_nodes), way(type.name); });
+  way(heads.type), way(heads.ids);
+  way.each(heads.sets, [&](auto& set) { way(set.id), way(set.elements); });
+  way.each(heads.sides, [&](auto& list) {
+    way(list.id), way(list.elements);
+    way.each(list.sides, [&](auto& side) { way(side); });
+  });
+  way.each(heads.fields, [&](auto& field) {
+    way(field.name), way(field.components), way(field.values), way(field.is_attribute), way(field.integer);
+  });
+  way.each(heads.rest, [&](auto& line) { way(line); });
+  way(heads.format), way(heads.is_rigid);
 }
 
 template <class T>
@@ -161,12 +178,25 @@ constexpr Known known[] = {
 void put_mesh_file(std::ostream& out, const MeshFile& file) {
   Putting putting(out);
   all_of(putting, file);
+  const OtherElementsPtr& others = file.mesh.others;
+  putting(others != nullptr);
+  if (others) all_of_others(putting, *others->heads), putting(others->first), putting(others->nodes);
 }
 
 MeshFile take_mesh_file(const Bytes& bytes) {
   MeshFile file;
   Taking taking(bytes);
   all_of(taking, file);
+  bool has_others = false;
+  taking(has_others);
+  if (has_others) {
+    OtherHeads heads;
+    std::vector<Index> first, nodes;
+    all_of_others(taking, heads), taking(first), taking(nodes);
+    if (std::ranges::any_of(nodes, [&](Index n) { return n < 0 || n >= file.mesh.n_nodes(); }))
+      throw Error(bytes.name + ": an element names a node that is not there (damaged file)");
+    file.mesh.others = other_elements(std::move(heads), std::move(first), std::move(nodes));
+  }
   if (!fits(file)) throw Error(bytes.name + ": it names nodes or hexes that are not there (damaged file)");
   return file;
 }

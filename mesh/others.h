@@ -105,7 +105,7 @@ struct OtherElements {
   /// Its id; 0 of a piece, which has none before it is written.
   std::int64_t id(Index element) const { return is_whole(element) ? heads->ids[of[element]] : 0; }
 };
-using OtherElementsPtr = std::shared_ptr<const OtherElements>;
+using OtherElementsPtr = std::shared_ptr<const OtherElements>;  ///< null: there are none
 
 /// The elements that a file has: `of` counts from 0. Throws Error where that does not fit together: it is for readers.
 OtherElementsPtr other_elements(OtherHeads heads, std::vector<Index> first, std::vector<Index> nodes);

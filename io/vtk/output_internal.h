@@ -7,6 +7,7 @@
 #pragma once
 
 #include "hextwist/io/middles.h"
+#include "hextwist/io/vtk/other_cells_internal.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/quality.h"
 
@@ -23,11 +24,6 @@ struct VtkNumbers<std::array<T, n>> {
   using Type = T;
   static std::span<const T> of(const std::array<T, n>& value) { return value; }
 };
-
-/// Attributes of field data.
-inline std::string tuples(std::size_t n) {
-  return " NumberOfTuples=\"" + std::to_string(n) + "\"";
-}
 
 template <class T, std::size_t n>
 std::array<T, n> cell_nodes(const Mesh& mesh, const SecondOrder* second, std::size_t hex) {
@@ -75,8 +71,14 @@ void add_field_data(Arrays& arrays, const std::string& made_names, const Mesh& m
 /// What is written beside points and cells.
 class VtkOutput {
  public:
-  VtkOutput(const Mesh& mesh, const Association& association, const WriteOptions& options)
-      : mesh_(mesh), association_(association), options_(options) {
+  /// others: null where the format leaves them out.
+  VtkOutput(const Mesh& mesh, const Association& association, const WriteOptions& options,
+            const OtherCells* others = nullptr)
+      : mesh_(mesh),
+        association_(association),
+        options_(options),
+        others_(others && mesh.others ? others : nullptr),
+        n_cells_(mesh.hexes.size() + (others_ ? others_->types.size() : 0)) {
     // Arrays that we make ourselves give way to fields of the same name.
     const auto made = [&](const char* name, Field::On on) {
       return std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == on; });
@@ -94,17 +96,26 @@ class VtkOutput {
           std::pair("hex_id", hex_ids_), std::pair("volume", volumes_), std::pair("block", block_ids_),
           std::pair("shape", shape_), std::pair("scaled_jacobian", jacobian_)})
       if (there) names_ += std::string(" ") + name;
-    block_of_hex_.resize(block_ids_ ? mesh.hexes.size() : 0, 0);
-    for (const Block& block : mesh.blocks)
-      for (const Index h : block.hexes)
-        if (block_ids_ && block_of_hex_[h] == 0) block_of_hex_[h] = block.id;
-    if (shape_) shapes_ = quality(Metric::shape, mesh);
-    if (jacobian_) jacobians_ = quality(Metric::scaled_jacobian, mesh);
+    block_of_cell_.resize(block_ids_ ? n_cells_ : 0, 0);
+    const auto put = [&](std::size_t cell, int id) {
+      if (block_of_cell_[cell] == 0) block_of_cell_[cell] = id;
+    };
+    for (const Block& block : mesh.blocks) {
+      if (!block_ids_) break;
+      for (const Index h : block.hexes) put(static_cast<std::size_t>(h), block.id);
+      if (others_)
+        for (const Index e : others_of_block(mesh, block.id))
+          put(mesh.hexes.size() + static_cast<std::size_t>(e), block.id);
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (shape_) shapes_ = quality(Metric::shape, mesh), shapes_.resize(n_cells_, none);
+    if (jacobian_) jacobians_ = quality(Metric::scaled_jacobian, mesh), jacobians_.resize(n_cells_, none);
   }
 
   template <class Arrays>
   void field_data(Arrays& arrays) const {
     add_field_data(arrays, names_, mesh_, association_);
+    if (others_) others_->add(arrays);
   }
   template <class Arrays>
   void point_data(Arrays& arrays) const {
@@ -120,15 +131,19 @@ class VtkOutput {
   }
   template <class Arrays>
   void block_data(Arrays& arrays) const {
-    if (block_ids_) arrays.template add<int>("block", block_of_hex_, 1);
+    if (block_ids_) arrays.template add<int>("block", block_of_cell_, 1);
   }
   /// blocks: false where they have been written before.
   template <class Arrays>
   void cell_data(Arrays& arrays, bool blocks = true) const {
     if (hex_ids_)
-      arrays.add_each("hex_id", mesh_.hexes.size(), 1,
-                      [this](std::size_t i) { return id_of(mesh_.hex_ids, static_cast<Index>(i)); });
-    if (volumes_) arrays.template add<int>("volume", association_.hex_volume, 1);
+      arrays.add_each("hex_id", n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
+        return i < n_hexes ? id_of(mesh_.hex_ids, static_cast<Index>(i)) : others_->ids[i - n_hexes];
+      });
+    if (volumes_)
+      arrays.add_each("volume", n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
+        return i < n_hexes ? association_.hex_volume[i] : 0;
+      });
     if (blocks) block_data(arrays);
     if (shape_) arrays.template add<double>("shape", shapes_, 1);
     if (jacobian_) arrays.template add<double>("scaled_jacobian", jacobians_, 1);
@@ -154,21 +169,56 @@ class VtkOutput {
  private:
   template <class Arrays>
   void fields(Arrays& arrays, Field::On on) const {
-    for (const Field& field : mesh_.fields)
-      if (field.on == on && field.integer)
+    const bool beside = others_ && on == Field::On::hex;
+    for (const Field& field : mesh_.fields) {
+      if (field.on != on) continue;
+      if (beside) {
+        field_beside(arrays, field);
+      } else if (field.integer) {
         arrays.add_each(field.name, field.values.size(), field.components,
                         [&values = field.values](std::size_t i) { return static_cast<std::int64_t>(values[i]); });
-      else if (field.on == on)
+      } else {
         arrays.template add<double>(field.name, field.values, field.components);
+      }
+    }
+    if (!beside) return;
+    for (const OtherField* field : others_->only_theirs)
+      arrays.add_each(field->name, n_cells_ * static_cast<std::size_t>(field->components), field->components,
+                      [this, field, n = mesh_.hexes.size() * static_cast<std::size_t>(field->components)](
+                          std::size_t i) { return i < n ? no_value : value_beside(*field, i - n); });
+  }
+  /// A field of hexes, with what other elements have of it.
+  template <class Arrays>
+  void field_beside(Arrays& arrays, const Field& field) const {
+    const OtherField* theirs = nullptr;
+    for (const OtherField& one : mesh_.others->heads->fields)
+      if (one.name == field.name && one.components == field.components) theirs = &one;
+    const auto value = [this, &values = field.values, theirs](std::size_t i) {
+      if (i < values.size()) return values[i];
+      return theirs ? value_beside(*theirs, i - values.size()) : no_value;
+    };
+    const std::size_t n = n_cells_ * static_cast<std::size_t>(field.components);
+    if (field.integer)
+      arrays.add_each(field.name, n, field.components, [value](std::size_t i) { return whole_number(value(i)); });
+    else
+      arrays.add_each(field.name, n, field.components, value);
+  }
+  /// Number i of the other elements as they are here; the field has the numbers of those of the file.
+  double value_beside(const OtherField& field, std::size_t i) const {
+    const auto width = static_cast<std::size_t>(field.components);
+    return field.values[static_cast<std::size_t>(mesh_.others->of[i / width]) * width + i % width];
   }
 
+  static constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
   const Mesh& mesh_;
   const Association& association_;
   const WriteOptions& options_;
+  const OtherCells* others_;
+  std::size_t n_cells_;
   bool node_ids_ = false, owners_ = false, hex_ids_ = false, volumes_ = false, block_ids_ = false, shape_ = false,
        jacobian_ = false;
   std::string names_;  // of arrays that are made here
-  std::vector<int> block_of_hex_;
+  std::vector<int> block_of_cell_;
   std::vector<double> shapes_, jacobians_;
 };
 

@@ -232,7 +232,7 @@ class XdmfReader {
       types.assign(ends.size(), kind->vtk);
     }
     if (const std::string_view base = topology.tag["BaseOffset"]; !base.empty() && base != "0")
-      cursor_.fail_at(topology.tag.at, "a topology whose nodes are not counted from 0 is not read");
+      cursor_.fail_at(topology.tag.at, "only topologies whose nodes are counted from 0 are read");
     set_integers(result.ends, ends);
     set_integers(result.types, types);
     return result;

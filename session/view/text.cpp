@@ -8,17 +8,6 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-asm(".section .rodata\n"
-    ".global hextwist_font_begin\n"
-    ".hidden hextwist_font_begin\n"
-    "hextwist_font_begin:\n"
-    ".incbin \"" HEXTWIST_FONT
-    "\"\n"
-    ".global hextwist_font_end\n"
-    ".hidden hextwist_font_end\n"
-    "hextwist_font_end:\n"
-    ".byte 0\n"
-    ".text\n");
 extern "C" const unsigned char hextwist_font_begin[], hextwist_font_end[];
 #endif
 
@@ -72,7 +61,7 @@ double each_glyph(FT_Face face, std::string_view text, double size, const F& vis
   double x = 0;
   while (!text.empty()) {
     const char32_t c = next_character(text);
-    if (FT_Load_Char(face, c < 0x20 ? U' ' : c, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) != 0) continue;
+    if (FT_Load_Char(face, c < 0x20 ? char32_t{0x20} : c, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) != 0) continue;
     visit(*face->glyph, x);
     x += static_cast<double>(face->glyph->linearHoriAdvance) / 65536;
   }
@@ -123,3 +112,17 @@ void write_text(std::vector<Colour>&, int, int, double, double, std::string_view
 #endif
 
 }  // namespace hextwist
+
+#ifdef HEXTWIST_FONT
+asm(".section .rodata\n"
+    ".global hextwist_font_begin\n"
+    ".hidden hextwist_font_begin\n"
+    "hextwist_font_begin:\n"
+    ".incbin \"" HEXTWIST_FONT
+    "\"\n"
+    ".global hextwist_font_end\n"
+    ".hidden hextwist_font_end\n"
+    "hextwist_font_end:\n"
+    ".byte 0\n"
+    ".text\n");
+#endif

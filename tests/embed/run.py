@@ -2,6 +2,7 @@
 skipped: run.py PACKAGE,... {MODULE | SCRIPT.py ARGUMENT...}"""
 
 import importlib
+import os
 import runpy
 import sys
 import unittest
@@ -14,6 +15,7 @@ for package in sys.argv[1].split(","):
         sys.exit(77)
 if sys.argv[2].endswith(".py"):
     sys.argv = sys.argv[2:]
+    sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))  # as Python does
     runpy.run_path(sys.argv[0], run_name="__main__")
 else:
     unittest.main(module=sys.argv[2], argv=sys.argv[:1], verbosity=2)

@@ -1,4 +1,5 @@
 // LS-DYNA, ANSYS, Nek5000 and SPECFEM3D: there and back, and as parsers of their own see ours.
+#include <Eigen/Geometry>
 #include <map>
 #include <numeric>
 

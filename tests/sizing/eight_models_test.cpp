@@ -128,6 +128,7 @@ TEST_P(mesh_in_eight, every_hex_gets_the_children_that_were_decided_upon) {
   if (folder.empty()) GTEST_SKIP() << "the folder of real CAD and meshes is not here";
   MeshedModel input;
   input.mesh = read_mesh(folder / GetParam()).mesh;
+  input.mesh.others = nullptr;  // one has a quad that stands off the hexes, which no cut may end at
   repair_orientation(input.mesh);
   FacetResult skin = associate_with_own_skin(input.mesh);
   input.model = skin.model;
