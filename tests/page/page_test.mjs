@@ -499,6 +499,7 @@ test('hover, copy, labels, the true CAD, explosions, hiding and the mesh before'
   await kindOf(page, 'hex');
   const at = [frame.box.width / 2 + 5, frame.box.height / 2 + 5], hit = mesh.meet(frame.view, ...at);
   await page.selectOption('#colour', 'shape');
+  await settled(page);
   await page.mouse.move(frame.box.x + at[0], frame.box.y + at[1]);
   await page.waitForFunction(() => !document.getElementById('tip').hidden);
   assert.match(await page.textContent('#tip'), new RegExp(`^hex ${hit.face.hexes[0].id} · shape 0?\\.?\\d`));
