@@ -63,8 +63,10 @@ class Matcher {
     }
   }
 
-  /// The choice that the current token begins, by word, else by argument.
-  std::optional<std::size_t> choose(const PatternNode& node, const std::vector<bool>& said = {}) {
+  /// The choice that the current token begins, by word, else by argument. Options around it, the first so many of
+  /// `outer_`, could be meant as well: cut short, a word must tell them apart.
+  std::optional<std::size_t> choose(const PatternNode& node, const std::vector<bool>& said = {},
+                                    std::size_t n_outer = 0) {
     std::vector<Keyword> words;
     std::vector<std::size_t> of_word;
     for (std::size_t i = 0; i < node.choices.size(); ++i) first_words(node.choices[i], i, words, of_word);
@@ -72,7 +74,15 @@ class Matcher {
     // Written out, such a word would be one more kind: so it is none when cut short either.
     if (behind_open_range())
       for (Keyword& word : words) word.may_be_short &= !entity_kind(word.word);
-    if (const auto found = reader_.match(words)) return of_word[*found];
+    const std::size_t n_words = words.size();
+    for (std::size_t i = 0; i < n_outer; ++i) {
+      words.push_back(outer_[i]);
+      words.back().shown = false;  // they are told where they are looked for
+    }
+    if (const auto found = reader_.match(words)) {
+      if (*found >= n_words) return std::nullopt;
+      return of_word[*found];
+    }
     for (std::size_t i = 0; i < node.choices.size(); ++i) {
       const PatternNode& first = node.choices[i].front();
       if (first.kind == PatternNode::Kind::argument && could_be(argument(first.name))) return i;
@@ -166,7 +176,7 @@ class Matcher {
     std::vector<std::size_t> ignored;
     for (std::size_t i = 0; i < node.choices.size(); ++i) first_words(node.choices[i], i, outer_, ignored);
     while (true) {
-      const auto choice = choose(node, said);
+      const auto choice = choose(node, said, n_outer);
       if (!choice) break;
       const PatternNode& front = node.choices[*choice].front();
       if (said[*choice] && !front.hidden) reader_.fail(reader_.peek(), "this option was given already");

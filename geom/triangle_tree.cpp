@@ -18,7 +18,7 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 using Tree = CGAL::AABB_tree<Traits>;
-using Node = CGAL::AABB_node<Traits>;
+using TreeNode = CGAL::AABB_node<Traits>;
 
 Kernel::Point_3 to_cgal(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
@@ -48,7 +48,7 @@ struct Collect {
     out.push_back({index, distance, w});
   }
 
-  bool do_intersect(const Kernel::Point_3&, const Node& node) const {
+  bool do_intersect(const Kernel::Point_3&, const TreeNode& node) const {
     const CGAL::Bbox_3 box = node.bbox();
     double square = 0;
     for (int i = 0; i < 3; ++i) {

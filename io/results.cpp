@@ -14,12 +14,6 @@
 namespace hextwist {
 namespace {
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> corners;
-  for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
-  return corners;
-}
-
 /// A value from those of some nodes; nothing where none of them counts.
 std::optional<double> weighted(const std::array<double, 8>& weight, const std::array<double, 8>& value) {
   double sum = 0, total = 0;

@@ -12,12 +12,6 @@
 namespace hextwist {
 namespace {
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> corners;
-  for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
-  return corners;
-}
-
 void check(const Mesh& mesh, std::span<const Vec3> points) {
   if (mesh.hexes.empty()) throw Error("there is no mesh to look for points in");
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -74,11 +74,10 @@ HexPlace closest_place(std::span<const Vec3, 8> corners, const Vec3& p) {
 HexLocator::HexLocator(const Mesh& mesh, std::span<const Index> hexes) : hexes_(hexes.begin(), hexes.end()) {
   std::vector<Box> boxes(hexes_.size());
   corners_.resize(hexes_.size());
-  for (std::size_t i = 0; i < hexes_.size(); ++i)
-    for (int c = 0; c < n_hex_corners; ++c) {
-      corners_[i][c] = mesh.points[mesh.hexes[hexes_[i]][c]];
-      boxes[i].add(corners_[i][c]);
-    }
+  for (std::size_t i = 0; i < hexes_.size(); ++i) {
+    corners_[i] = corners_of(mesh, hexes_[i]);
+    for (const Vec3& corner : corners_[i]) boxes[i].add(corner);
+  }
   tree_ = BoxTree(boxes);
 }
 

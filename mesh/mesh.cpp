@@ -42,8 +42,7 @@ double volume(const Mesh& mesh, Index hex) {
   // The Jacobian determinant of a trilinear map is at most quadratic in each variable, so two Gauss points per
   // direction integrate it exactly.
   constexpr double low = 0.21132486540518711775;  // (1 - 1/sqrt(3)) / 2
-  std::array<Vec3, 8> x;
-  for (int c = 0; c < 8; ++c) x[c] = mesh.points[mesh.hexes[hex][c]];
+  const std::array<Vec3, 8> x = corners_of(mesh, hex);
   double sum = 0;
   for (int gauss = 0; gauss < 8; ++gauss) {
     std::array<double, 3> at;

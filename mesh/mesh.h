@@ -113,6 +113,12 @@ Index find_node(const Mesh& mesh, std::int64_t id);
 /// Index of a hex by its id, -1 when there is none. Logarithmic.
 Index find_hex(const Mesh& mesh, std::int64_t id);
 
+/// Places of the corners of a hex, which has to exist.
+inline std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t c = 0; c < corners.size(); ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
+  return corners;
+}
 /// Box of all points.
 Box box(const Mesh& mesh);
 /// Volume of one hex (trilinear map, exact), model units cubed; negative where it is inside out.

@@ -17,12 +17,6 @@ namespace {
 constexpr double face_slack = 1e-9;  // of the unit cube: so near to a face it does not matter which side counts
 constexpr int max_steps = 100;       // from hex to hex
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> corners;
-  for (int c = 0; c < n_hex_corners; ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
-  return corners;
-}
-
 Vec3 clamped(const Vec3& at) {
   return at.cwiseMax(0.0).cwiseMin(1.0);
 }

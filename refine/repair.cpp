@@ -20,7 +20,7 @@ constexpr int max_halvings = 4;
 /// How far untangling may reach: layers of hexes around the inverted ones; whether old nodes inside volumes may move
 /// too, and whether new nodes may slide along their curves and surfaces. Whether the nodes of these layers start from
 /// where they were placed, or from what the last try has left; sweeps at most.
-struct Reach {
+struct RepairReach {
   int layers;
   bool old_nodes;
   bool slide;
@@ -30,8 +30,8 @@ struct Reach {
 /// Nodes inside volumes move first: those on the CAD lie evenly, and one that slides away to make room makes other
 /// hexes thin for the next pass. A failed try leaves nodes crowded together, and more freedom hardly separates them
 /// again: hexes stay inverted, or the skin folds over itself. So the widest reach starts afresh.
-constexpr Reach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
-constexpr Reach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
+constexpr RepairReach reaches[] = {{2, false, false}, {1, false, true}, {2, false, true}, {3, true, true, true, 300}};
+constexpr RepairReach backed_off_reach = {1, false, false};  // sliding would put nodes back on the CAD
 
 /// What does not move.
 struct Staying {
@@ -46,7 +46,7 @@ struct Staying {
 /// Untangles around the bad hexes, and smooths a little so that they are not only just right. Old nodes on the CAD
 /// stay. Returns the hexes that are inverted still.
 std::vector<Index> untangle(const Split& split, const Model* model, Mesh& mesh, Association& association,
-                            const std::vector<Index>& bad, Reach reach, const Staying& stays,
+                            const std::vector<Index>& bad, RepairReach reach, const Staying& stays,
                             const SmoothProgress& progress) {
   const auto may_move = [&](Index n) {
     const bool inside = association.empty() || association.node_owner[n].dim == 3;
@@ -148,7 +148,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
   if (bad.empty()) return rows;
   const std::vector<Vec3> placed = mesh.points;
   const std::vector<Parameters> placed_parameters = association.node_parameters;
-  for (const Reach reach : reaches) {
+  for (const RepairReach reach : reaches) {
     if (bad.empty()) return rows;
     if (reach.afresh) {
       for (const Index n : nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers))) {

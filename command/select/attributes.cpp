@@ -67,9 +67,10 @@ double radius(const Model& model, Owner entity) {
 
 namespace {
 
-class Evaluation {
+class AttributeEvaluation {
  public:
-  Evaluation(const Selector& selector, const Statement& statement, EntityKind kind, std::span<const Index> positions)
+  AttributeEvaluation(const Selector& selector, const Statement& statement, EntityKind kind,
+                      std::span<const Index> positions)
       : selector_(selector), statement_(statement), kind_(kind), positions_(positions) {}
 
   Values values(const Criterion& c) {
@@ -345,12 +346,12 @@ Vec3 middle(const Selector& selector, EntityKind kind, Index i) {
 
 std::vector<double> values_of(const Selector& selector, const Statement& statement, EntityKind kind,
                               const Criterion& measure, std::span<const Index> positions) {
-  return Evaluation(selector, statement, kind, positions).values(measure);
+  return AttributeEvaluation(selector, statement, kind, positions).values(measure);
 }
 
 std::vector<char> meets(const Selector& selector, const Statement& statement, EntityKind kind,
                         const Criterion& criterion, std::span<const Index> positions) {
-  const Values values = Evaluation(selector, statement, kind, positions).values(criterion);
+  const Values values = AttributeEvaluation(selector, statement, kind, positions).values(criterion);
   std::vector<char> result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) result[i] = values[i] != 0;
   return result;

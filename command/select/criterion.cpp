@@ -23,7 +23,7 @@ constexpr unsigned every_kind = (1u << n_entity_kinds) - 1;
 constexpr unsigned cad = only(EntityKind::vertex, EntityKind::curve, EntityKind::surface, EntityKind::volume);
 constexpr unsigned named = cad | only(EntityKind::block, EntityKind::nodeset, EntityKind::sideset, EntityKind::group);
 
-constexpr std::array<AttributeSpec, 25> table = {{
+constexpr std::array<AttributeSpec, 25> attribute_table = {{
     {Attribute::id, "id", every_kind},
     {Attribute::x_coord, "x_coord", every_kind, false, true},
     {Attribute::y_coord, "y_coord", every_kind, false, true},
@@ -52,7 +52,7 @@ constexpr std::array<AttributeSpec, 25> table = {{
 }};
 
 const AttributeSpec& spec_of(Attribute attribute) {
-  return *std::ranges::find(table, attribute, &AttributeSpec::attribute);
+  return *std::ranges::find(attribute_table, attribute, &AttributeSpec::attribute);
 }
 
 constexpr int precedence(Op op) {
@@ -335,13 +335,13 @@ class CriterionReader {
   Criterion attribute() {
     const Token token = reader_.peek();
     std::vector<Keyword> words;
-    words.reserve(table.size());
-    for (const AttributeSpec& spec : table)
+    words.reserve(attribute_table.size());
+    for (const AttributeSpec& spec : attribute_table)
       words.push_back(
           {spec.word, (spec.kinds >> static_cast<int>(kind_) & 1) && spec.spelled.empty(), spec.spelled.empty()});
     const auto found = reader_.match(words);
     if (!found) reader_.fail();
-    const AttributeSpec& spec = table[*found];
+    const AttributeSpec& spec = attribute_table[*found];
     reader_.take();
     Criterion result = made(Op::attribute, token);
     result.token.text = spec.spelled.empty() ? spec.word : spec.spelled;  // in full for messages
@@ -359,7 +359,7 @@ class CriterionReader {
 
   [[noreturn]] void refuse(const Token& token, const AttributeSpec& spec, EntityKind about) const {
     std::vector<std::string> known;
-    for (const AttributeSpec& each : table)
+    for (const AttributeSpec& each : attribute_table)
       if ((each.kinds >> static_cast<int>(about) & 1) && each.spelled.empty()) known.emplace_back(each.word);
     reader_.fail(token, std::string(plural(about)) + " have no " + std::string(spec.word) + "; they have " +
                             alternatives(known));
@@ -434,7 +434,7 @@ class CriterionReader {
 }  // namespace
 
 std::span<const AttributeSpec> attributes() {
-  return table;
+  return attribute_table;
 }
 
 Criterion read_criterion(Reader& reader, EntityKind kind) {

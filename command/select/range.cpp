@@ -221,13 +221,13 @@ void read_solid(Reader& reader, RangeFilter& filter) {
 }
 
 /// Where a range stands: that decides what may follow it.
-enum class Place { whole, term };
+enum class Within { whole, term };
 
 class RangeReader {
  public:
   explicit RangeReader(Reader& reader) : reader_(reader) {}
 
-  Range range(EntityKind kind, Place place, int nesting) {
+  Range range(EntityKind kind, Within place, int nesting) {
     const bool names = has_names(kind);
     Range range;
     range.token = reader_.peek();
@@ -301,8 +301,8 @@ class RangeReader {
   }
 
   /// A term leaves to the range around it what is not about itself.
-  std::optional<RangeFilter::Kind> accept_filter(EntityKind kind, Place place, bool bare, bool first) {
-    const bool whole = place == Place::whole;
+  std::optional<RangeFilter::Kind> accept_filter(EntityKind kind, Within place, bool bare, bool first) {
+    const bool whole = place == Within::whole;
     if ((whole || first) && (whole || !other_kind_follows(kind)) && reader_.accept("except", 3))
       return RangeFilter::Kind::except;
     // In a term it is about what the whole range is about, which must be said with that.
@@ -347,7 +347,7 @@ class RangeReader {
   }
 
   /// What stands behind `except`: ids and names, or the kind again and any range of it.
-  RangeTerm exception(EntityKind kind, Place place, int nesting) {
+  RangeTerm exception(EntityKind kind, Within place, int nesting) {
     const bool names = has_names(kind);
     const bool parenthesis = reader_.at_symbol("(") && !starts_point(reader_);
     const Token word = parenthesis ? reader_.ahead() : reader_.peek();
@@ -355,7 +355,7 @@ class RangeReader {
     if (is_word(word, name(kind))) {
       if (parenthesis) reader_.take();
       reader_.take();
-      term.range = range(kind, parenthesis ? Place::whole : place, nesting + 1);
+      term.range = range(kind, parenthesis ? Within::whole : place, nesting + 1);
       if (parenthesis) close_parenthesis(reader_);
       return term;
     }
@@ -406,7 +406,7 @@ class RangeReader {
       const auto kind = accept_kind(reader_, first);
       first = false;
       if (kind)
-        terms.push_back({*kind, false, range(*kind, Place::whole, nesting + 1)});
+        terms.push_back({*kind, false, range(*kind, Within::whole, nesting + 1)});
       else if (!accept_name(terms))
         reader_.fail();
     } while (!reader_.at_symbol(")"));
@@ -422,7 +422,7 @@ class RangeReader {
       if (accept_parenthesis(result, nesting)) continue;
       const auto kind = accept_kind(reader_, result.empty());
       if (kind)
-        result.push_back({*kind, false, range(*kind, Place::term, nesting)});
+        result.push_back({*kind, false, range(*kind, Within::term, nesting)});
       else if (!result.empty() || !accept_name(result))
         break;
     }
@@ -495,7 +495,7 @@ std::optional<EntityKind> accept_kind(Reader& reader, bool may_be_short) {
 }
 
 Range read_range(Reader& reader, EntityKind kind) {
-  return RangeReader(reader).range(kind, Place::whole, 0);
+  return RangeReader(reader).range(kind, Within::whole, 0);
 }
 
 RangeTerm read_single(Reader& reader) {

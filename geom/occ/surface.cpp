@@ -26,7 +26,7 @@
 namespace hextwist::occ {
 namespace {
 
-constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double surface_rounding = std::numeric_limits<double>::epsilon();
 
 const char* type_name(GeomAbs_SurfaceType kind) {
   switch (kind) {
@@ -367,7 +367,7 @@ SurfaceFoot Surface::descend(const Evaluator& evaluator, const Vec3& p, double u
   };
   into_range(u, v);
   State s = evaluate(u, v);
-  const double resolution = rounding * (scale_ + p.cwiseAbs().maxCoeff());
+  const double resolution = surface_rounding * (scale_ + p.cwiseAbs().maxCoeff());
   const auto stuck = [&] {
     return std::pair{!wraps_u_ && ((s.u <= natural_u_.min && s.gu > 0) || (s.u >= natural_u_.max && s.gu < 0)),
                      !wraps_v_ && ((s.v <= natural_v_.min && s.gv > 0) || (s.v >= natural_v_.max && s.gv < 0))};

@@ -10,7 +10,7 @@
 namespace hextwist::io {
 namespace {
 
-constexpr std::int64_t highest_id = 99'999'999;  // eight characters
+constexpr std::int64_t highest_number = 99'999'999;  // eight characters
 
 /// Fields of eight characters, eight in a line.
 class SmallFields {
@@ -149,22 +149,22 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
                    std::vector<std::string>& notices) {
   say_no_fields(mesh, "Nastran's bulk data", notices);
   constexpr const char* limit = "has more than eight digits";
-  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_id, limit, notices);
-  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_id, limit, notices);
-  if (mesh.n_nodes() > highest_id) throw Error("more nodes than eight digits can count");
+  const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_number, limit, notices);
+  const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_number, limit, notices);
+  if (mesh.n_nodes() > highest_number) throw Error("more nodes than eight digits can count");
   const std::vector<int> block_of_hex = first_block_of_hexes(mesh, "Nastran", notices);
   // A property has a positive id.
   const auto property = [&](int block) { return block < 0 ? 0 : mesh.blocks[static_cast<std::size_t>(block)].id; };
   int nobody = 0;
   for (Index h = 0; h < mesh.n_hexes(); ++h)
     if (property(block_of_hex[h]) == 0) nobody = std::max(1, free_id(mesh.blocks));
-  if (nobody > highest_id) throw Error("all properties are taken, none is left for hexes outside of blocks");
+  if (nobody > highest_number) throw Error("all properties are taken, none is left for hexes outside of blocks");
   if (nobody > 0 && !mesh.blocks.empty())
     notices.push_back("hexes in no block, or in block 0, are of property " + std::to_string(nobody));
 
   const auto check_ids = [](const char* kind, const auto& groups) {
     for (const auto& group : groups)
-      if (group.id > highest_id)
+      if (group.id > highest_number)
         throw Error(std::string(kind) + " id " + std::to_string(group.id) + " has more than eight digits");
   };
   check_ids("block", mesh.blocks), check_ids("nodeset", mesh.node_sets), check_ids("sideset", mesh.side_sets);
@@ -194,7 +194,8 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
     card.finish();
   }
   if (mesh.others)
-    write_nastran_others(out, mesh, node_ids, other_ids_in_file(mesh, hex_ids, highest_id, limit, notices), notices);
+    write_nastran_others(out, mesh, node_ids, other_ids_in_file(mesh, hex_ids, highest_number, limit, notices),
+                         notices);
   for (const NodeSet& set : mesh.node_sets) {
     out << "$ hextwist nodeset " << set.id << ' ' << one_line(set.name) << '\n';
     SmallFields card(out, "SET1");

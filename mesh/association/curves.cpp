@@ -18,7 +18,7 @@ namespace hextwist::detail {
 namespace {
 
 // As for faces: an edge over 120 degrees of a circle is 0.29 of its length away from it in the middle.
-constexpr double max_sagitta = 0.35;
+constexpr double max_curve_sagitta = 0.35;
 
 struct Candidate {
   Index edge;
@@ -191,7 +191,7 @@ CurveMatch match_curves(const ModelFacts& facts, const Mesh& mesh, const Skin& s
         nearest_end = ends;
         nearest = end;
       }
-      const bool follows = middle <= max_sagitta * length[end] + reach;
+      const bool follows = middle <= max_curve_sagitta * length[end] + reach;
       if (ends > reach || (!parts && !follows)) continue;
       // A tag that fits goes before everything.
       const double score = candidates[end].tagged && follows ? -1 : (ends + middle) / length[end];

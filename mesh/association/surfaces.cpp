@@ -19,7 +19,7 @@ namespace {
 
 // A quad whose corners lie on a surface fits it when the centre is no farther off than this times its mean edge (a
 // quad across 120 degrees of a circle: 0.29; straight through a cylinder: 0.5) ...
-constexpr double max_sagitta = 0.35;
+constexpr double max_surface_sagitta = 0.35;
 // ... and the normals there are no farther apart than 60 degrees.
 constexpr double min_cosine = 0.5;
 
@@ -89,7 +89,7 @@ CompressedRows near_surfaces(const ModelFacts& facts, const Skin& skin, Wanted w
 }
 
 /// A quad all corners of which lie on a surface.
-struct Candidate {
+struct SurfaceCandidate {
   Index quad;
   int surface;
   double corner;  ///< largest distance of a corner
@@ -98,10 +98,10 @@ struct Candidate {
   bool fits = false;
 };
 
-void common_surfaces(const Skin& skin, const Hits& hits, Index q, std::vector<Candidate>& common) {
+void common_surfaces(const Skin& skin, const Hits& hits, Index q, std::vector<SurfaceCandidate>& common) {
   const Quad& quad = skin.quads[q];
   for (Index i = hits.first[quad[0]]; i < hits.first[quad[0] + 1]; ++i) {
-    Candidate candidate{q, hits.surface[i], hits.at[i].distance, hits.at[i].parameters};
+    SurfaceCandidate candidate{q, hits.surface[i], hits.at[i].distance, hits.at[i].parameters};
     bool all = true;
     for (int c = 1; c < 4 && all; ++c) {
       const Projection* hit = hits.find(quad[c], candidate.surface);
@@ -113,15 +113,15 @@ void common_surfaces(const Skin& skin, const Hits& hits, Index q, std::vector<Ca
 }
 /// The same for the quads for which `wanted` holds, in their order.
 template <class Wanted>
-std::vector<Candidate> common_surfaces(const Skin& skin, const Hits& hits, Wanted wanted) {
+std::vector<SurfaceCandidate> common_surfaces(const Skin& skin, const Hits& hits, Wanted wanted) {
   constexpr Index size = 1024;
-  std::vector<std::vector<Candidate>> found(n_chunks(skin.n_quads(), size));
+  std::vector<std::vector<SurfaceCandidate>> found(n_chunks(skin.n_quads(), size));
   parallel_chunks(skin.n_quads(), size, [&](Index chunk, Index begin, Index end) {
     found[chunk].reserve(size);
     for (Index q = begin; q < end; ++q)
       if (wanted(q)) common_surfaces(skin, hits, q, found[chunk]);
   });
-  std::vector<Candidate> all;
+  std::vector<SurfaceCandidate> all;
   std::size_t n = 0;
   for (const auto& list : found) n += list.size();
   all.reserve(n);
@@ -129,7 +129,7 @@ std::vector<Candidate> common_surfaces(const Skin& skin, const Hits& hits, Wante
   return all;
 }
 
-void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& candidates) {
+void score(const ModelFacts& facts, const Skin& skin, std::vector<SurfaceCandidate>& candidates) {
   const auto n = static_cast<Index>(candidates.size());
   std::vector<int> id(n);
   std::vector<Vec3> centre(n);
@@ -161,7 +161,7 @@ void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& ca
     if (again[k].distance < at[far[k]].distance) at[far[k]] = again[k];
   parallel_ranges(n, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      Candidate& c = candidates[i];
+      SurfaceCandidate& c = candidates[i];
       const Quad& quad = skin.quads[c.quad];
       const Vec3 across =
           (skin.points[quad[2]] - skin.points[quad[0]]).cross(skin.points[quad[3]] - skin.points[quad[1]]).normalized();
@@ -170,7 +170,8 @@ void score(const ModelFacts& facts, const Skin& skin, std::vector<Candidate>& ca
       // Which side of a surface between two volumes the hex lies on is not known yet.
       if (facts.surface_volumes[c.surface - 1].size() != 1 || facts.is_embedded(c.surface)) cosine = std::abs(cosine);
       c.score = (c.corner + at[i].distance) / length[i] + 1 - cosine;
-      c.fits = at[i].distance <= max_sagitta * length[i] + facts.node_tolerance(2, c.surface) && cosine >= min_cosine;
+      c.fits = at[i].distance <= max_surface_sagitta * length[i] + facts.node_tolerance(2, c.surface) &&
+               cosine >= min_cosine;
     }
   });
 }
@@ -192,17 +193,18 @@ SurfaceMatch match_surfaces(const ModelFacts& facts, const Skin& skin, std::span
       if (tags[q])
         for (const Index node : skin.quads[q]) pairs.emplace_back(node, tags[q]);
     const Hits tagged = hits(facts, skin, group(skin.n_nodes(), pairs));
-    std::vector<Candidate> candidates = common_surfaces(skin, tagged, [&](Index q) { return tags[q] != 0; });
-    std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.surface != tags[candidate.quad]; });
+    std::vector<SurfaceCandidate> candidates = common_surfaces(skin, tagged, [&](Index q) { return tags[q] != 0; });
+    std::erase_if(candidates,
+                  [&](const SurfaceCandidate& candidate) { return candidate.surface != tags[candidate.quad]; });
     score(facts, skin, candidates);
-    for (const Candidate& candidate : candidates)
+    for (const SurfaceCandidate& candidate : candidates)
       if (candidate.fits) accept(skin, tagged, candidate.quad, candidate.surface, match);
   }
   const auto open = [&](Index q) { return match.quad_surface[q] == 0; };
   const Hits near = hits(facts, skin, near_surfaces(facts, skin, open));
-  const std::vector<Candidate> candidates = common_surfaces(skin, near, open);
+  const std::vector<SurfaceCandidate> candidates = common_surfaces(skin, near, open);
   // Most quads have one candidate and need no score.
-  std::vector<Candidate> several;
+  std::vector<SurfaceCandidate> several;
   for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {
     while (end < candidates.size() && candidates[end].quad == candidates[i].quad) ++end;
     if (end == i + 1)
@@ -249,11 +251,11 @@ std::vector<Index> find_walls(const ModelFacts& facts, const Mesh& mesh, const F
   });
   const Skin skin = make_skin(mesh, faces, candidate_faces);
   const Hits on = hits(facts, skin, near_surfaces(facts, skin, [](Index) { return true; }));
-  std::vector<Candidate> candidates = common_surfaces(skin, on, [](Index) { return true; });
-  std::erase_if(candidates, [&](const Candidate& candidate) { return !between[candidate.surface]; });
+  std::vector<SurfaceCandidate> candidates = common_surfaces(skin, on, [](Index) { return true; });
+  std::erase_if(candidates, [&](const SurfaceCandidate& candidate) { return !between[candidate.surface]; });
   score(facts, skin, candidates);
   std::vector<Index> walls;
-  for (const Candidate& candidate : candidates)
+  for (const SurfaceCandidate& candidate : candidates)
     if (candidate.fits) walls.push_back(skin.faces[candidate.quad]);
   sort_unique(walls);
   return walls;

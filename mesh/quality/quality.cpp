@@ -139,12 +139,6 @@ Summary summarize_by(std::span<const double> values, Index count, HexOf hex_of) 
   return summary;
 }
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> corners;
-  for (int c = 0; c < 8; ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
-  return corners;
-}
-
 }  // namespace
 
 const char* name(Metric metric) {

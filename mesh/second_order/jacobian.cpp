@@ -11,7 +11,7 @@ namespace {
 
 using Piece = BernsteinPiece<5>;
 constexpr int n_rows = Piece::n_rows;
-constexpr double rounding = 1e-13;  // of the product of the longest derivatives
+constexpr double coefficient_rounding = 1e-13;  // of the product of the longest derivatives
 
 constexpr std::array<double, 6> choose_5 = {1, 5, 10, 10, 5, 1};
 constexpr std::array<double, 3> choose_2 = {1, 2, 1};
@@ -123,7 +123,7 @@ std::array<Vec3, 3> jacobian(const QuadraticHex& hex, const Vec3& at) {
 
 bool is_positive_everywhere(const QuadraticHex& hex) {
   const Determinant det = determinant(hex);
-  return !not_above(det.whole, rounding * det.scale);
+  return !not_above(det.whole, coefficient_rounding * det.scale);
 }
 
 void blend_faces(QuadraticHex& hex) {

@@ -16,12 +16,6 @@ SweepCount sweep_shape(SmoothState& state, const SweepRule& rule) {
   });
 }
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> x;
-  for (int c = 0; c < 8; ++c) x[c] = mesh.points[mesh.hexes[hex][c]];
-  return x;
-}
-
 /// h of corners c, c ^ 1, c ^ 2, c ^ 3 of a hex, c = 0 or 4; infinite where the determinant is not positive.
 Four corner_distortions(const std::array<Vec3, 8>& x, int c) {
   Four determinant, square;

@@ -44,8 +44,8 @@ double least_shape(const SmoothReport& report) {
 struct Emphasis {
   double weight, margin;
 };
-constexpr Emphasis none = {0, 1};
-constexpr Emphasis gentle = {1, 2};
+constexpr Emphasis no_emphasis = {0, 1};
+constexpr Emphasis gentle_emphasis = {1, 2};
 constexpr Emphasis rounds[] = {{10, 1.25}, {30, 1.1}, {100, 1.05}};
 constexpr Emphasis milder_rounds[] = {{3, 1.5}, {1, 1.5}, {1, 2}};  // when the first of those costs too much
 constexpr int first_sweeps = 3;                                     // before the first round
@@ -114,7 +114,7 @@ class Smoother {
       case SmoothScheme::condition_number:
         return optimise("condition number", sweep_condition_number);
       case SmoothScheme::laplacian:
-        return settle("laplacian", sweep_laplacian, none);
+        return settle("laplacian", sweep_laplacian, no_emphasis);
       case SmoothScheme::untangle:
         return;
     }
@@ -198,7 +198,7 @@ class Smoother {
   }
 
   void optimise(const char* stage, Sweep sweep) {
-    settle(stage, sweep, gentle, first_sweeps);
+    settle(stage, sweep, gentle_emphasis, first_sweeps);
     if (lift_and_average(sweep, rounds[0])) {
       for (std::size_t i = 1; i < std::size(rounds); ++i)
         if (!lift_and_average(sweep, rounds[i])) break;
@@ -206,7 +206,7 @@ class Smoother {
       for (const Emphasis& emphasis : milder_rounds)
         if (lift_and_average(sweep, emphasis)) break;
     }
-    settle("average", sweep, none);
+    settle("average", sweep, no_emphasis);
   }
   /// One round; taken back when it cost the average too much.
   bool lift_and_average(Sweep sweep, Emphasis emphasis) {
@@ -214,7 +214,7 @@ class Smoother {
     const std::vector<std::uint8_t> awake = state_.awake;
     const bool kept = at_no_cost([&] {
       lift(sweep, emphasis);
-      settle("average", sweep, none, max_averages);
+      settle("average", sweep, no_emphasis, max_averages);
     });
     if (!kept) state_.awake = awake;
     return kept;

@@ -207,8 +207,7 @@ Level level(const Mesh& mesh, std::span<const Index> hexes, const Regularized& t
   parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
     Level part;
     for (Index i = begin; i < end; ++i) {
-      std::array<Vec3, 8> x;
-      for (int c = 0; c < 8; ++c) x[c] = mesh.points[mesh.hexes[hexes[i]][c]];
+      const std::array<Vec3, 8> x = corners_of(mesh, hexes[i]);
       const double wished = target.hex_size[hexes[i]];
       const auto add = [&](double determinant, double square) {
         part.least = std::min(part.least, determinant / wished);

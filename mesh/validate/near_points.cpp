@@ -28,7 +28,7 @@ std::uint64_t hash(const Cell& cell) {
   return h;
 }
 
-struct Entry {
+struct HashedPoint {
   std::uint64_t hash;
   Index point;
 };
@@ -115,26 +115,26 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
   const Cells cells = {box.min - Vec3::Constant(0.3 * tolerance), tolerance > 0 ? tolerance : 1};
 
   const std::vector<Index> candidates = not_alone(cells, points);
-  std::vector<Entry> entries(candidates.size());
+  std::vector<HashedPoint> entries(candidates.size());
   parallel_each(candidates.size(), [&](std::size_t i) {
     entries[i] = {hash(cells.cell(points[candidates[i]])), candidates[i]};
   });
-  const auto key = [&](const Entry& e) {
+  const auto key = [&](const HashedPoint& e) {
     const Vec3& p = points[e.point];
     return std::make_tuple(e.hash, p.x(), p.y(), p.z(), e.point);
   };
-  tbb::parallel_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+  tbb::parallel_sort(entries.begin(), entries.end(), [&](const HashedPoint& a, const HashedPoint& b) {
     return a.hash != b.hash ? a.hash < b.hash : key(a) < key(b);
   });
 
   std::vector<Index> parent = singletons(n);
-  const auto same_place = [&](const Entry& a, const Entry& b) { return points[a.point] == points[b.point]; };
-  const auto near = [&](const Entry& a, const Entry& b) {
+  const auto same_place = [&](const HashedPoint& a, const HashedPoint& b) { return points[a.point] == points[b.point]; };
+  const auto near = [&](const HashedPoint& a, const HashedPoint& b) {
     return (points[a.point] - points[b.point]).squaredNorm() <= tolerance * tolerance;
   };
   parallel_ranges(static_cast<Index>(entries.size()), [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const Entry& e = entries[i];
+      const HashedPoint& e = entries[i];
       // Points at exactly the same place are joined to the first of them, which alone looks further.
       if (i > 0 && entries[i - 1].hash == e.hash && same_place(entries[i - 1], e)) {
         join(parent, entries[i - 1].point, e.point);
@@ -146,7 +146,7 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
         if (near(e, entries[j])) join(parent, e.point, entries[j].point);
       for_near_cells(cells, points[e.point], [&](const Cell& cell) {
         const std::uint64_t wanted = hash(cell);
-        for (auto other = std::ranges::lower_bound(entries, wanted, {}, &Entry::hash);
+        for (auto other = std::ranges::lower_bound(entries, wanted, {}, &HashedPoint::hash);
              other != entries.end() && other->hash == wanted; ++other)
           if (near(e, *other)) join(parent, e.point, other->point);
       });

@@ -27,7 +27,7 @@ Vec3 view_of(const Command& command) {
 }
 
 /// ": blue", where it is a colour with a name.
-std::string colour_text(const Colour& colour) {
+std::string colour_note(const Colour& colour) {
   constexpr std::size_t n_named = 10;
   for (std::size_t i = 0; i < n_named; ++i)
     if (row_colour(i) == colour) return std::string(": ") + row_colour_name(i);
@@ -103,7 +103,7 @@ void draw_picture(Execution& run, io::Output& out, const SceneSource& source, co
     run.say(picture.scale.name + ": from " + short_number(picture.scale.least) + " to " +
             short_number(picture.scale.most));
   for (std::size_t i = 0; i < std::min(picture.legend.size(), most_legend_rows); ++i)
-    run.say("  " + picture.legend[i].text + colour_text(picture.legend[i].colour));
+    run.say("  " + picture.legend[i].text + colour_note(picture.legend[i].colour));
   const bool has_legend = !command.has("off");
   if (!has_legend) {
     picture.legend.clear();

@@ -49,6 +49,11 @@ PackedArray packed(std::string name, const std::vector<T>& values, int component
   return result;
 }
 
+/// Three numbers more.
+inline void add_point(std::vector<float>& to, const Vec3& p) {
+  for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(p[k]));
+}
+
 /// What of `now` is not in `before`, for who has that: of arrays that are the same "name:same" without records; of
 /// those that have most records in common "name:runs", pairs of a number of records and where in `before` they begin
 /// (-1: they are new), and "name:new"; all else as it is.

@@ -12,7 +12,6 @@ namespace hextwist {
 namespace {
 
 constexpr int text_size = 13, row_height = 18;
-constexpr Colour label_back = {42, 49, 64};
 
 std::string colour_text(const Colour& colour, double shade = 1) {
   std::array<char, 8> text;

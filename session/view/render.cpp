@@ -11,7 +11,7 @@ namespace hextwist {
 namespace {
 
 constexpr int samples = 2;  // per pixel and direction
-constexpr Colour background = {255, 255, 255}, ink = {40, 44, 52}, label_back = {42, 49, 64};
+constexpr Colour background = {255, 255, 255}, ink = {40, 44, 52};
 constexpr double line_shade = 0.35;  // of the edges of quads
 constexpr std::size_t most_labels = 400, most_tried = 4000;
 

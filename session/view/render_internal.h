@@ -28,6 +28,9 @@ double text_size_of(int width, int height);
 /// Caption, legend and labels, over what was rendered.
 void write_over(const Picture& picture, Rendered& rendered);
 
+/// What is behind a label.
+inline constexpr Colour label_back = {42, 49, 64};
+
 /// Longer legends end with "and 7 more".
 inline constexpr std::size_t most_legend_rows = 14;
 /// Numbers beside a scale.

@@ -73,10 +73,6 @@ void add_surface(const MeshedModel& meshed, int id, std::span<const Side> sides,
       }
 }
 
-void add_point(std::vector<float>& to, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(p[k]));
-}
-
 /// The same where there is no mesh: triangles, as quads whose last corners are one.
 void add_surface(const CadSurface& surface, int id, const Vec3& origin, Surfaces& out) {
   const auto first = static_cast<std::uint32_t>(out.points.size() / 3);

@@ -9,10 +9,6 @@
 namespace hextwist {
 namespace {
 
-void add_point(std::vector<float>& to, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(p[k]));
-}
-
 std::vector<double> ids_of(const std::vector<std::int64_t>& ids, std::span<const Index> which) {
   std::vector<double> result;
   result.reserve(which.size());

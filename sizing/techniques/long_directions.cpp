@@ -17,7 +17,7 @@ namespace {
 /// cut edges, the pieces would have sharp corners (a tenth: 0.15), so the cuts go on to the next.
 constexpr double thinnest_end = 0.4;
 
-/// Cuts in three until a length is no more than sqrt(3) times the wish.
+/// EdgesToCut in three until a length is no more than sqrt(3) times the wish.
 int n_cuts(double length, double wished) {
   int n = 0;
   for (; length > std::numbers::sqrt3 * wished * (1 + 1e-9); length /= 3) ++n;
@@ -32,9 +32,9 @@ struct Direction {
   bool beside = false, behind = false;
 };
 
-class Cuts {
+class EdgesToCut {
  public:
-  explicit Cuts(const Mesh& mesh)
+  explicit EdgesToCut(const Mesh& mesh)
       : mesh_(mesh), edges_(edges(mesh)), faces_(faces(mesh)), wanted_(mesh.hexes.size(), 0) {}
 
   void want(const Direction& direction) {
@@ -137,7 +137,7 @@ std::vector<std::uint16_t> cuts_of_long_directions(const Mesh& mesh, std::span<c
       if (n[axis] == most && most > least) wanted.push_back({zone.hexes[i], axis, most > 1, least > 0});
   }
   if (wanted.empty()) return {};
-  Cuts cuts(mesh);
+  EdgesToCut cuts(mesh);
   for (const Direction& direction : wanted) cuts.want(direction);
   cuts.spread();
   return cuts.masks();

@@ -54,9 +54,8 @@ TEST(Interpolation, finds_hexes_and_is_exact_for_what_is_linear) {
     const std::vector<double> product = times(sparse_rows(mesh, at), mesh.fields[0].values);
     for (std::size_t i = 0; i < points.size(); ++i) {
       // In that hex, by its own map.
-      std::array<Vec3, 8> corners;
-      for (int c = 0; c < 8; ++c) corners[c] = mesh.points[mesh.hexes[at.hexes[i]][c]];
-      ASSERT_EQ(closest_place(corners, points[i]).distance, 0) << "seed " << seed << ", point " << i;
+      ASSERT_EQ(closest_place(corners_of(mesh, at.hexes[i]), points[i]).distance, 0)
+          << "seed " << seed << ", point " << i;
       ASSERT_EQ(at.distances[i], 0);
       ASSERT_NEAR(values[i], linear(points[i]), 1e-12);
       ASSERT_NEAR(product[i], values[i], 1e-12);

@@ -18,12 +18,6 @@ Mesh bent(int n, std::mt19937& random) {
   return mesh;
 }
 
-std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
-  std::array<Vec3, 8> corners;
-  for (int c = 0; c < 8; ++c) corners[c] = mesh.points[mesh.hexes[hex][c]];
-  return corners;
-}
-
 TEST(box_tree, finds_the_nearest_item_and_the_lowest_of_equals) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-1, 1);
