@@ -73,13 +73,13 @@ void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index
   for (const Index corner : corners) {
     const Hex& hex = hexes[corner >> 3];
     const int c = corner & 7;
-    // A node that a face names twice keeps the face where it stands first.
-    unsigned above = 0;  // corners whose nodes come after this one
-    for (int d = 0; d < 8; ++d) above |= static_cast<unsigned>(hex[d] > node || (hex[d] == node && d > c)) << d;
+    // Corners whose nodes come after this one: a node that a face names twice keeps the face where it stands first.
+    const auto comes_after = [&](int d) { return hex[d] > node - (d > c ? 1 : 0); };
+    const std::array<bool, 3> next = {comes_after(c ^ 1), comes_after(c ^ 2), comes_after(c ^ 4)};
+    if (next[0] + next[1] + next[2] < 2) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
-      const unsigned others = 1U << (c ^ u) | 1U << (c ^ v) | 1U << (c ^ u ^ v);
-      if ((above & others) != others) continue;
+      if (!next[axis == 0 ? 1 : 0] || !next[axis == 2 ? 1 : 2] || !comes_after(c ^ u ^ v)) continue;
       const auto [low, high] = std::minmax(hex[c ^ u], hex[c ^ v]);
       uses.push_back({hex[c ^ u ^ v], low, high, corner, axis});
     }

@@ -269,7 +269,7 @@ bool is_sound(const ChangedPart& change) {
     else if (!of_others && hex >= change.n_kept)
       return false;
   }
-  return std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::is_joined);
+  return !has_joined_nodes(mesh, skin);
 }
 
 OffModel off_after(const OffModel& before, const ChangedPart& change) {

@@ -12,28 +12,34 @@
 namespace hextwist {
 namespace {
 
-/// Which new nodes may move, for hexes below which scaled Jacobian: the smallest freedom first. By trying on all
-/// shipped models (docs/design.md).
+/// Which new nodes may move, for hexes below which scaled Jacobian: the smallest freedom first, and the worst hexes
+/// first, as nodes that went for the sake of fair ones are in their way. By trying on all shipped models and on boxes
+/// (docs/design.md).
 struct Freedom {
   double wanted;
   bool on_cad;
   int layers;  ///< of hexes around those
   int sweeps;
+  bool of_boxes = false;  ///< alone: they come that far, others give up as much of their average for it
 };
-constexpr Freedom freedoms[] = {
-    {lift_below, false, 0, 6}, {lift_below, true, 0, 6}, {0.25, true, 1, 10}, {0.2, true, 2, 10}};
+constexpr Freedom freedoms[] = {{0.1, false, 0, 4}, {0.2, false, 0, 4},  {0.3, false, 0, 6}, {0.38, false, 0, 6, true},
+                                {0.3, true, 0, 6},  {0.25, true, 1, 10}, {0.2, true, 2, 10}};
 
 /// Shape of a cube, but for rounding.
 constexpr double perfect = 0.9999;
 
 }  // namespace
 
-std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish) {
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
+                                  std::span<const Index> of_boxes) {
   Mesh& mesh = refined.mesh;
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
   const std::vector<Index> hexes = touching_hexes(mesh.hexes, is_new);
-  if (hexes_below(mesh, lift_below, hexes).empty()) return {};
+  const auto low_ones = [&](const Freedom& freedom) {
+    return hexes_below(mesh, freedom.wanted, freedom.of_boxes ? of_boxes : std::span<const Index>(hexes));
+  };
+  if (std::ranges::all_of(freedoms, [&](const Freedom& freedom) { return low_ones(freedom).empty(); })) return {};
 
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });
@@ -47,8 +53,8 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   options.keep_jumps = finish.keep_jumps;
   const std::vector<Vec3> before = mesh.points;
   for (const Freedom& freedom : freedoms) {
-    std::vector<Index> low = hexes_below(mesh, freedom.wanted, hexes);
-    if (low.empty()) break;
+    std::vector<Index> low = low_ones(freedom);
+    if (low.empty()) continue;
     options.fix_boundary = !freedom.on_cad;
     options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
     lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps);

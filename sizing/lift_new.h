@@ -8,11 +8,12 @@
 namespace hextwist {
 
 /// Scaled Jacobian below which a new hex is one that may be lifted.
-inline constexpr double lift_below = 0.3;
+inline constexpr double lift_below = 0.38;
 
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
-/// nodes on curves and those of cubes stay. In the end, once: passes to come cut hexes as
-/// the templates made them. Returns the nodes that moved, ascending.
-std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish);
+/// nodes on curves and those of cubes stay. of_boxes: hexes, ascending, that came of boxes, which are lifted further.
+/// In the end, once: passes to come cut hexes as the templates made them. Returns the nodes that moved, ascending.
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
+                                  std::span<const Index> of_boxes = {});
 
 }  // namespace hextwist

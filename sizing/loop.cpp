@@ -32,18 +32,20 @@ constexpr double least_shape_to_go_on = 0.1;
 
 }  // namespace
 
-void State::run(Technique& technique) {
+bool State::run(Technique& technique) {
   while (std::optional<Cut> cut = technique.next(*this)) {
     if (cut->cuts_again) smooth_between_passes();
     const bool is_first = current_ == &input;
-    const MeshedModel before = pass(std::move(*cut));
-    technique.follow(lineage_, is_first ? input.mesh : before.mesh, mesh());
+    const std::optional<MeshedModel> before = pass(std::move(*cut));
+    if (!before) return false;
+    technique.follow(lineage_, is_first ? input.mesh : before->mesh, mesh());
   }
   if (current_ == &input) keep();
   technique.finish(*this);
+  return true;
 }
 
-MeshedModel State::pass(Cut cut) {
+std::optional<MeshedModel> State::pass(Cut cut) {
   ++n_passes_;
   const MeshedModel& from = *current_;
   check_others(from.mesh, *cut.table, cut.codes);
@@ -64,6 +66,7 @@ MeshedModel State::pass(Cut cut) {
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     }
     begin("improve");
+    if (is_second_try && cut.cuts_again && !inverted_hexes(next.mesh, parts.n_kept()).empty()) return std::nullopt;
     bool stopped = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
@@ -190,6 +193,16 @@ void State::smooth_between_passes() {
   smooth_band(!request.finish.smooth);
 }
 
+std::vector<Index> State::of_boxes(std::span<const Index> hexes) const {
+  constexpr double right_angles = 0.999;  // scaled Jacobian, but for rounding
+  const std::vector<Index> parents = items_at(result_.origin, hexes);
+  const std::vector<double> angles = quality(Metric::scaled_jacobian, input.mesh, parents);
+  std::vector<Index> result;
+  for (std::size_t i = 0; i < hexes.size(); ++i)
+    if (angles[i] > right_angles) result.push_back(hexes[i]);
+  return result;
+}
+
 void State::close() {
   begin("improve");
   const Index first_new = n_kept(mesh());
@@ -216,7 +229,7 @@ void State::close() {
     std::vector<Index> nodes = new_nodes();
     if (const auto& periodic = request.finish.periodic)
       nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish);
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(may_be_lifted));
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,12 @@ class State {
   /// Called after every pass of a technique with what it did to the mesh before. May be empty.
   std::function<void(const Lineage&, const Mesh& before)> watch;
 
-  /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
-  void run(Technique& technique);
+  /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
+  bool is_second_try = false;
+
+  /// Passes until the technique is done. Where there was nothing to cut, the input is the result. False: a second try
+  /// that was given up, without a result.
+  bool run(Technique& technique);
   /// Goes on with a result of the same request that was made apart, and its straight places.
   void adopt(RefineResult result, std::vector<Vec3> straight);
   std::vector<Vec3> take_straight() { return std::move(straight_); }
@@ -59,8 +64,8 @@ class State {
   RefineResult take_result() { return std::move(result_); }
 
  private:
-  /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one.
-  MeshedModel pass(Cut cut);
+  /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one. Nothing: given up.
+  std::optional<MeshedModel> pass(Cut cut);
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();
@@ -69,6 +74,8 @@ class State {
   /// Hexes of the input that a mesh made of it still has.
   Index n_kept(const Mesh& mesh) const;
   std::vector<Index> new_hexes() const;
+  /// Those of these hexes that lie in hexes of the input which are boxes.
+  std::vector<Index> of_boxes(std::span<const Index> hexes) const;
   /// Nodes that smoothing is not to move, by the numbers that they have now: pieces of other elements stay as they were
   /// placed, where only the repair of inverted hexes may slide them.
   std::vector<Index> fixed_now() const;

@@ -9,44 +9,17 @@
 #include <cstdio>
 #include <iostream>
 
-#include "hextwist/hextwist.h"
+#include "front.h"
 
 namespace {
 
 using namespace hextwist;
 
-constexpr double radius = 2.2;
-
-/// Does the sphere pass between the corners of a hex?
-bool meets(const Mesh& mesh, const Hex& hex, const Vec3& centre) {
-  const auto is_outside = [&](Index n) { return (mesh.points[n] - centre).norm() > radius; };
-  const auto n_outside = std::ranges::count_if(hex, is_outside);
-  return n_outside > 0 && n_outside < 8;
-}
-
-/// Finer where the front is, coarser where it is not: by one level a call.
-void follow(Session& session, const Vec3& centre, int n_levels) {
-  for (int call = 0; call <= n_levels; ++call) {
-    const Mesh& mesh = session.meshed().mesh;
-    const auto level = std::ranges::find(mesh.fields, "level", &Field::name);
-    std::vector<std::int8_t> changes(mesh.hexes.size());
-    for (std::size_t h = 0; h < changes.size(); ++h) {
-      const double is = level == mesh.fields.end() ? 0 : level->values[h];
-      if (!meets(mesh, mesh.hexes[h], centre))
-        changes[h] = -1;
-      else if (is < n_levels)
-        changes[h] = 1;
-    }
-    const AdaptOutcome outcome = session.adapt(changes);
-    if (std::ranges::all_of(outcome.came_from.kind, [](HexOrigin kind) { return kind == HexOrigin::same; })) return;
-  }
-}
-
 /// What the same front takes on a mesh where nothing was before.
 Index fresh_count(const MeshedModel& base, const Vec3& centre, int n_levels) {
   Session session;
   session.take(base, true);
-  follow(session, centre, n_levels);
+  front::follow(session, centre, n_levels);
   return session.meshed().mesh.n_hexes();
 }
 
@@ -64,10 +37,9 @@ int main(int argc, char** argv) try {
 
   std::cout << "step    hexes    fresh  scaled Jacobian  field off by  seconds\n";
   for (int step = 0; step < n_steps; ++step) {
-    // Past the corners of cells, so that no step is like another.
-    const Vec3 centre(-4.9 + 0.53 * step, 0.07 * step, 0.03 * step);
+    const Vec3 centre = front::centre(step);
     const auto begin = std::chrono::steady_clock::now();
-    follow(session, centre, n_levels);
+    front::follow(session, centre, n_levels);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const Mesh& mesh = session.meshed().mesh;
     double off = 0;

@@ -2,10 +2,12 @@
 // near a quad, however unevenly they are spread; Newton's method on the bilinear quad decides. What lies on the other
 // side of a crack or in contact lies there rightly; edges of the skin within the quad tell.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
 #include "hextwist/base/box_tree.h"
+#include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
@@ -175,7 +177,53 @@ class OnQuad {
   std::vector<std::pair<Index, Index>> number_;  ///< of a node there, ascending
 };
 
+/// The skin quads around each node that has some, as 4 * quad + corner.
+CompressedRows quads_around(const Mesh& mesh, std::span<const Side> skin) {
+  CompressedRows rows;
+  resize_large(rows.first, mesh.points.size() + 1);
+  for (const Side& side : skin)
+    for (const Index node : face_nodes(mesh.hexes[side.hex], side.face)) ++rows.first[node];
+  Index end = 0;
+  for (Index& first : rows.first) first = end += first;
+  rows.items.resize(static_cast<std::size_t>(end));
+  for (Index q = static_cast<Index>(skin.size()) - 1; q >= 0; --q) {
+    const auto nodes = face_nodes(mesh.hexes[skin[q].hex], skin[q].face);
+    for (int k = 3; k >= 0; --k) rows.items[--rows.first[nodes[k]]] = 4 * q + k;
+  }
+  return rows;
+}
+
 }  // namespace
+
+bool may_have_joined_nodes(const Mesh& mesh, std::span<const Side> skin) {
+  // A chain of edges of the skin within a quad begins at one of its corners (see OnQuad): with a node next to that
+  // corner which lies on the quad, and so in the box around it.
+  const CompressedRows around = quads_around(mesh, skin);
+  std::atomic<bool> found = false;
+  parallel_ranges(static_cast<Index>(skin.size()), [&](Index begin, Index end) {
+    for (Index q = begin; q < end && !found.load(std::memory_order_relaxed); ++q) {
+      const Hex& hex = mesh.hexes[skin[q].hex];
+      const auto nodes = face_nodes(hex, skin[q].face);
+      Box box;
+      for (const Index node : nodes) box.add(mesh.points[node]);
+      constexpr double most_tolerance = 1e-3;  // of an edge: make_patch()
+      const Vec3 margin = Vec3::Constant(most_tolerance * box.diagonal());
+      box = {box.min - margin, box.max + margin};
+      for (const Index node : nodes)
+        for (const Index use : around[node]) {
+          const auto other = face_nodes(mesh.hexes[skin[use >> 2].hex], skin[use >> 2].face);
+          for (const int along : {1, 2}) {
+            const Index next = other[(use & 3) ^ along];
+            const Vec3& p = mesh.points[next];
+            // Not finite: not outside either.
+            const bool outside = (p.array() < box.min.array()).any() || (p.array() > box.max.array()).any();
+            if (!outside && !std::ranges::count(hex, next)) found = true;
+          }
+        }
+    }
+  });
+  return found;
+}
 
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin) {
   std::vector<char> on_skin(mesh.points.size(), 0);
@@ -241,6 +289,10 @@ std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> s
   result.erase(std::ranges::unique(result, {}, &HangingNode::key).begin(), result.end());
   std::ranges::reverse(result);
   return result;
+}
+
+bool has_joined_nodes(const Mesh& mesh, std::span<const Side> skin) {
+  return may_have_joined_nodes(mesh, skin) && std::ranges::any_of(hanging_nodes(mesh, skin), &HangingNode::is_joined);
 }
 
 }  // namespace hextwist

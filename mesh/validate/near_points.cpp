@@ -128,7 +128,9 @@ std::vector<std::vector<Index>> near_points(std::span<const Vec3> points, double
   });
 
   std::vector<Index> parent = singletons(n);
-  const auto same_place = [&](const HashedPoint& a, const HashedPoint& b) { return points[a.point] == points[b.point]; };
+  const auto same_place = [&](const HashedPoint& a, const HashedPoint& b) {
+    return points[a.point] == points[b.point];
+  };
   const auto near = [&](const HashedPoint& a, const HashedPoint& b) {
     return (points[a.point] - points[b.point]).squaredNorm() <= tolerance * tolerance;
   };

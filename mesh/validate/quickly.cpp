@@ -99,8 +99,7 @@ bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, bool known
 
 bool has_only_warnings(const Mesh& mesh, bool known_valid) {
   std::vector<Side> skin;
-  return is_sound_without_skin(mesh, skin, known_valid) &&
-         std::ranges::none_of(hanging_nodes(mesh, skin), &HangingNode::is_joined);
+  return is_sound_without_skin(mesh, skin, known_valid) && !has_joined_nodes(mesh, skin);
 }
 
 }  // namespace hextwist

@@ -26,6 +26,10 @@ struct HangingNode {
 /// All of them, each once, ascending by all but the last. skin: the boundary sides of a mesh of sound hexes, or some of
 /// them: all that lie on each other.
 std::vector<HangingNode> hanging_nodes(const Mesh& mesh, std::span<const Side> skin);
+/// Quicker: false where none of them is joined. True: there may be one.
+bool may_have_joined_nodes(const Mesh& mesh, std::span<const Side> skin);
+/// Whether one of them is.
+bool has_joined_nodes(const Mesh& mesh, std::span<const Side> skin);
 
 /// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when
 /// true). known_valid: that all hexes are valid (validity.h) has been found out already.

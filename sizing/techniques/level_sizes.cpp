@@ -42,7 +42,7 @@ LevelSizes::LevelSizes(const Forest& forest, State& state)
 
 LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const {
   const std::vector<Index> too_large = wish_.too_large(mesh, in_zone);
-  wish_.check_fits(mesh, too_large);
+  wish_.check_fits(mesh, too_large, true);
   const std::vector<Index> too_far = wish_.nodes_too_far_apart(mesh, in_zone);
   std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, too_far);
   if (marked.empty()) return {};

@@ -40,15 +40,18 @@ struct Candidate {
   bool has_done = false;  ///< more than threes alone would have
 };
 
-Candidate attempt(const State& from, const Report& start, Approach approach) {
+/// Nothing: a second try, beside a result that is good, that was given up.
+std::optional<Candidate> attempt(const State& from, const Report& start, Approach approach,
+                                 bool is_second_try = false) {
   Candidate candidate;
   candidate.report = start;
   State state(from.input, from.request, candidate.report, from.progress);
+  state.is_second_try = is_second_try;
   if (approach == Approach::size_by_levels) {
     run_levels(state);
   } else {
     const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
-    state.run(*technique);
+    if (!state.run(*technique)) return std::nullopt;
     candidate.has_done = technique->has_done();
   }
   candidate.result = state.take_result();
@@ -66,9 +69,13 @@ void judge(Candidate& candidate) {
       candidate.report.off_nodes.empty() && candidate.report.sizes->unmet.empty() && inverted_hexes(mesh).empty();
 }
 
+/// So that what comes out inverted elsewhere need not be repaired.
+bool is_good(const Candidate& candidate) {
+  return candidate.sound && candidate.worst_shape >= poor_shape;
+}
 /// So that nothing nearer needs to be looked for.
 bool is_well_met(const Candidate& candidate) {
-  return candidate.sound && candidate.worst_shape >= poor_shape && candidate.report.sizes->met() >= well_met;
+  return is_good(candidate) && candidate.report.sizes->met() >= well_met;
 }
 
 bool is_better(const Candidate& a, const Candidate& b) {
@@ -122,7 +129,9 @@ Candidate or_by_directions(Candidate taken, const State& state, const Report& st
   std::vector<std::uint8_t> in_zone(mesh.hexes.size(), wish.is_everywhere());
   for (const Index h : region_target(state.input, request.target, told)) in_zone[h] = 1;
   if (!are_uneven(mesh, in_zone, wish.field(), is_well_met(taken) ? 2 : 1)) return taken;
-  Candidate directions = attempt(state, start, Approach::size_by_directions);
+  std::optional<Candidate> tried = attempt(state, start, Approach::size_by_directions, is_good(taken));
+  if (!tried) return taken;
+  Candidate& directions = *tried;
   judge(directions);
   if (directions.result.refined.mesh.n_hexes() > most_times_more * taken.result.refined.mesh.n_hexes()) return taken;
   const bool are_nearer = part_of_directions(directions, wish) > part_of_directions(taken, wish) + near_tie;
@@ -133,14 +142,19 @@ Candidate or_by_directions(Candidate taken, const State& state, const Report& st
 
 /// By threes: by levels, nested, or whichever is better.
 Candidate by_threes(const State& state, const Report& start) {
-  if (!is_regular(state.request)) return attempt(state, start, Approach::size_by_threes);
-  Candidate levels = attempt(state, start, Approach::size_by_levels);
+  if (!is_regular(state.request)) return *attempt(state, start, Approach::size_by_threes);
+  Candidate levels = *attempt(state, start, Approach::size_by_levels);
   judge(levels);
   if (is_well_met(levels)) return levels;
-  Candidate nested = attempt(state, start, Approach::size_by_threes);
-  judge(nested);
-  if (levels.result.refined.mesh.hexes == nested.result.refined.mesh.hexes) return levels;
-  return better_of(std::move(levels), std::move(nested), "by levels, no piece of a transition is cut again",
+  std::optional<Candidate> nested = attempt(state, start, Approach::size_by_threes, is_good(levels));
+  if (!nested) {
+    levels.report.notices.push_back(
+        "by levels, no piece of a transition is cut again: cut again, they would come out inverted");
+    return levels;
+  }
+  judge(*nested);
+  if (levels.result.refined.mesh.hexes == nested->result.refined.mesh.hexes) return levels;
+  return better_of(std::move(levels), std::move(*nested), "by levels, no piece of a transition is cut again",
                    "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
 }
 
@@ -157,9 +171,9 @@ void run_nearest_size(State& state) {
   Candidate taken = by_threes(state, start);
   std::optional<Candidate> mixed;
   const bool cuts_anything = taken.result.refined.mesh.n_hexes() > state.input.mesh.n_hexes();
-  if (may_mix && cuts_anything)
-    mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves);
   judge(taken);
+  if (may_mix && cuts_anything)
+    mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, is_good(taken));
   if (mixed && mixed->has_done) {
     judge(*mixed);
     taken = better_of(std::move(*mixed), std::move(taken),

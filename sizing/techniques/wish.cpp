@@ -135,12 +135,19 @@ std::vector<Index> SizeWish::at_points(const Mesh& mesh, std::span<const Index> 
   return result;
 }
 
-void SizeWish::check_fits(const Mesh& mesh, std::span<const Index> too_large) const {
-  // A hex becomes at least as many as stand along (a curve), on (a surface) or in the target.
+void SizeWish::check_fits(const Mesh& mesh, std::span<const Index> too_large, bool by_threes) const {
+  // A hex becomes at least as many as stand along (a curve), on (a surface) or in the target; all of them have one wish
+  // that is the same everywhere.
   const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, *field_);
   double n = mesh.n_hexes();
-  for (std::size_t i = 0; i < size.size(); ++i)
-    n += std::pow(std::clamp(size[i] / (most_too_long * wished[i]), 1.0, most_pieces_), dimension_) - 1;
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    double along = std::clamp(size[i] / (most_too_long * wished[i]), 1.0, most_pieces_);
+    if (by_threes && is_constant_) {
+      constexpr double rounding = 1e-9;
+      along = std::pow(3.0, std::ceil(std::log(along) / std::log(3.0) - rounding));
+    }
+    n += std::pow(along, is_constant_ ? 3 : dimension_) - 1;
+  }
   check_memory(n, n, "at least ");
 }
 

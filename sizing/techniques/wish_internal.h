@@ -29,8 +29,8 @@ class SizeWish {
   std::vector<std::uint8_t> marks(const Mesh& mesh, std::span<const Index> too_large,
                                   std::span<const Index> too_far_apart) const;
   /// Throws Error when the hexes that the wish takes at the very least cannot fit into memory: sooner than the pass
-  /// that would find out.
-  void check_fits(const Mesh& mesh, std::span<const Index> too_large) const;
+  /// that would find out. by_threes: nothing else cuts them.
+  void check_fits(const Mesh& mesh, std::span<const Index> too_large, bool by_threes = false) const;
 
  private:
   std::vector<std::uint8_t> at_target(std::span<const Vec3> points) const;

@@ -11,6 +11,8 @@ void add_smooth();
 void add_quality();
 void add_files();
 void add_memory();
+void add_front();
+void add_session();
 // With more threads; these come last, for idle threads spin for a while.
 void add_split_threads();
 void add_associate_threads();

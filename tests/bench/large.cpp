@@ -10,6 +10,7 @@
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/refine/templates/uniform.h"
+#include "hextwist/session/session.h"
 #include "measure.h"
 #include "meshes.h"
 
@@ -47,6 +48,12 @@ double run_task(const std::string& task, int n) {
     return ratio(before, input.mesh, result.refined.mesh, bytes(input.association) + bytes(result.refined.association),
                  task.c_str());
   }
+  if (task == "session_uniform") {  // a hex of the result, the step of undo included
+    Session session;
+    session.run("create brick x 10 interval " + std::to_string(n));
+    session.run("refine volume all numsplit 1 method parallel");
+    return static_cast<double>(peak_memory() - before) / session.meshed().mesh.n_hexes();
+  }
   const Mesh mesh = cube(n);
   Split parts;
   if (task == "pass_all8") {
@@ -67,6 +74,7 @@ void add_memory() {
   add_value("memory/pass_all27", [] { return peak_ratio("pass_all27 33"); });
   add_value("memory/pass_ball", [] { return peak_ratio("pass_ball 100"); });
   add_value("memory/refine_uniform", [] { return peak_ratio("refine_uniform 50"); });
+  add_value("memory/session_uniform", [] { return peak_ratio("session_uniform 70"); });
   add_value("memory/refine_hex", [] { return peak_ratio("refine_hex 100"); });
 }
 

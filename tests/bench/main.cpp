@@ -41,9 +41,11 @@ int main(int argc, char** argv) {
   add_smooth();
   add_files();
   add_memory();
+  add_front();
   add_split_threads();
   add_associate_threads();
   add_place_threads();
+  add_session();
 
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);

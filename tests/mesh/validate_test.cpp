@@ -265,6 +265,33 @@ TEST(validate, tells_hanging_nodes_of_cuts_in_three_and_of_an_edge_alone) {
   EXPECT_NE(all.find("lies inside an edge of hex 3 and"), std::string::npos) << all;
 }
 
+/// Two blocks of so many hexes side by side, joined where their nodes meet: the quick check is as strict as all of it.
+TEST(validate, hanging_nodes_are_not_missed_by_the_quick_check) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-0.2, 0.2);
+  const auto one_to = [&](int most) { return 1 + static_cast<int>(random() % static_cast<unsigned>(most)); };
+  int n_hanging = 0, n_fitting = 0;
+  for (int round = 0; round < 400; ++round) {
+    const int y = one_to(3), z = one_to(3), finer_y = one_to(3), finer_z = one_to(3);
+    const Mesh coarse = test::grid(1, y, z);
+    const Mesh fine = test::grid(one_to(2), finer_y * y, finer_z * z, Vec3(0.5, 1.0 / finer_y, 1.0 / finer_z));
+    // Further along, some of them lie beside nothing; others beside half of a face, as a crack or in contact.
+    const Vec3 shift(1, random() % 3 ? 0 : 1, random() % 4 ? 0 : 0.25);
+    Mesh mesh = test::shuffled(welded(joined(coarse, moved(fine, shift))), random);
+    Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+    for (int i = 0; i < 9; ++i) linear(i / 3, i % 3) += any(random);
+    for (Vec3& p : mesh.points) p = linear * p;
+    const std::vector<Violation> all = validate(mesh);
+    const bool hangs = std::ranges::any_of(all, [](const Violation& v) { return !is_warning(v.kind); });
+    EXPECT_EQ(has_only_warnings(mesh), !hangs) << "round " << round << "\n" << texts(mesh);
+    ++(hangs ? n_hanging : n_fitting);
+  }
+  EXPECT_GT(n_hanging, 50);
+  EXPECT_GT(n_fitting, 20);
+}
+
 TEST(validate, tells_parts_in_contact_apart_from_hanging_nodes) {
   const Mesh mesh = joined(test::grid(1, 1, 1), moved(test::grid(1, 1, 1, Vec3::Constant(0.5)), Vec3(1, 0.25, 0.25)));
   const auto found = validated(mesh);
