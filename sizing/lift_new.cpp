@@ -22,8 +22,16 @@ struct Freedom {
   int sweeps;
   bool of_boxes = false;  ///< alone: they come that far, others give up as much of their average for it
 };
-constexpr Freedom freedoms[] = {{0.1, false, 0, 4}, {0.2, false, 0, 4},  {0.3, false, 0, 6}, {0.38, false, 0, 6, true},
-                                {0.3, true, 0, 6},  {0.25, true, 1, 10}, {0.2, true, 2, 10}};
+constexpr Freedom freedoms[] = {{0.01, false, 1, 6},
+                                {0.02, false, 1, 6},
+                                {0.05, false, 1, 6},
+                                {0.1, false, 1, 6},
+                                {0.2, false, 0, 4},
+                                {0.3, false, 0, 6},
+                                {lift_below, false, 0, 6, true},
+                                {0.3, true, 0, 6},
+                                {0.25, true, 1, 10},
+                                {0.2, true, 2, 10}};
 
 /// Shape of a cube, but for rounding.
 constexpr double perfect = 0.9999;

@@ -8,7 +8,7 @@
 namespace hextwist {
 
 /// Scaled Jacobian below which a new hex is one that may be lifted.
-inline constexpr double lift_below = 0.38;
+inline constexpr double lift_below = 0.4;
 
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
 /// nodes on curves and those of cubes stay. of_boxes: hexes, ascending, that came of boxes, which are lifted further.

@@ -67,7 +67,7 @@ const std::string uniform = "refine volume all numsplit 1", layers = "refine sur
 const std::vector<std::string>& part() {
   static const std::vector<std::string> commands = [] {
     const std::string folder = std::string(HEXTWIST_SOURCE_DIR) + "/models/";
-    return std::vector<std::string>{"import \"" + folder + "bracket_fillet.brep\"",
+    return std::vector<std::string>{"import brep \"" + folder + "bracket_fillet.brep\"",
                                     "import mesh \"" + folder + "bracket_fillet.msh\"",
                                     "refine volume all method parallel numsplit 3"};
   }();

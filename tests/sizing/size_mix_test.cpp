@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/patch/refine.h"
 #include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/targets.h"
@@ -174,6 +175,19 @@ TEST(size_mix, a_dry_run_counts_what_would_come_out) {
   EXPECT_EQ(dry.report.hexes_after, real.report.hexes_after);
   EXPECT_FALSE(dry.report.sizes);
   EXPECT_TRUE(dry.refined.mesh.hexes.empty());
+}
+
+/// Sizes that grow faster than threes can: pieces of transitions cut again turn inside out, and repairing them took
+/// minutes, to be refused for their shapes in the end.
+TEST(size_mix, a_second_try_that_comes_out_inverted_is_given_up) {
+  for (const double size : {0.004, 0.0005}) {
+    SCOPED_TRACE(size);
+    const RefineResult result = checked(
+        brick(10, 10, 10), {.target = {.kind = EntityKind::curve, .ids = {1}}, .how = Sizes{.size = size, .bias = 2}});
+    EXPECT_NE(notices(result).find("cut again, they would come out inverted"), std::string::npos) << notices(result);
+    EXPECT_GE(summarize(quality(Metric::scaled_jacobian, result.refined.mesh)).min, 0.405);
+    EXPECT_TRUE(result.report.sizes->unmet.empty());
+  }
 }
 
 TEST(size_mix, smoothing_comes_after_the_choice) {

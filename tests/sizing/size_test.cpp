@@ -103,7 +103,8 @@ TEST(size, that_is_met_already_changes_nothing) {
 
 TEST(size, that_no_memory_could_hold_is_refused_before_anything_is_cut) {
   const MeshedModel input = brick(3, 3, 3);
-  for (const auto& [kind, size] : {std::pair(EntityKind::hex, 1e-4), std::pair(EntityKind::surface, 1e-6)}) {
+  for (const auto& [kind, size] : {std::pair(EntityKind::hex, 1e-4), std::pair(EntityKind::surface, 1e-6),
+                                   std::pair(EntityKind::curve, 1e-3)}) {  // where all of its hexes get that size
     Request request{.target = {.kind = kind, .ids = {1}}, .how = Sizes{.size = size}};
     int n_passes = 0;
     const auto count = [&](std::string_view stage, double) {
