@@ -44,17 +44,23 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
   const std::vector<Index> hexes = touching_hexes(mesh.hexes, is_new);
+  // Few hexes are low, and only those around them change.
+  const std::vector<Index> low_now = hexes_below(mesh, lift_below, hexes);
+  if (low_now.empty()) return {};
+  const std::vector<Index> near = intersection(with_layers(mesh, low_now, 1), hexes);
+  const std::vector<Index> near_of_boxes = intersection(near, of_boxes);
   const auto low_ones = [&](const Freedom& freedom) {
-    return hexes_below(mesh, freedom.wanted, freedom.of_boxes ? of_boxes : std::span<const Index>(hexes));
+    return hexes_below(mesh, freedom.wanted, freedom.of_boxes ? near_of_boxes : near);
   };
   if (std::ranges::all_of(freedoms, [&](const Freedom& freedom) { return low_ones(freedom).empty(); })) return {};
 
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });
-  const std::vector<double> shape = quality(Metric::shape, mesh, hexes);
+  const std::vector<Index> around = intersection(with_layers(mesh, near, 1), hexes);
+  const std::vector<double> shape = quality(Metric::shape, mesh, around);
   std::vector<Index> cubes;
-  for (std::size_t i = 0; i < hexes.size(); ++i)
-    if (shape[i] > perfect) cubes.push_back(hexes[i]);
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (shape[i] > perfect) cubes.push_back(around[i]);
   new_nodes = difference(new_nodes, nodes_of_hexes(mesh, cubes));
   SmoothOptions options;
   options.fixed = finish.fixed;

@@ -163,9 +163,9 @@ void add_session() {
     return run.seconds / (1e-6 * static_cast<double>(run.record.after.hexes));
   });
   add_value("session/sizes_nothing", [] { return 1e3 * took(1, begun("refine curve 1 size 0.2 bias 1.3")).seconds; });
-  add_value("session/sizes_curve", [] { return 1e3 * took(1, begun("refine curve 1 size 0.004")).seconds; });
+  add_value("session/sizes_curve", [] { return 1e3 * took(1, begun("refine curve 1 size 0.004 bias 1.3")).seconds; });
   add_value("session/sizes_deep", [] {
-    const Took& run = took(1, {brick(10), "refine curve 1 size 0.0005"}, 1);
+    const Took& run = took(1, {brick(10), "refine curve 1 size 0.0005 bias 2"}, 1);
     return run.seconds / (1e-5 * static_cast<double>(run.record.after.hexes));
   });
   add_value("session/smooth", [] {
