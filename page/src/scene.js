@@ -4,6 +4,8 @@ import { text } from './unpack.js';
 
 export const kinds = ['vertex', 'curve', 'surface', 'volume', 'node', 'edge', 'face', 'hex', 'block', 'nodeset', 'sideset', 'sheet'];
 export const pluralOf = (kind) => (kind === 'vertex' ? 'vertices' : kind === 'hex' ? 'hexes' : kind + 's');
+/** The kind that a word names, in one or many. */
+export const kindNamed = (word) => [...kinds, 'group'].find((kind) => word === kind || word === pluralOf(kind));
 
 export class Scene {
   /** load(name): arrays of a block, null where there is none. */

@@ -130,9 +130,13 @@ test('a long command shows its progress and is cancelled', async () => {
 
 test('files are written below the folder and can be saved', async () => {
   const page = await open(browser, address);
-  await page.selectOption('#export', '.vtu');
+  await page.selectOption('#format', '.vtu');
+  await page.fill('#prompt', 'list cur');
+  await page.focus('#export');
+  await page.keyboard.press('Enter');
   await page.waitForSelector('#log button:has-text("save bracket_out.vtu")');
   assert.ok(statSync(join(folder, 'bracket_out.vtu')).size > 1000);
+  assert.equal(await page.$eval('#prompt', (e) => e.value), 'list cur', 'what is being typed stays');
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#log button')]);
   assert.equal(download.suggestedFilename(), 'bracket_out.vtu');
   assert.equal(statSync(await download.path()).size, statSync(join(folder, 'bracket_out.vtu')).size);
@@ -155,6 +159,20 @@ test('a reload finds the session of the tab, another tab has its own', async () 
   const other = await open(browser, address);
   assert.equal(await hexes(other), 488);
   await other.close();
+  // A copy of a tab has what the tab remembers, and still a session of its own.
+  const [copy] = await Promise.all([page.waitForEvent('popup'), page.evaluate(() => { window.open(location.href); })]);
+  await copy.waitForFunction(() => window.hextwist?.ready);
+  assert.equal(await hexes(copy), 488);
+  assert.notEqual(await copy.evaluate(() => hextwist.live.id), await page.evaluate(() => hextwist.live.id));
+  await command(copy, 'refine vertex 2');
+  assert.equal(await hexes(page), before);
+  await copy.reload();
+  await copy.waitForFunction(() => window.hextwist?.ready);
+  assert.match(await log(copy), /> refine vertex 2/);
+  await copy.close();
+  await page.reload();
+  await page.waitForFunction(() => window.hextwist?.ready);
+  assert.equal(await hexes(page), before);
   await page.close();
 });
 

@@ -147,6 +147,19 @@ test('the list is searched by name, id and type', async () => {
   await page.selectOption('#list-kind', 'hex');
   await page.fill('#search', '417');
   assert.deepEqual((await rows()).map((t) => t.trim()), ['hex 417']);
+  // A kind that is named is listed, whatever was; of a name that is one of others a button leads there.
+  for (const [said, kind, first] of [['curve 5', 'curve', /^curve 5\b/], ['surfaces plane', 'surface', /^surface \d+plane/], ['hex 12', 'hex', /^hex 12$/]]) {
+    await page.fill('#search', said);
+    await page.waitForFunction((kind) => hextwist.list.kind === kind, kind);
+    assert.match((await rows())[0], first);
+    if (kind !== 'surface') assert.equal((await rows()).length, 1);
+  }
+  await page.fill('#search', 'bore');
+  assert.equal((await rows()).length, 0);
+  await page.click('#list-hint button:has-text("1 of curves")');
+  assert.match((await rows())[0], /curve 4.*rim of the bore/);
+  await page.fill('#search', 'no such name');
+  assert.match(await page.textContent('#list-hint'), /Nothing/);
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -203,6 +216,37 @@ test('levels, fields and wished sizes give colours', async () => {
   await settled(page);
   await page.click('#histogram button:has-text("one into 27")');
   assert.equal(idsOf(await value(page, 'range')).length, 27);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('fields on nodes have a histogram and a worst ten of nodes', async () => {
+  const file = join(output, 'field.vtk'), n = 3, at = Array.from({ length: n + 1 }, (_, i) => i), points = at.flatMap((z) => at.flatMap((y) => at.map((x) => [x, y, z])));
+  const id = (x, y, z) => x + (n + 1) * (y + (n + 1) * z), cells = at.slice(0, n).flatMap((z) => at.slice(0, n).flatMap((y) => at.slice(0, n).map((x) => [0, 1].flatMap((k) => [id(x, y, z + k), id(x + 1, y, z + k), id(x + 1, y + 1, z + k), id(x, y + 1, z + k)]))));
+  const heat = points.map(([x, y, z]) => x + 10 * y + 100 * z);
+  writeFileSync(file, ['# vtk DataFile Version 3.0', 'a grid', 'ASCII', 'DATASET UNSTRUCTURED_GRID', `POINTS ${points.length} double`, ...points.map((p) => p.join(' ')), `CELLS ${cells.length} ${9 * cells.length}`,
+    ...cells.map((c) => [8, ...c].join(' ')), `CELL_TYPES ${cells.length}`, ...cells.map(() => 12), `POINT_DATA ${points.length}`, 'SCALARS heat double 1', 'LOOKUP_TABLE default', ...heat].join('\n') + '\n');
+  run(['view', file, '-o', join(output, 'field.html')]);
+  const page = await open(browser, `file://${join(output, 'field.html')}`);
+  await page.selectOption('#colour', 'heat');
+  await settled(page);
+  const bar = await page.$('#histogram button:not([disabled])'), [, from, to, count] = (await bar.getAttribute('aria-label')).match(/(\S+) to (\S+): ([\d,]+) nodes?$/);
+  await bar.click();
+  assert.match(await value(page, 'range'), /^node /);
+  assert.deepEqual(idsOf(await value(page, 'range')), heat.map((v, i) => [v, i + 1]).filter(([v]) => v >= Number(from) && v < Number(to)).map(([, i]) => i));
+  assert.equal(idsOf(await value(page, 'range')).length, Number(count));
+  await page.click('[data-do="worst-next"]');
+  await page.waitForFunction(() => document.getElementById('range').value === 'node 64');
+  assert.equal(await value(page, 'worst-now'), '1: node 64, 333');
+  await kindOf(page, 'node');
+  await page.click('[data-view="1 0 0"]');
+  await page.click('[data-do="all"]');
+  await settled(page);
+  const box = await (await page.$('#view')).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForFunction(() => /^node \d+ .*heat \d+/.test(document.getElementById('tip').textContent));
+  const [, node, said] = (await page.textContent('#tip')).match(/node (\d+) .*heat ([\d.]+)/);
+  assert.equal(Number(said), heat[node - 1]);
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -591,36 +635,189 @@ test('a column of hexes, and the planes of a refinement', async () => {
   await page.close();
 });
 
-test('everything can be done by keys', async () => {
-  const page = await open(browser, drawn('keys', 'bracket'));
-  await page.focus('#view');
-  await page.keyboard.press('Enter');
-  assert.match(await value(page, 'range'), /^(surface|curve|vertex) \d+$/);
-  const keys = { p: () => hextwist.stage.eye.isParallel, l: () => Boolean(hextwist.labels), c: () => hextwist.clip.mode === 'crinkle', t: () => document.documentElement.dataset.theme === 'dark' };
-  for (const [key, test] of Object.entries(keys)) {
-    assert.equal(await page.evaluate(test), false, key);
-    await page.keyboard.press(key);
+/** Marks what Tab is to stop at, in the order of the page; of radio buttons one. Returns how many there are. */
+const markStops = (page) => page.evaluate(() => {
+  const groups = new Map();
+  let n = 0;
+  for (const e of document.querySelectorAll('a[href], button, input, select, summary, [tabindex]')) {
+    if (e.disabled || e.tabIndex < 0 || !e.checkVisibility() || e.closest('dialog')) continue;
+    if (e.type === 'radio' && groups.has(e.name)) e.dataset.stop = groups.get(e.name);
+    else {
+      if (e.type === 'radio') groups.set(e.name, n);
+      e.dataset.stop = n++;
+    }
+  }
+  return n;
+});
+/** Where the focus is, and whether that is seen: a ring, inside of the window, under nothing else. */
+const focused = (page) => page.evaluate(() => {
+  const e = document.activeElement, ringed = e.closest('#pick-kinds') ? e.nextElementSibling : e, { outlineStyle, outlineWidth } = getComputedStyle(ringed);
+  const box = ringed.getBoundingClientRect(), above = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+  return {
+    stop: Number(e.dataset.stop), what: e.outerHTML.slice(0, 90),
+    isRinged: outlineStyle !== 'none' && parseFloat(outlineWidth) >= 1,
+    isSeen: box.top >= 0 && box.left >= 0 && box.bottom <= innerHeight && box.right <= innerWidth && Boolean(above) && (ringed.contains(above) || above.contains(ringed)),
+  };
+});
+async function tabTo(page, selector) {
+  for (let i = 0; i < 150; ++i) {
+    if (i > 0) await page.keyboard.press('Tab');
+    if (await page.evaluate((s) => document.activeElement.matches(s), selector)) return;
+  }
+  assert.fail(`${selector} is not reached by Tab`);
+}
+
+test('Tab stops at every control in order, shows where it is, and is held nowhere', async () => {
+  const page = await open(browser, drawn('tabs', 'bracket', '', 'quality shape'), { width: 1366, height: 768 });
+  for (const theme of ['light', 'dark']) {
+    const n = await markStops(page), back = [];
+    assert.ok(n > 60, `${n}`);
+    await page.evaluate(() => { document.activeElement.blur(); getSelection().removeAllRanges(); });
+    for (let i = 0; i < n; ++i) {
+      await page.keyboard.press('Tab');
+      const at = await focused(page);
+      assert.equal(at.stop, i, at.what);
+      assert.ok(at.isRinged, `no ring: ${at.what}`);
+      assert.ok(at.isSeen, `out of sight: ${at.what}`);
+    }
+    for (let i = n - 2; i >= 0; --i) {
+      await page.keyboard.press('Shift+Tab');
+      back.push((await focused(page)).stop === i);
+    }
+    assert.ok(back.every(Boolean), 'backwards it is the same');
+    await page.keyboard.press('t');
     await settled(page);
-    assert.equal(await page.evaluate(test), true, key);
+    if (theme === 'light') assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
   }
-  const azimuth = await page.evaluate(() => hextwist.stage.eye.azimuth);
-  await page.keyboard.press('ArrowLeft');
-  assert.notEqual(await page.evaluate(() => hextwist.stage.eye.azimuth), azimuth);
-  await page.keyboard.press('?');
-  assert.ok(await page.$eval('#help', (e) => e.open));
-  await page.keyboard.press('Escape');
-  await page.keyboard.press('/');
-  assert.equal(await page.evaluate(() => document.activeElement.id), 'search');
-  // Every control is reached by Tab.
-  const reached = new Set();
-  await page.focus('#view');
-  for (let i = 0; i < 90; ++i) {
-    await page.keyboard.press('Tab');
-    reached.add(await page.evaluate(() => { const e = document.activeElement; return e.id || e.dataset.do || e.dataset.toggle || e.dataset.view || e.dataset.copy || e.name || e.tagName; }));
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('everything can be done by keys', async () => {
+  const page = await open(browser, drawn('keys', 'bracket', 'refine vertex 9 depth 1 graded')), press = (key) => page.keyboard.press(key);
+  const app = (f) => page.evaluate(f), eye = () => app(() => { const { azimuth, elevation, height, isParallel, target } = hextwist.stage.eye; return { azimuth, elevation, height, isParallel, x: target.x }; });
+  /** Goes to a control, presses keys there; something is to have changed. */
+  const operate = async (selector, keys, of) => {
+    await tabTo(page, selector);
+    const before = JSON.stringify(await app(of));
+    for (const key of [keys].flat()) await press(key);
+    await page.waitForFunction(([f, before]) => JSON.stringify(eval(f)()) !== before, [`(${of})`, before]).catch(() => assert.fail(`${keys} at ${selector} changes nothing: ${before}`));
+    await settled(page);
+  };
+  page.setDefaultTimeout(8000);
+  // The header.
+  await app(() => hextwist.stage.eye.zoom(2));
+  await operate('[data-do="fit"]', 'Enter', () => hextwist.stage.eye.height);
+  for (const view of ['1 0 0', '-1 0 0', '0 1 0', '0 -1 0', '0 0 1', '0 0 -1']) {
+    await operate(`[data-view="${view}"]`, 'Enter', () => hextwist.stage.eye.direction.toArray());
+    const direction = await app(() => hextwist.stage.eye.direction.toArray());
+    view.split(' ').forEach((v, k) => assert.ok(Math.abs(v - direction[k]) < 1e-9, `${view}: ${direction}`));
   }
-  for (const one of ['fit', 'parallel', 'edges', 'what', 'labels', 'theme', 'help', 'list-kind', 'search', 'list', 'view', 'pick', 'box', 'lasso', 'command-kind', 'clear', 'only', 'colour', 'cut', 'cut-axis', 'cut-at', 'explode', 'planes'])
-    assert.ok(reached.has(one), `${one} is not reached`);
-  await shot(page, 'dark');
+  await operate('[data-toggle="parallel"]', 'Space', () => hextwist.stage.eye.isParallel);
+  await operate('[data-toggle="edges"]', 'Space', () => hextwist.pane.faces.material.uniforms.lines.value);
+  await operate('#what', 'ArrowDown', () => [hextwist.pane.faces.visible, hextwist.pane.cad.visible]);
+  await press('ArrowUp');
+  await operate('[data-toggle="labels"]', 'Enter', () => Boolean(hextwist.labels));
+  await operate('[data-do="theme"]', 'Enter', () => document.documentElement.dataset.theme);
+  await operate('[data-do="help"]', 'Enter', () => document.getElementById('help').open);
+  for (let i = 0; i < 3; ++i) {
+    await press('Tab');
+    assert.ok(await app(() => document.activeElement === document.body || document.activeElement.closest('#help') !== null), 'what is below the help is not reached');
+  }
+  await press('Escape');
+  assert.equal(await app(() => document.activeElement.dataset.do), 'help', 'back where it was');
+  // The list: a search, several picks, a fit.
+  await operate('#list-kind', 'c', () => hextwist.list.kind);
+  assert.equal(await value(page, 'list-kind'), 'curve');
+  await operate('#search', [...'circle'], () => hextwist.list.rows.length);
+  await operate('#list', ['Home', 'Enter'], () => [[...hextwist.picks.ids.keys()], hextwist.stage.eye.height]);
+  const first = idsOf(await value(page, 'range'))[0];
+  await operate('#list', ['ArrowDown', 'Space'], () => hextwist.picks.size);
+  assert.equal(idsOf(await value(page, 'range')).length, 2);
+  assert.equal(idsOf(await value(page, 'range'))[0], first);
+  // The view: turn, move, zoom, pick what is in the middle, a box.
+  await tabTo(page, '#view');
+  for (const key of ['ArrowLeft', 'ArrowUp', 'Shift+ArrowLeft', '+', '-', '-', '0']) {
+    const before = await eye();
+    await press(key);
+    assert.notDeepEqual(await eye(), before, key);
+  }
+  await press('Escape');
+  await press('f');
+  await press('Enter');
+  await page.waitForFunction(() => /^(surface|curve|vertex) \d+$/.test(document.getElementById('range').value));
+  await press('4');
+  await press('f');
+  await press('x');
+  assert.equal(await page.getAttribute('[data-toggle="box"]', 'aria-pressed'), 'true');
+  await press('Escape');
+  await press('f');
+  for (const key of ['ArrowRight', 'ArrowUp', 'ArrowUp']) await press(key);
+  await press('Enter');
+  await page.waitForFunction(() => document.getElementById('range').value.startsWith('hex '));
+  // The same hexes by the mouse.
+  const byKeys = await value(page, 'range'), box = await (await page.$('#view')).boundingBox(), half = await app(() => hextwist.stage.keyBox);
+  assert.ok(idsOf(byKeys).length > 3, byKeys);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await app(() => hextwist.picks.clear());
+  await page.mouse.move(x - half.x * box.height, y - half.y * box.height);
+  await page.mouse.down();
+  await page.mouse.move(x + half.x * box.height, y + half.y * box.height, { steps: 3 });
+  await page.mouse.up();
+  await page.waitForFunction(() => document.getElementById('range').value !== '');
+  assert.equal(await value(page, 'range'), byKeys);
+  await press('x');
+  // Kinds, a range that is typed, a command that is copied.
+  await operate('#right summary', 'Enter', () => document.querySelector('#right details').open);
+  await press('Enter');
+  await operate('input[name="pick"]', 'ArrowRight', () => hextwist.stage.kind);
+  await operate('[data-toggle="box"]', 'Space', () => hextwist.stage.areaTool);
+  await operate('[data-toggle="lasso"]', 'Space', () => hextwist.stage.areaTool);
+  await press('Space');
+  await operate('#through', 'Space', () => hextwist.stage.through);
+  await operate('#range', ['Control+A', ...'hexes 3 5 to 9 by 2', 'Enter'], () => [...hextwist.picks.ids.keys()]);
+  assert.deepEqual(await app(() => [hextwist.picks.kind, [...hextwist.picks.ids.keys()]]), ['hex', [3, 5, 7, 9]]);
+  for (const [typed, said] of [['hex 3 to', /'' is not an id/], ['hx 3', /a range is a kind and ids/], ['hex 9 to 3', /there is nothing/], ['hex 1 999999', /1 of these 2 ids do not exist/], ['vertex all', /^\d+ picked$/]]) {
+    await app(() => hextwist.say(''));
+    await operate('#range', ['Control+A', ...typed, 'Enter'], () => document.getElementById('status').value);
+    assert.match(await value(page, 'status'), said);
+  }
+  await operate('[data-copy="range"]', 'Enter', () => document.getElementById('status').value);
+  await operate('#command-kind', 'ArrowDown', () => document.getElementById('command').value);
+  await operate('[data-copy="command"]', 'Enter', () => document.getElementById('status').value);
+  await press('r');
+  await operate('#range', ['Control+A', ...'hex 5', 'Enter'], () => document.getElementById('range').value);
+  const shown = () => hextwist.shownHexes?.reduce((sum, v) => sum + v, 0) ?? null;
+  for (const one of ['only', 'all', 'column', 'all', 'sheets', 'hide', 'all']) await operate(`[data-do="${one}"]`, 'Enter', one === 'sheets' ? () => hextwist.picks.kind : shown);
+  await operate('#range', ['Control+A', ...'hex 5', 'Enter'], () => document.getElementById('range').value);
+  await operate('[data-do="clear"]', 'Enter', () => hextwist.picks.size);
+  // Colours.
+  await operate('#colour', [...'shape'], () => hextwist.colouring.key);
+  assert.equal(await value(page, 'colour'), 'shape');
+  await operate('#low', ['Control+A', ...'0.25', 'Enter'], () => hextwist.colouring.range.low);
+  await operate('#high', ['Control+A', ...'0.75', 'Enter'], () => hextwist.colouring.range.high);
+  await operate('[data-do="auto"]', 'Enter', () => hextwist.colouring.range.low);
+  await operate('#histogram button:not([disabled])', 'Enter', () => hextwist.picks.size);
+  await operate('[data-do="worst-next"]', 'Enter', () => document.getElementById('worst-now').value);
+  await operate('[data-do="worst-back"]', 'Enter', () => document.getElementById('worst-now').value);
+  // Cuts.
+  await operate('input[name="cut"]', 'ArrowRight', () => hextwist.clip.mode);
+  await operate('#cut-axis', 'ArrowDown', () => hextwist.clip.normal);
+  await operate('#cut-flip', 'Space', () => hextwist.clip.normal);
+  await operate('#cut-at', 'ArrowRight', () => hextwist.clip.distance);
+  await operate('input[name="cut"]:checked', ['ArrowRight', 'ArrowRight'], () => hextwist.clip.mode);
+  await operate('#explode', 'ArrowRight', () => hextwist.explode);
+  await operate('#explode', 'Home', () => hextwist.explode);
+  await operate('[data-do="refined-planes"]', 'Enter', () => hextwist.picks.kind);
+  await operate('#planes', 'Space', () => hextwist.pane.planes.children.length);
+  // Keys of their own, wherever the focus is.
+  await press('/');
+  assert.equal(await app(() => document.activeElement.id), 'search');
+  await press('Escape');
+  assert.equal(await app(() => document.activeElement.id), 'view');
+  for (const [key, of] of Object.entries({ p: () => hextwist.stage.eye.isParallel, l: () => hextwist.labels, c: () => hextwist.clip.mode, ']': () => hextwist.clip.distance, t: () => hextwist.themeName, k: () => hextwist.stage.kind, e: () => hextwist.pane.faces.material.uniforms.lines.value, g: () => hextwist.pane.cad.visible, o: () => hextwist.stage.areaTool, w: () => document.getElementById('worst-now').value, a: () => hextwist.wanted, '?': () => document.getElementById('help').open }))
+    await operate('#view', key, of);
+  await shot(page, 'keys');
   assert.deepEqual(page.problems, []);
   await page.close();
 });
