@@ -97,10 +97,6 @@ struct WriteOptions {
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
                                     const WriteOptions& options = {});
 
-/// Other files and folders that a mesh of this name is read from or written to, there or not: constant/polyMesh beside
-/// case.foam and what lies in it, the files of SPECFEM3D. Files that the mesh itself names are not among them.
-std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file);
-
 /// Extensions that can be read, for messages: ".msh .e ...".
 std::string readable_extensions();
 /// Extensions that can be written, likewise.

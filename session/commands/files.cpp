@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hextwist/io/files_beside.h"
 #include "hextwist/io/io.h"
 #include "hextwist/session/commands/commands.h"
 
