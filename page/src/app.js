@@ -12,8 +12,8 @@ import { Stage } from './stage.js';
 const element = (id) => document.getElementById(id);
 const kindsToPick = [['geometry', 'auto'], ['vertex'], ['curve'], ['surface'], ['volume'], ['node'], ['edge'], ['face'], ['hex'], ['block'], ['sheet'], ['nodeset'], ['sideset']];
 const themes = {
-  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#d9480f', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
-  dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
+  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#c2410c', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', axes: ['#c8372d', '#3c8a34', '#2f62c4'], edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
+  dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', axes: ['#ff7b70', '#74c96a', '#7fa8ff'], edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
 };
 
 export class App {
@@ -393,6 +393,11 @@ export class App {
   labelKind() { return this.stage.kind === 'geometry' ? 'surface' : this.stage.kind; }
   labelPlaces(kind) { return labelPlaces(this.pane, kind); }
 
+  clear() {
+    this.picks.clear();
+    this.say('');
+  }
+
   // Controls.
 
   setTheme(name) {
@@ -441,7 +446,7 @@ export class App {
   }
   do(name) {
     const actions = {
-      fit: () => this.fit(), theme: () => this.switchTheme(), help: () => element('help').showModal(), clear: () => this.picks.clear(),
+      fit: () => this.fit(), theme: () => this.switchTheme(), help: () => element('help').showModal(), clear: () => this.clear(),
       only: () => this.showOnly(), hide: () => this.hide(), column: () => this.column(), sheets: () => this.sheetsOfPicked(),
       all: () => { this.shownHexes = null; return this.rebuild(); }, auto: () => this.colouring.auto(),
       'worst-next': () => this.colouring.step(1), 'worst-back': () => this.colouring.step(-1), 'refined-planes': () => this.planesOfRefinement(),
@@ -503,7 +508,7 @@ export class App {
       if (e.key === 'Escape' && !element('help').open && e.target.id !== 'prompt') {
         if (e.target.id === 'range') this.picked();
         if (typing) element('view').focus();
-        else this.picks.clear();
+        else this.clear();
         return;
       }
       if (typing || e.ctrlKey || e.metaKey || e.altKey || element('help').open) return;

@@ -18,5 +18,5 @@ export function fillHelp(dialog) {
   }
   const close = Object.assign(document.createElement('button'), { textContent: 'Close' });
   close.addEventListener('click', () => dialog.close());
-  dialog.append(table, close);
+  dialog.append(Object.assign(document.createElement('h2'), { textContent: 'Mouse and keys' }), table, close);
 }

@@ -109,7 +109,7 @@ export class Stage {
       const path = this.areaPath();
       path.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
       pen.closePath();
-      pen.fillStyle = 'rgba(217,72,15,0.14)';
+      pen.fillStyle = 'rgba(194,65,12,0.14)';
       pen.strokeStyle = this.theme.pick;
       pen.fill();
       pen.stroke();
@@ -133,7 +133,7 @@ export class Stage {
   drawAxes(pen, camera) {
     const right = new THREE.Vector3(), up = new THREE.Vector3(), back = new THREE.Vector3(), x0 = 44, y0 = this.height - 44, length = 26;
     camera.matrixWorld.extractBasis(right, up, back);
-    const axes = [['x', '#c8372d', 'x'], ['y', '#3c8a34', 'y'], ['z', '#2f62c4', 'z']].map(([name, colour, k]) => ({ name, colour, x: right[k] * length, y: -up[k] * length, z: back[k] }));
+    const axes = ['x', 'y', 'z'].map((k, i) => ({ name: k, colour: this.theme.axes[i], x: right[k] * length, y: -up[k] * length, z: back[k] }));
     axes.sort((a, b) => a.z - b.z);
     pen.font = '600 11px system-ui, sans-serif';
     pen.textAlign = 'center';

@@ -148,7 +148,7 @@ test('files are written below the folder and can be saved', async () => {
   const before = readdirSync(output).sort();
   for (const outside of ["export mesh '../outside.vtu'", "export mesh '/tmp/outside.vtu'", "import mesh '/etc/passwd'", 'set safe off', "export mesh 'link/outside.vtu'", "export mesh 'dangling.vtu' overwrite",
     "export openfoam 'link/outside.foam'", "draw to 'link/outside.png'", "draw to '../outside.html'", "playback 'linked.jou'", "playback '../outside.jou'", "record 'link/outside.jou'", "import mesh 'link/before.msh'", "import mesh '/proc/self/environ'",
-    "import step '/dev/zero'", "include('../outside.jou')", "#{include('../outside.jou')}"]) {
+    "import step '/dev/zero'", "{include('../outside.jou')}"]) {
     const seen = (await log(page)).length;
     await command(page, outside);
     assert.match((await log(page)).slice(seen), /the session is safe|expected|only files below|not a command/, outside);
