@@ -60,6 +60,8 @@ export class Colouring {
     this.sets = this.setsOf.get(this.app.pane);
     this.worstAt = -1;
     this.auto();
+    const [before] = this.app.panes;
+    if (this.values && !this.valuesOf.get(before)) this.app.say(`of the mesh before the values of ${key} are not known: they are of those colours that it was seen in`);
   }
   async load(scene, key) {
     if (key === 'none' || key === 'surface' || key in setKeys || scene.isCad) return null;

@@ -123,6 +123,7 @@ export class EntityList {
       item.style.top = `${box.scrollTop + i * rowHeight - top}px`;
       item.append(`${this.kind} ${id}`);
       if (name || note) item.append(Object.assign(document.createElement('small'), { textContent: [name, note].filter(Boolean).join(' · ') }));
+      item.title = [`${this.kind} ${id}`, name, note].filter(Boolean).join(' · ');
       items.push(item);
     }
     space.replaceChildren(...items);

@@ -265,7 +265,10 @@ export class Stage {
         return;
       }
       this.area = null;
-      if (travelled <= 3 && e.button === 0 && e.type === 'pointerup') this.on.pick(await this.find(...place(e)), add);
+      if (travelled <= 3 && e.button === 0 && e.type === 'pointerup') {
+        this.picking = this.find(...place(e)).then((found) => this.on.pick(found, add));
+        await this.picking;
+      }
       this.draw();
     };
     canvas.addEventListener('pointerup', release);

@@ -27,9 +27,7 @@ async function lookFrom(page, mesh, direction) {
 async function clickAt(page, { box }, [x, y]) {
   await page.evaluate(() => hextwist.picks.clear());
   await page.mouse.click(box.x + x, box.y + y);
-  await page.waitForTimeout(30);
-  await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => setTimeout(r, 20))));
-  return value(page, 'range');
+  return page.evaluate(async () => { await hextwist.stage.picking; return document.getElementById('range').value; });
 }
 
 for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
