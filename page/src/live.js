@@ -72,8 +72,9 @@ export class Live {
         return lock ? new Promise(() => {}) : null;
       });
     });
-    // After a reload the lock of the page before may take a moment to go.
-    for (let i = 0; i < 5; ++i) {
+    // After a reload the lock of the page before may take a moment to go; on a busy machine a long one.
+    const isReload = performance.getEntriesByType('navigation')[0]?.type === 'reload';
+    for (let i = 0; i < (isReload ? 60 : 5); ++i) {
       if (await taken()) return true;
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
