@@ -232,7 +232,9 @@ export class App {
   }
   fit() {
     if (this.picks.size) return this.fitTo(this.picks.kind, [...this.picks.ids.values()]);
-    this.stage.eye.fit(new THREE.Vector3(), this.scene.radius / this.stage.narrowness);
+    // What has been taken apart needs more room.
+    const bounds = this.explode ? boundsOf(this.pane) : null;
+    this.stage.eye.fit(bounds?.center ?? new THREE.Vector3(), (bounds?.radius ?? this.scene.radius) / this.stage.narrowness);
     this.draw();
   }
   /** Picks a hex or node and fits to it. */

@@ -469,8 +469,10 @@ export function boundsOf(shape) {
   if (shape.segments) add(shape.segments);
   if (shape.quads)
     for (let i = 0; i < 4 * shape.quads.n; ++i) {
-      const at = 3 * shape.quads.corner[i];
-      box.expandByPoint(p.set(shape.quads.points[at], shape.quads.points[at + 1], shape.quads.points[at + 2]));
+      const at = 3 * shape.quads.corner[i], moved = 3 * (i >> 2), { offset } = shape.quads;
+      p.set(shape.quads.points[at], shape.quads.points[at + 1], shape.quads.points[at + 2]);
+      if (offset) p.set(p.x + offset[moved], p.y + offset[moved + 1], p.z + offset[moved + 2]);
+      box.expandByPoint(p);
     }
   if (box.isEmpty()) return null;
   return { center: box.getCenter(new THREE.Vector3()), radius: box.getSize(p).length() / 2 };

@@ -592,6 +592,15 @@ test('hover, copy, labels, the true CAD, explosions, hiding and the mesh before'
   assert.equal(box3.length, 2);
   assert.notDeepEqual(box3[0].map((z) => Math.round(z)), box3[1].map((z) => Math.round(z)));
   assert.ok(Math.max(box3[0][1], box3[1][1]) > 0.9 * Math.max(...box3.map(([low, high]) => high - low)), 'one is above the other');
+  await page.evaluate(() => hextwist.picks.clear());
+  await page.click('[data-do="fit"]');
+  const reach = await page.evaluate(() => {
+    const { eye, paneWidth, height } = hextwist.stage, camera = eye.update(paneWidth / height), at = hextwist.pane.faces.geometry.getAttribute('position').array, p = eye.target.clone();
+    let most = 0;
+    for (let i = 0; i < at.length; i += 3) { p.fromArray(at, i).project(camera); most = Math.max(most, Math.abs(p.x), Math.abs(p.y)); }
+    return most;
+  });
+  assert.ok(reach < 1.001, `all parts are seen after a fit: ${reach}`);
   await shot(page, 'explode');
   await page.$eval('#explode', (e) => { e.value = 0; e.dispatchEvent(new Event('input')); });
   await settled(page);
