@@ -123,6 +123,9 @@ int read_serve(int argc, char** argv, Options& options) {
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.serve = true;
   if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
+  // Pages are answered at one address, so that no name of another site can be given to it.
+  if (options.address == "0.0.0.0" || options.address == "::")
+    return wrong("--address " + options.address + ": name the address of this machine that it is to be reached at");
   for (const std::string& file : files) {
     if (is_journal(file))
       options.steps.push_back({true, file});

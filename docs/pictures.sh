@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README and of docs/pass.md with the program itself: docs/pictures.sh PROGRAM [PYTHON_PACKAGES]
+# Draws the pictures of README and docs with the program itself: docs/pictures.sh PROGRAM [PYTHON_PACKAGES]
 # Those of the front that moves in three steps need the Python package: they stay as they are without that folder.
+# docs/pictures.sh --list: the names of all figures that './dev pictures' makes, and nothing is drawn.
 set -euo pipefail
-program=$(realpath "${1:?usage: docs/pictures.sh PROGRAM [PYTHON_PACKAGES]}")
+[ "${1:-}" != --list ] && is_list='' || is_list=yes
+[ "$is_list" ] || program=$(realpath "${1:?usage: docs/pictures.sh PROGRAM [PYTHON_PACKAGES], or --list}")
 python=${2:+$(realpath "$2")}
 example=$(cd "$(dirname "${BASH_SOURCE[0]}")/../examples/python" && pwd)/moving_front.py
 models=$(cd "$(dirname "${BASH_SOURCE[0]}")/../models" && pwd)
@@ -11,7 +13,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/pictures"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-hextwist() { "$program" "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
+hextwist() {
+  if [ "$is_list" ]; then
+    grep -o "to '[^']*'" <<<"$*" | sed "s|to '\(.*\)'|docs/pictures/\1|" || true
+  else
+    "$program" "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
+  fi
+}
 
 # one_hex CORNER...: a mesh of one hex, nearly a unit cube. The edges longer than 0.998 are those to be cut,
 # as marks of hexes around would ask for. Corners as in MEDIT: around the bottom, then around the top.
@@ -95,7 +103,7 @@ hextwist --cad "$models/plate_hole.brep" "$models/plate_hole.msh" -c "$rings; dr
 bracket=(--cad "$models/bracket.brep" "$models/bracket.msh")
 hextwist "${bracket[@]}" -c "draw pixels 420 400 legend off to 'bracket_before.png' overwrite"
 hextwist "${bracket[@]}" -c "refine surface 6 depth 1; refine curve 22 depth 1; refine vertex 9 depth 1; draw pixels 420 400 legend off to 'bracket_after.png' overwrite"
-rm -f front.gif
+[ "$is_list" ] || rm -f front.gif
 front=''
 for x in -40 -34 -28 -22 -16 -10 -4 2 8 14 20 26 32 38; do
   front+="refine hex with x_coord > $((x - 5)) and x_coord < $((x + 5)) graded
@@ -109,4 +117,7 @@ hextwist --cad "$models/pipe_tee.brep" "$models/pipe_tee.msh" -c "$front"
 hextwist "${bracket[@]}" -c "refine curve 22 depth 1; refine vertex 9 depth 1
   draw quality shape clip y title 'bracket, cut at y = 0' label surface pixels 640 480 to 'words.png' overwrite"
 
-if [ -n "$python" ]; then PYTHONPATH=$python /usr/bin/python3 "$example" 2 3 front.png >/dev/null; fi
+if [ "$is_list" ]; then
+  printf 'docs/pictures/%s\n' front_0.png front_1.png front_2.png adaptive.png
+  echo docs/smoothing.svg
+elif [ -n "$python" ]; then PYTHONPATH=$python /usr/bin/python3 "$example" 2 3 front.png >/dev/null; fi

@@ -9,7 +9,7 @@ Coloured by stage. Python's standard library is enough.
 import csv
 import sys
 
-COLOURS = {"start": "#555", "untangle": "#8e44ad", "shape": "#2470b3", "worst": "#c0392b", "average": "#27894b"}
+COLOURS = {"start": "#555", "untangle": "#8e44ad", "shape": "#2470b3", "worst": "#c0392b", "average": "#27894b", "corners": "#d07b0a"}
 PANELS = (("min", "smallest shape"), ("average", "average shape"), ("energy", "energy"))
 WIDTH, HEIGHT, LEFT, TOP, GAP = 270, 150, 60, 40, 70
 

@@ -18,12 +18,14 @@ commands='
 echo "hextwist --cad models/bracket.brep models/bracket.msh -c '$commands' --json hextwist-demo.json"
 echo
 "$program" --cad "$here/bracket.brep" "$here/bracket.msh" -c "$commands" --json hextwist-demo.json
-"$program" view hextwist-demo.msh --cad "$here/bracket.brep" --before "$here/bracket.msh" -o hextwist-demo.html || true  # it says what is missing
+"$program" view hextwist-demo.msh --cad "$here/bracket.brep" --before "$here/bracket.msh" -o hextwist-demo.html &&
+  page="  hextwist-demo.html   the viewer, for any browser: pick, cut, colour; click 'Before' for the mesh as it was" ||
+  page="  (hextwist-demo.html is not there, for the reason above)"
 
 cat <<DONE
 
 The refined bracket is in
-  hextwist-demo.html   the viewer, for any browser: pick, cut, colour; click 'Before' for the mesh as it was
+$page
   hextwist-demo.png    a picture
   hextwist-demo.vtu    for ParaView:  paraview hextwist-demo.vtu   (show "Surface With Edges", colour by shape)
   hextwist-demo.msh    for Gmsh:      gmsh hextwist-demo.msh

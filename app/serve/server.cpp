@@ -28,7 +28,8 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
-constexpr std::size_t most_body = 256 * 1024, most_sessions = 8, most_command = 100000, most_line = 4000;
+constexpr std::size_t most_body = 256 * 1024, most_sessions = 8, most_command = 100000, most_line = 4000,
+                      most_patience = 15;
 // Tabs that are there ask at least every 15 s. One that was closed may be opened again, unless there are too many.
 constexpr std::chrono::seconds idle_time = std::chrono::hours(2), left_time = 60s;
 constexpr int n_threads_of_server = 4 * most_sessions;
@@ -79,11 +80,13 @@ class Server {
     if (port < 0)
       throw Error(options_.address + (options_.port ? ":" + std::to_string(options_.port) : "") +
                   " cannot be listened on: it is taken, or is not an address of this machine");
-    for (const std::string& name : {options_.address, std::string("localhost"), std::string("127.0.0.1")})
+    const bool is_ip6 = options_.address.find(':') != std::string::npos;
+    for (const std::string& name :
+         {is_ip6 ? "[" + options_.address + "]" : options_.address, std::string("localhost"), std::string("127.0.0.1")})
       hosts_.push_back(name + ":" + std::to_string(port));
     std::printf("http://%s/?token=%s\nOpen it in a browser on this machine; Ctrl-C ends.\n", hosts_.front().c_str(),
                 token_.c_str());
-    if (options_.address != "127.0.0.1" && options_.address != "localhost")
+    if (options_.address != "127.0.0.1" && options_.address != "localhost" && options_.address != "::1")
       std::printf("note: everybody who reaches %s and knows the token may run commands here\n",
                   options_.address.c_str());
     std::fflush(stdout);
@@ -255,7 +258,8 @@ class Server {
     http_.Get("/events", [this](const httplib::Request& request, httplib::Response& response) {
       const auto live = session(request.get_param_value("id"));
       if (!live) return refuse(response, 404, "there is no such session");
-      response.set_content(live->events(number(request, "since"), 15s), "application/json");
+      const auto patience = std::chrono::seconds(std::min<std::size_t>(number(request, "wait"), most_patience));
+      response.set_content(live->events(number(request, "since"), patience), "application/json");
     });
     http_.Get("/block", [this](const httplib::Request& request, httplib::Response& response) {
       const auto live = session(request.get_param_value("id"));

@@ -207,8 +207,11 @@ def main():
     parser.add_argument("--limit", type=int, default=40000, help="unknowns up to which uniform refinement goes; the loops end at a third of it")
     parser.add_argument("--ways", default=",".join(WAYS))
     parser.add_argument("--check", action="store_true", help="a test on the L alone, against its known energy; 77 where ccx is missing")
+    parser.add_argument("--plot", type=pathlib.Path, metavar="PICTURE", help="computes nothing: draws what is in the folder --out from an earlier run")
     parser.add_argument("cases", nargs="*", metavar="CASE", help=", ".join(CASES))
     options = parser.parse_args()
+    if options.plot:
+        return plot(json.loads((options.out / "adaptive.json").read_text()), options.plot)
     if not shutil.which("ccx"):
         print("skipped: ccx is missing, CalculiX solves here (Debian: calculix-ccx)")
         sys.exit(77 if options.check else 1)

@@ -13,6 +13,9 @@ inline constexpr MiddleOrder specfem_middles = middle_order(
 inline constexpr const char* specfem_surfaces[] = {
     "free_or_absorbing_surface_file_zmax", "absorbing_surface_file_xmin", "absorbing_surface_file_xmax",
     "absorbing_surface_file_ymin",         "absorbing_surface_file_ymax", "absorbing_surface_file_bottom"};
+/// All other files of a mesh.
+inline constexpr const char* specfem_files[] = {"nodes_coords_file", "mesh_file", "materials_file",
+                                                "nummaterial_velocity_file"};
 /// Elements that absorb, by number; not read.
 inline constexpr const char* specfem_cpml = "absorbing_cpml_file";
 

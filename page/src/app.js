@@ -5,15 +5,15 @@ import { fillHelp } from './help.js';
 import { labelPlaces } from './labels.js';
 import { EntityList } from './list.js';
 import { boundsOf, Pane } from './pane.js';
-import { commands, Picks, rangeText } from './picks.js';
+import { commands, Picks, rangeText, readRange } from './picks.js';
 import { short } from './scene.js';
 import { Stage } from './stage.js';
 
 const element = (id) => document.getElementById(id);
 const kindsToPick = [['geometry', 'auto'], ['vertex'], ['curve'], ['surface'], ['volume'], ['node'], ['edge'], ['face'], ['hex'], ['block'], ['sheet'], ['nodeset'], ['sideset']];
 const themes = {
-  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#d9480f', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
-  dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
+  light: { back: '#f7f9fc', ink: '#1b2230', pick: '#c2410c', hint: '#2563c9', plain: [214, 221, 231], label: 'rgba(29,36,48,0.88)', labelText: '#fff', axes: ['#c8372d', '#3c8a34', '#2f62c4'], edge: [0.12, 0.14, 0.18], cad: [0.74, 0.78, 0.84] },
+  dark: { back: '#191e26', ink: '#e8edf5', pick: '#ff8a4c', hint: '#6aa2f5', plain: [148, 158, 174], label: 'rgba(232,237,245,0.92)', labelText: '#14181f', axes: ['#ff7b70', '#74c96a', '#7fa8ff'], edge: [0.05, 0.06, 0.08], cad: [0.5, 0.55, 0.63] },
 };
 
 export class App {
@@ -123,7 +123,7 @@ export class App {
     if (row.name) parts.push(`"${row.name}"`);
     if (row.note) parts.push(row.note);
     if (kind !== 'hex' && hit?.hex >= 0) parts.push(`hex ${pane.scene.hexId(hit.hex)}`);
-    const value = hit?.hex >= 0 ? this.colouring.said(pane, hit.hex) : '';
+    const value = kind === 'node' ? this.colouring.said(pane, position, 'node') : hit?.hex >= 0 ? this.colouring.said(pane, hit.hex, 'hex') : '';
     if (value) parts.push(value);
     return parts.join(' · ');
   }
@@ -170,10 +170,31 @@ export class App {
     this.picks.set('hex', add && this.picks.kind === 'hex' ? [...this.picks.ids, ...pairs] : pairs);
     this.say(`${hexes.length.toLocaleString('en')} ${hexes.length === 1 ? 'hex' : 'hexes'} picked`);
   }
+  async pickNodes(nodes) {
+    if (this.scene.skin.node_id && this.scene.hasInside) await this.busy('loading ids', () => this.scene.inside());
+    this.picks.set('node', nodes.map((n) => [this.scene.nodeId(n), n]));
+    this.say(`${nodes.length.toLocaleString('en')} ${nodes.length === 1 ? 'node' : 'nodes'} picked`);
+  }
   async pickIds(kind, ids) {
     if (!this.scene.meta[kind] && this.scene.hasInside && this.scene.count(kind) === null) await this.scene.inside();
     if ((kind === 'hex' && this.scene.skin.quad_hex_id) || (kind === 'node' && this.scene.skin.node_id)) await this.scene.inside();
     this.picks.set(kind, ids.map((id) => [id, this.scene.find(kind, id)]).filter(([, position]) => position >= 0));
+  }
+  /** What was typed as a range. */
+  async pickTyped(text) {
+    if (!text.trim()) return this.picks.clear();
+    if (!this.panes.length) return this.say('there is no mesh');
+    try {
+      const { kind, ids } = readRange(text, this.picks.kind), { scene } = this;
+      if (scene.count(kind) === null || ids === null) await this.busy('loading the inside', () => scene.inside());
+      const n = scene.count(kind) ?? 0;
+      await this.pickIds(kind, ids ?? Array.from({ length: n }, (_, i) => scene.row(kind, i).id));
+      const known = new Set(ids ?? []).size, missing = ids ? known - this.picks.size : 0;
+      if (this.list.kind !== kind && n) await this.list.show(kind);
+      this.say(missing ? `${missing.toLocaleString('en')} of these ${known.toLocaleString('en')} ids do not exist` : `${this.picks.size.toLocaleString('en')} picked`);
+    } catch (error) {
+      this.say(error.message);
+    }
   }
   /** After the mesh has changed: what is still there stays picked. */
   async repick() { await this.pickIds(this.picks.kind, [...this.picks.ids.keys()]); }
@@ -211,16 +232,20 @@ export class App {
   }
   fit() {
     if (this.picks.size) return this.fitTo(this.picks.kind, [...this.picks.ids.values()]);
-    this.stage.eye.fit(new THREE.Vector3(), this.scene.radius / this.stage.narrowness);
+    // What has been taken apart needs more room.
+    const bounds = this.explode ? boundsOf(this.pane) : null;
+    this.stage.eye.fit(bounds?.center ?? new THREE.Vector3(), (bounds?.radius ?? this.scene.radius) / this.stage.narrowness);
     this.draw();
   }
-  async goTo(hex) {
-    await this.pickHexes([hex]);
+  /** Picks a hex or node and fits to it. */
+  async goTo(kind, position) {
     if (this.scene.hasInside) await this.busy('loading the inside', () => this.scene.inside());
+    await (kind === 'hex' ? this.pickHexes([position]) : this.pickNodes([position]));
     await this.picked();
-    await this.fitTo('hex', [hex], 7);
-    this.say(`hex ${this.scene.hexId(hex)} · ${this.colouring.said(this.pane, hex)}`);
+    await this.fitTo(kind, [position], 7);
+    this.say(`${this.nameOf(kind, position)} · ${this.colouring.said(this.pane, position, kind)}`);
   }
+  nameOf(kind, position) { return `${kind} ${kind === 'hex' ? this.scene.hexId(position) : this.scene.nodeId(position)}`; }
 
   // What is shown.
 
@@ -370,6 +395,11 @@ export class App {
   labelKind() { return this.stage.kind === 'geometry' ? 'surface' : this.stage.kind; }
   labelPlaces(kind) { return labelPlaces(this.pane, kind); }
 
+  clear() {
+    this.picks.clear();
+    this.say('');
+  }
+
   // Controls.
 
   setTheme(name) {
@@ -418,7 +448,7 @@ export class App {
   }
   do(name) {
     const actions = {
-      fit: () => this.fit(), theme: () => this.switchTheme(), help: () => element('help').showModal(), clear: () => this.picks.clear(),
+      fit: () => this.fit(), theme: () => this.switchTheme(), help: () => element('help').showModal(), clear: () => this.clear(),
       only: () => this.showOnly(), hide: () => this.hide(), column: () => this.column(), sheets: () => this.sheetsOfPicked(),
       all: () => { this.shownHexes = null; return this.rebuild(); }, auto: () => this.colouring.auto(),
       'worst-next': () => this.colouring.step(1), 'worst-back': () => this.colouring.step(-1), 'refined-planes': () => this.planesOfRefinement(),
@@ -454,6 +484,7 @@ export class App {
       picks.append(label);
     }
     for (const name of Object.keys(commands)) element('command-kind').append(new Option(name, name));
+    element('range').addEventListener('change', () => this.pickTyped(element('range').value));
     element('command-kind').addEventListener('change', () => this.picked());
     element('what').addEventListener('change', () => this.applyLook());
     for (const button of document.querySelectorAll('[data-toggle]')) button.addEventListener('click', () => this.toggle(button.dataset.toggle));
@@ -477,8 +508,9 @@ export class App {
     document.addEventListener('keydown', async (e) => {
       const typing = e.target.matches('input:not([type="range"]):not([type="radio"]):not([type="checkbox"]), select, textarea');
       if (e.key === 'Escape' && !element('help').open && e.target.id !== 'prompt') {
+        if (e.target.id === 'range') this.picked();
         if (typing) element('view').focus();
-        else this.picks.clear();
+        else this.clear();
         return;
       }
       if (typing || e.ctrlKey || e.metaKey || e.altKey || element('help').open) return;
@@ -486,11 +518,14 @@ export class App {
       const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key];
       if (arrow && onView) {
         if (e.shiftKey) eye.move(-0.06 * arrow[0], -0.06 * arrow[1]);
+        else if (this.stage.areaTool) this.stage.growKeyBox(arrow[0], -arrow[1]);
         else eye.turn((arrow[0] * Math.PI) / 18, (arrow[1] * Math.PI) / 18);
         this.stage.showsCross = true;
       } else if (e.key === 'Enter' && onView) {
         this.stage.showsCross = true;
-        this.clicked(await this.stage.find(this.stage.width - this.stage.paneWidth / 2, this.stage.height / 2), e.shiftKey);
+        e.preventDefault();
+        if (this.stage.areaTool) await this.stage.pickKeyBox(e.shiftKey);
+        else this.clicked(await this.stage.find(this.stage.width - this.stage.paneWidth / 2, this.stage.height / 2), e.shiftKey);
       } else if (e.key === '+' || e.key === '=') eye.zoom(0.85);
       else if (e.key === '-') eye.zoom(1 / 0.85);
       else if (e.key >= '0' && e.key <= '6') views[Number(e.key)].click();
@@ -501,7 +536,7 @@ export class App {
         const action = {
           f: () => this.do('fit'), p: () => this.toggle('parallel'), e: () => this.toggle('edges'), l: () => this.toggle('labels'), b: () => this.toggle('before'),
           t: () => this.do('theme'), x: () => this.toggle('box'), o: () => this.toggle('lasso'), w: () => this.do('worst-next'), '?': () => this.do('help'),
-          '/': () => element('search').focus(), a: () => this.do('all'), i: () => this.do('only'), h: () => this.do('hide'),
+          '/': () => element('search').focus(), r: () => { element('range').focus(); element('range').select(); }, a: () => this.do('all'), i: () => this.do('only'), h: () => this.do('hide'),
           g: () => { element('what').value = whats[(whats.indexOf(element('what').value) + 1) % 3]; this.applyLook(); },
           c: () => { document.querySelector(`input[name="cut"][value="${cuts[(cuts.indexOf(this.clip.mode) + 1) % 3]}"]`).checked = true; this.cutChanged(true); },
           k: () => { const all = kindsToPick.map(([kind]) => kind); this.setKind(all[(all.indexOf(this.stage.kind) + 1) % all.length]); this.say(`picks: ${this.stage.kind}`); },

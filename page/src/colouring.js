@@ -1,13 +1,13 @@
 // What gives the colours, with its scale, its histogram and its worst hexes.
 import { css, rowColour, scale, scaleColour, scaleKind, scaleRange } from './colours.js';
-import { short } from './scene.js';
+import { pluralOf, short } from './scene.js';
 import { rowOf, setKeys, setRows } from './sets.js';
 
 const nBars = 24, mostLegend = 14, mostPicked = 200000;
 const element = (id) => document.getElementById(id);
 
 export class Colouring {
-  /** app: scene, panes, pickHexes(hexes), goTo(hex), busy(), draw(). */
+  /** app: scene, panes, pickHexes(hexes), pickNodes(nodes), goTo(kind, position), nameOf(kind, position), busy(), draw(). */
   constructor(app) {
     this.app = app;
     this.select = element('colour');
@@ -60,6 +60,8 @@ export class Colouring {
     this.sets = this.setsOf.get(this.app.pane);
     this.worstAt = -1;
     this.auto();
+    const [before] = this.app.panes;
+    if (this.values && !this.valuesOf.get(before)) this.app.say(`of the mesh before the values of ${key} are not known: they are of those colours that it was seen in`);
   }
   async load(scene, key) {
     if (key === 'none' || key === 'surface' || key in setKeys || scene.isCad) return null;
@@ -83,6 +85,8 @@ export class Colouring {
     this.shown();
   }
 
+  /** What has the values. */
+  get onWhat() { return this.channel?.on === 'node' ? 'node' : 'hex'; }
   get isClass() { return this.key === 'sheet' || Boolean(this.channel?.is_class); }
   className(number) { return this.channel?.classes.find(([n]) => n === number)?.[1] ?? `${this.key} ${number}`; }
 
@@ -178,9 +182,10 @@ export class Colouring {
     box.replaceChildren();
     const rows = this.classRows();
     box.className = rows.length ? 'classes' : '';
-    box.hidden = !rows.length && (!this.values || this.channel?.on === 'node');
-    element('worst').hidden = !this.range || this.channel.on === 'node';
+    box.hidden = !rows.length && !this.values;
+    element('worst').hidden = !this.range;
     if (box.hidden) return;
+    box.setAttribute('aria-label', `Histogram: each bar picks its ${pluralOf(this.onWhat)}`);
     for (const { text, count, colour, pick } of rows.slice(0, 400)) {
       const button = document.createElement('button'), swatch = document.createElement('i');
       swatch.style.background = css(colour);
@@ -197,7 +202,7 @@ export class Colouring {
       // A few hexes are seen as well.
       bar.style.height = count ? `${Math.max(4, (100 * Math.sqrt(count)) / Math.sqrt(highest))}%` : '0';
       bar.style.background = css(scaleColour(kind, this.range.low, this.range.high, (from + to) / 2));
-      const said = `${short(from)} to ${short(to)}: ${count.toLocaleString('en')} ${count === 1 ? 'hex' : 'hexes'}`;
+      const said = `${short(from)} to ${short(to)}: ${count.toLocaleString('en')} ${count === 1 ? this.onWhat : pluralOf(this.onWhat)}`;
       button.title = said;
       button.setAttribute('aria-label', said);
       button.disabled = count === 0;
@@ -207,9 +212,9 @@ export class Colouring {
     });
   }
   pickWhere(test) {
-    const hexes = [];
-    for (let h = 0; h < this.values.length && hexes.length < mostPicked; ++h) if (test(this.values[h])) hexes.push(h);
-    this.app.pickHexes(hexes);
+    const list = [];
+    for (let i = 0; i < this.values.length && list.length < mostPicked; ++i) if (test(this.values[i])) list.push(i);
+    return this.onWhat === 'node' ? this.app.pickNodes(list) : this.app.pickHexes(list);
   }
 
   worst() {
@@ -228,21 +233,21 @@ export class Colouring {
     return best;
   }
   step(by) {
-    if (!this.range || this.channel.on === 'node') return;
+    if (!this.range) return;
     this.worstList = this.worstAt < 0 ? this.worst() : this.worstList;
     this.worstAt = this.worstAt < 0 ? 0 : (this.worstAt + by + this.worstList.length) % this.worstList.length;
     this.showWorst();
-    this.app.goTo(this.worstList[this.worstAt]);
+    return this.app.goTo(this.onWhat, this.worstList[this.worstAt]);
   }
   showWorst() {
     const at = this.worstAt;
-    element('worst-now').value = at < 0 ? '–' : `${at + 1}: hex ${this.app.scene.hexId(this.worstList[at])}, ${short(this.values[this.worstList[at]])}`;
+    element('worst-now').value = at < 0 ? '–' : `${at + 1}: ${this.app.nameOf(this.onWhat, this.worstList[at])}, ${short(this.values[this.worstList[at]])}`;
   }
 
-  /** What the colours say of a hex. */
-  said(pane, hex) {
+  /** What the colours say of a hex or node. */
+  said(pane, position, kind) {
     const values = this.valuesOf?.get(pane);
-    if (!values || this.channel?.on === 'node') return '';
-    return this.isClass ? (this.key === 'sheet' ? `sheet ${values[hex]}` : this.className(values[hex])) : `${this.key} ${short(values[hex])}`;
+    if (!values || this.onWhat !== kind) return '';
+    return this.isClass ? (this.key === 'sheet' ? `sheet ${values[position]}` : this.className(values[position])) : `${this.key} ${short(values[position])}`;
   }
 }

@@ -1,5 +1,5 @@
 // The list of entities of a kind: only the rows that are seen exist, so a million hexes are a list like any.
-import { kinds, pluralOf } from './scene.js';
+import { kindNamed, kinds, pluralOf } from './scene.js';
 
 const rowHeight = 24;
 const mostHeight = 24e6;  // browsers end somewhere beyond 30 million pixels
@@ -13,6 +13,8 @@ export class EntityList {
     this.space = document.getElementById('list-space');
     this.search = document.getElementById('search');
     this.select = document.getElementById('list-kind');
+    this.hint = document.getElementById('list-hint');
+    this.usualHint = this.hint.textContent;
     this.at = 0;
     this.box.addEventListener('scroll', () => this.render());
     this.search.addEventListener('input', () => this.filter());
@@ -62,26 +64,45 @@ export class EntityList {
     this.at = 0;
     this.filter();
   }
-  filter() {
-    const said = this.search.value.trim().toLowerCase(), n = this.scene.count(this.kind) ?? 0, words = said.split(/\s+/).filter(Boolean);
-    if (!words.length) this.rows = { length: n, at: (i) => i };
-    else if (!this.scene.meta[this.kind]) {
-      // Of what has no names: ids, and those that begin with these digits.
-      const id = Number(words[words.length - 1].replace(/^#/, '')), position = Number.isInteger(id) ? this.scene.find(this.kind, id) : -1;
-      const list = position >= 0 ? [position] : [];
-      this.rows = { length: list.length, at: (i) => list[i] };
-    } else {
-      const list = [];
-      for (let i = 0; i < n; ++i) {
-        const { id, name, note } = this.scene.row(this.kind, i), text = `${this.kind} ${id} ${name} ${note}`.toLowerCase();
-        if (words.every((word) => (/^\d+$/.test(word) ? String(id) === word || name.toLowerCase().includes(word) : text.includes(word)))) list.push(i);
-      }
-      this.rows = { length: list.length, at: (i) => list[i] };
+  /** Positions of those of a kind that the words say, null for all. */
+  matches(kind, words) {
+    if (!words.length) return null;
+    const isKind = kindNamed(words[0]) === kind, said = isKind ? words.slice(1) : words, n = this.scene.count(kind) ?? 0, list = [];
+    if (!this.scene.meta[kind]) {
+      // Of what has no names: the id alone.
+      if (!said.length) return isKind ? null : [];
+      const position = said.length === 1 && /^#?\d+$/.test(said[0]) ? this.scene.find(kind, Number(said[0].replace('#', ''))) : -1;
+      return position >= 0 ? [position] : [];
     }
+    for (let i = 0; i < n; ++i) {
+      const { id, name, note } = this.scene.row(kind, i), text = `${id} ${name} ${note}`.toLowerCase();
+      if (said.every((word) => (/^#?\d+$/.test(word) ? String(id) === word.replace('#', '') || name.toLowerCase().includes(word) : text.includes(word)))) list.push(i);
+    }
+    return list;
+  }
+  filter() {
+    const words = this.search.value.trim().toLowerCase().split(/\s+/).filter(Boolean), list = this.matches(this.kind, words);
+    this.rows = list ? { length: list.length, at: (i) => list[i] } : { length: this.scene.count(this.kind) ?? 0, at: (i) => i };
+    const named = kindNamed(words[0] ?? ''), offered = [...this.select.options].map((o) => o.value);
+    // "curve 5" is one whatever is listed now.
+    if (!this.rows.length && named && named !== this.kind && offered.includes(named)) return this.show(named);
     this.at = Math.min(this.at, Math.max(0, this.rows.length - 1));
     this.space.style.height = `${Math.min(mostHeight, this.rows.length * rowHeight)}px`;
     this.box.scrollTop = 0;
+    this.hint.replaceChildren(...(this.rows.length || !words.length ? [this.usualHint] : this.elsewhere(words, offered)));
     this.render();
+  }
+  /** Where else there is what is searched for. */
+  elsewhere(words, kindsOffered) {
+    const found = [];
+    for (const kind of kindsOffered.filter((each) => each !== this.kind && this.scene.meta[each])) {
+      const n = this.matches(kind, words)?.length;
+      if (!n) continue;
+      const button = Object.assign(document.createElement('button'), { textContent: `${n} of ${pluralOf(kind)}` });
+      button.addEventListener('click', () => { this.show(kind); this.search.focus(); });
+      found.push(button, ' ');
+    }
+    return found.length ? [`None of ${pluralOf(this.kind)}; `, ...found] : ['Nothing is called so.'];
   }
   render() {
     if (!this.rows) return;
@@ -102,6 +123,7 @@ export class EntityList {
       item.style.top = `${box.scrollTop + i * rowHeight - top}px`;
       item.append(`${this.kind} ${id}`);
       if (name || note) item.append(Object.assign(document.createElement('small'), { textContent: [name, note].filter(Boolean).join(' · ') }));
+      item.title = [`${this.kind} ${id}`, name, note].filter(Boolean).join(' · ');
       items.push(item);
     }
     space.replaceChildren(...items);

@@ -10,6 +10,14 @@ const make = (tag, properties = {}, ...children) => {
   return made;
 };
 
+/** Until the tab is looked at, but no longer than this. */
+const untilSeen = (milliseconds) =>
+  new Promise((resolve) => {
+    const done = () => { document.removeEventListener('visibilitychange', done); resolve(); };
+    document.addEventListener('visibilitychange', done);
+    setTimeout(done, milliseconds);
+  });
+
 export class Live {
   constructor(app) {
     this.app = app;
@@ -42,9 +50,11 @@ export class Live {
   }
   /** The session of this tab, or a new one where that is gone. */
   async join() {
-    const before = sessionStorage.getItem('hextwist-session') ?? '';
+    let before = sessionStorage.getItem('hextwist-session') ?? '';
+    if (before && before !== this.id && !(await this.isOurs(before))) before = '';
     const { id, known } = await (await this.ask('session', { id: before })).json();
     sessionStorage.setItem('hextwist-session', id);
+    if (id !== before) await this.isOurs(id);
     if (this.id && !known) this.log('note', 'the session of before is gone: this is a new one');
     if (!known) {
       this.next = 0;
@@ -53,10 +63,28 @@ export class Live {
     }
     this.id = id;
   }
+  /** Takes a session for this tab. False: another tab has it, which this one was copied from, with all that it remembers. */
+  async isOurs(id) {
+    if (!navigator.locks) return true;  // not on this machine
+    const taken = () => new Promise((resolve) => {
+      navigator.locks.request(`hextwist ${id}`, { ifAvailable: true }, (lock) => {
+        resolve(lock !== null);
+        return lock ? new Promise(() => {}) : null;
+      });
+    });
+    // After a reload the lock of the page before may take a moment to go; on a busy machine a long one.
+    const isReload = performance.getEntriesByType('navigation')[0]?.type === 'reload';
+    for (let i = 0; i < (isReload ? 60 : 5); ++i) {
+      if (await taken()) return true;
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+    return false;
+  }
   async follow() {
     for (;;) {
       try {
-        const news = await (await this.ask(`events?id=${this.id}&since=${this.next}`)).json();
+        // A browser has six connections to a server at most: tabs that nobody looks at do not hold one.
+        const isLookedAt = !document.hidden, news = await (await this.ask(`events?id=${this.id}&since=${this.next}&wait=${isLookedAt ? 15 : 0}`)).json();
         this.connected(true);
         this.next = news.next;
         this.isShown = false;
@@ -65,6 +93,7 @@ export class Live {
         if (news.version !== this.version && !news.running) await this.reload(news.version);
         this.isShown = !news.running;
         if (!news.running) this.isThere?.();
+        if (!isLookedAt) await untilSeen(4000);
       } catch (error) {
         if (error.status === 404) await this.join().catch(() => {});
         else if (error.status === 403) {
@@ -115,7 +144,7 @@ export class Live {
     if (kind === 'file') {
       this.files.add(text);
       const link = make('button', { textContent: `save ${text}`, title: `Download ${text}` });
-      link.addEventListener('click', () => this.save(text));
+      link.addEventListener('click', () => this.save(text).catch((error) => this.log('error', `error: ${error.message}`)));
       element('log').append(link, '\n');
       return;
     }
@@ -156,7 +185,7 @@ export class Live {
     if (!text.trim()) return;
     try {
       await this.ask('run', { id: this.id, text });
-      element('prompt').value = '';
+      if (element('prompt').value === text) element('prompt').value = '';
     } catch (error) {
       this.log('error', `error: ${error.message}`);
     }
@@ -208,13 +237,12 @@ export class Live {
       made.addEventListener('click', action);
       return made;
     };
-    const exports = make('select', { id: 'export', title: 'Write the mesh into a file in the folder of the session' }, new Option('Export…', ''), ...formats.map((f) => new Option(f, f)));
-    exports.setAttribute('aria-label', 'Export');
-    exports.addEventListener('change', () => {
-      const file = `${this.app.panes.length ? this.app.scene.meta.title : 'mesh'}_out${exports.value}`;
-      if (exports.value) this.run(exports.value === '.png' || exports.value === '.html' ? `draw to "${file}" overwrite` : `export mesh "${file}" overwrite`);
-      exports.value = '';
-    });
+    const format = make('select', { id: 'format', title: 'Format of Export' }, ...formats.map((f) => new Option(f, f)));
+    format.setAttribute('aria-label', 'Format of Export');
+    const exported = () => {
+      const file = `${this.app.panes.length ? this.app.scene.meta.title : 'mesh'}_out${format.value}`;
+      return this.run(format.value === '.png' || format.value === '.html' ? `draw to "${file}" overwrite` : `export mesh "${file}" overwrite`);
+    };
     const offers = make('ul', { id: 'offers', role: 'listbox', hidden: true });
     offers.setAttribute('aria-label', 'Completions');
     const log = make('div', { id: 'log', tabIndex: 0, role: 'log' }), report = make('div', { id: 'report' });
@@ -226,8 +254,9 @@ export class Live {
     element('live').append(
       make('div', { id: 'said' }, log, report),
       make('div', { id: 'prompt-row' }, offers, prompt, make('span', { id: 'stage-now' }), progress, make('span', { id: 'connection', hidden: true, role: 'alert' }),
-        button('cancel', 'Cancel', 'Stop the running command', () => this.ask('cancel', { id: this.id })),
-        button('undo', 'Undo', 'Undo the last command', () => this.run('undo')), button('redo', 'Redo', 'Redo what was undone', () => this.run('redo')), exports),
+        button('cancel', 'Cancel', 'Stop the running command', () => this.ask('cancel', { id: this.id }).catch((error) => this.log('error', `error: ${error.message}`))),
+        button('undo', 'Undo', 'Undo the last command', () => this.run('undo')), button('redo', 'Redo', 'Redo what was undone', () => this.run('redo')),
+        button('export', 'Export', 'Write the mesh into a file in the folder of the session', exported), format),
     );
     element('live').hidden = false;
     element('run-command').addEventListener('click', () => this.run(element('command').value));

@@ -11,6 +11,7 @@ const thinLines = 20000;  // segments: beyond that lines are one pixel wide
 const mostMarked = 60000; // quads
 const mostMoving = 9000;  // quads, where there is no graphics card
 const mostDots = 200000;  // nodes that are looked at
+const mostParts = 1000;   // that are compared with each other when they are taken apart
 
 const dotVertexShader = `
 uniform float size;
@@ -179,6 +180,10 @@ export class Pane {
       for (let k = 0; k < 3; ++k) middle[3 * of[h] + k] += inside.centres[3 * h + k];
     }
     for (let i = 0; i < middle.length; ++i) middle[i] /= n[(i / 3) | 0];
+    // What has its middle where a larger part has it, as a ball in a cube, goes up.
+    const order = Array.from(n.keys()).sort((a, b) => n[b] - n[a]), before = middle.slice(), near = 0.05 * this.scene.radius;
+    const isNear = (p, q) => [0, 1, 2].every((k) => Math.abs(before[3 * p + k] - before[3 * q + k]) < near);
+    order.slice(0, mostParts).forEach((p, i) => { middle[3 * p + 2] += 1.4 * this.scene.radius * order.slice(0, i).filter((q) => isNear(p, q)).length; });
     return (this.parts_ = { of, middle, n: numbers.size });
   }
 
@@ -464,8 +469,10 @@ export function boundsOf(shape) {
   if (shape.segments) add(shape.segments);
   if (shape.quads)
     for (let i = 0; i < 4 * shape.quads.n; ++i) {
-      const at = 3 * shape.quads.corner[i];
-      box.expandByPoint(p.set(shape.quads.points[at], shape.quads.points[at + 1], shape.quads.points[at + 2]));
+      const at = 3 * shape.quads.corner[i], moved = 3 * (i >> 2), { offset } = shape.quads;
+      p.set(shape.quads.points[at], shape.quads.points[at + 1], shape.quads.points[at + 2]);
+      if (offset) p.set(p.x + offset[moved], p.y + offset[moved + 1], p.z + offset[moved + 2]);
+      box.expandByPoint(p);
     }
   if (box.isEmpty()) return null;
   return { center: box.getCenter(new THREE.Vector3()), radius: box.getSize(p).length() / 2 };

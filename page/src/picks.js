@@ -1,4 +1,7 @@
 // What has been picked: entities of one kind, and what can be said of them in a command.
+import { kindNamed } from './scene.js';
+
+const mostTyped = 2e6;
 
 /** "1 3 5 to 9" */
 export function rangeText(ids) {
@@ -11,6 +14,39 @@ export function rangeText(ids) {
     i = j + 1;
   }
   return parts.join(' ');
+}
+
+/**
+ * What a range says, as commands have them: "curve 3 5 to 9 by 2", "hexes all"; a range without a kind is of `usual`. Throws what
+ * is wrong with it. Returns { kind, ids }, ids null for all.
+ */
+export function readRange(text, usual) {
+  const words = text.trim().toLowerCase().replaceAll(',', ' ').split(/\s+/).filter(Boolean), ids = [];
+  const kind = /^(\d|all$)/.test(words[0] ?? '') ? usual : kindNamed(words.shift() ?? '');
+  if (!kind || !words.length) throw new Error('a range is a kind and ids: hex 3 5 to 9 by 2, or curve all');
+  if (words.length === 1 && words[0] === 'all') return { kind, ids: null };
+  const number = (word) => {
+    if (!/^\d{1,15}$/.test(word ?? '')) throw new Error(`'${word ?? ''}' is not an id`);
+    return Number(word);
+  };
+  while (words.length) {
+    const first = number(words.shift());
+    if (words[0] !== 'to') {
+      ids.push(first);
+      continue;
+    }
+    words.shift();
+    const last = number(words.shift());
+    let step = 1;
+    if (words[0] === 'by') {
+      words.shift();
+      step = number(words.shift());
+    }
+    if (step < 1 || last < first) throw new Error(`from ${first} to ${last} by ${step} there is nothing`);
+    if ((last - first) / step > mostTyped) throw new Error(`${first} to ${last} are too many`);
+    for (let id = first; id <= last; id += step) ids.push(id);
+  }
+  return { kind, ids };
 }
 
 /** "curve 3 5", in words that every command takes. */

@@ -3,7 +3,10 @@ import * as topology from './topology.js';
 import { text } from './unpack.js';
 
 export const kinds = ['vertex', 'curve', 'surface', 'volume', 'node', 'edge', 'face', 'hex', 'block', 'nodeset', 'sideset', 'sheet'];
+const measures = { curve: 'length', surface: 'area', volume: 'volume' };
 export const pluralOf = (kind) => (kind === 'vertex' ? 'vertices' : kind === 'hex' ? 'hexes' : kind + 's');
+/** The kind that a word names, in one or many. */
+export const kindNamed = (word) => [...kinds, 'group'].find((kind) => word === kind || word === pluralOf(kind));
 
 export class Scene {
   /** load(name): arrays of a block, null where there is none. */
@@ -71,8 +74,8 @@ export class Scene {
     const row = rows[i];
     if (kind === 'block' || kind === 'nodeset' || kind === 'sideset' || kind === 'group')
       return { id: row[0], name: row[1], note: `${row[2].toLocaleString('en')} ${kind === 'block' ? 'hexes' : kind === 'nodeset' ? 'nodes' : kind === 'sideset' ? 'sides' : 'members'}` };
-    const measure = row[2] === null || kind === 'vertex' ? '' : short(row[2]);
-    return { id: i + 1, name: row[0], note: kind === 'vertex' ? '' : `${row[1]}${measure ? ', ' + measure : ''}` };
+    const measure = row[2] === null || kind === 'vertex' ? '' : `, ${measures[kind]} ${short(row[2])}`;
+    return { id: i + 1, name: row[0], note: kind === 'vertex' ? '' : `${row[1]}${measure}` };
   }
   /** Position of an id, -1 where there is none. */
   find(kind, id) {

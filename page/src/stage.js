@@ -23,6 +23,7 @@ export class Stage {
     this.eye = new Eye();
     this.panes = [];
     this.areaTool = null;     // 'box' or 'lasso'
+    this.keyBox = { x: 0.15, y: 0.15 };  // half of the box around the cross that keys pick with, in parts of the height
     this.labelKind = null;
     this.kind = 'geometry';
     this.through = false;
@@ -108,7 +109,7 @@ export class Stage {
       const path = this.areaPath();
       path.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
       pen.closePath();
-      pen.fillStyle = 'rgba(217,72,15,0.14)';
+      pen.fillStyle = 'rgba(194,65,12,0.14)';
       pen.strokeStyle = this.theme.pick;
       pen.fill();
       pen.stroke();
@@ -116,7 +117,11 @@ export class Stage {
     if (this.showsCross) {
       pen.strokeStyle = this.theme.pick;
       pen.beginPath();
-      const x = w / 2, y = this.height / 2;
+      const x = this.width - w / 2, y = this.height / 2;
+      if (this.areaTool) {
+        const { x: dx, y: dy } = this.keyBox;
+        pen.rect(x - dx * this.height, y - dy * this.height, 2 * dx * this.height, 2 * dy * this.height);
+      }
       pen.moveTo(x - 10, y); pen.lineTo(x + 10, y); pen.moveTo(x, y - 10); pen.lineTo(x, y + 10);
       pen.stroke();
     }
@@ -128,7 +133,7 @@ export class Stage {
   drawAxes(pen, camera) {
     const right = new THREE.Vector3(), up = new THREE.Vector3(), back = new THREE.Vector3(), x0 = 44, y0 = this.height - 44, length = 26;
     camera.matrixWorld.extractBasis(right, up, back);
-    const axes = [['x', '#c8372d', 'x'], ['y', '#3c8a34', 'y'], ['z', '#2f62c4', 'z']].map(([name, colour, k]) => ({ name, colour, x: right[k] * length, y: -up[k] * length, z: back[k] }));
+    const axes = ['x', 'y', 'z'].map((k, i) => ({ name: k, colour: this.theme.axes[i], x: right[k] * length, y: -up[k] * length, z: back[k] }));
     axes.sort((a, b) => a.z - b.z);
     pen.font = '600 11px system-ui, sans-serif';
     pen.textAlign = 'center';
@@ -186,6 +191,23 @@ export class Stage {
     return found;
   }
 
+  /** Hexes within a polygon of the screen. */
+  async pickArea(path, add) {
+    const at = this.at(path[0][0]), camera = this.eye.update(this.paneWidth / this.height), shift = at.index * this.paneWidth;
+    if (this.through) await at.pane.scene.inside();
+    this.on.area(at.pane, hexesWithin(at.pane, camera, this.paneWidth, this.height, path.map(([x, y]) => [x - shift, y]), this.through), add);
+    this.draw();
+  }
+  /** The same with the box around the cross. */
+  pickKeyBox(add) {
+    const x = this.width - this.paneWidth / 2, y = this.height / 2, dx = this.keyBox.x * this.height, dy = this.keyBox.y * this.height;
+    return this.pickArea([[x - dx, y - dy], [x + dx, y - dy], [x + dx, y + dy], [x - dx, y + dy]], add);
+  }
+  growKeyBox(dx, dy) {
+    const grown = (size, by, most) => Math.max(0.01, Math.min(most, size * 1.15 ** by));
+    this.keyBox = { x: grown(this.keyBox.x, dx, this.paneWidth / this.height / 2), y: grown(this.keyBox.y, dy, 0.5) };
+  }
+
   areaPath() {
     if (this.area.tool === 'lasso') return this.area;
     const [a, b] = [this.area[0], this.area[this.area.length - 1]];
@@ -237,16 +259,16 @@ export class Stage {
       canvas.classList.remove('drag');
       const add = e.shiftKey || e.ctrlKey || e.metaKey, area = this.area;
       if (area && travelled > 6) {
-        const path = this.areaPath(), at = this.at(area[0][0]), camera = this.eye.update(this.paneWidth / this.height);
+        const path = this.areaPath();
         this.area = null;
-        const shift = at.index * this.paneWidth;
-        if (this.through) await at.pane.scene.inside();
-        this.on.area(at.pane, hexesWithin(at.pane, camera, this.paneWidth, this.height, path.map(([x, y]) => [x - shift, y]), this.through), e.shiftKey);
-        this.draw();
+        await this.pickArea(path, e.shiftKey);
         return;
       }
       this.area = null;
-      if (travelled <= 3 && e.button === 0 && e.type === 'pointerup') this.on.pick(await this.find(...place(e)), add);
+      if (travelled <= 3 && e.button === 0 && e.type === 'pointerup') {
+        this.picking = this.find(...place(e)).then((found) => this.on.pick(found, add));
+        await this.picking;
+      }
       this.draw();
     };
     canvas.addEventListener('pointerup', release);
@@ -258,6 +280,8 @@ export class Stage {
       this.eye.zoom(Math.exp(e.deltaY * (e.deltaMode ? 0.04 : 0.0013)), (at.x - this.paneWidth / 2) / this.height, (y - this.height / 2) / this.height);
       this.draw();
     }, { passive: false });
+    // Who came by keys sees where Enter picks.
+    canvas.addEventListener('focus', () => { this.showsCross = canvas.matches(':focus-visible'); this.draw(); });
     canvas.addEventListener('blur', () => { this.showsCross = false; this.draw(); });
   }
   hoverSoon() {

@@ -3,23 +3,37 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hextwist/io/files_beside.h"
 #include "hextwist/io/io.h"
 #include "hextwist/session/commands/commands.h"
 
 namespace hextwist {
 namespace {
 
+/// Why a file is not for a safe session, "" if it is.
+std::string reason_against(const std::filesystem::path& only_below, const std::filesystem::path& file) {
+  if (!is_below(only_below, file)) return "only files below " + only_below.string() + " are read and written";
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return "this is not an ordinary file";
+  return "";
+}
+
 void check(const Execution& run, const Item& file, std::string_view endings) {
   const auto refuse = [&](const std::string& why) { throw error_at(run.command.statement, file.token, why); };
   const std::string ending = lower_extension(file.text);
   if (ending.empty() || (" " + std::string(endings) + " ").find(" " + ending + " ") == std::string::npos)
     refuse("the session is safe: files for this end in " + std::string(endings));
-  if (!is_below(run.core.only_below, file.text))
-    refuse("the session is safe: only files below " + run.core.only_below.string() + " are read and written");
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file.text, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse("the session is safe: this is not an ordinary file");
+  if (const std::string why = reason_against(run.core.only_below, file.text); !why.empty())
+    refuse("the session is safe: " + why);
+  for (const std::filesystem::path& other : files_beside(file.text)) {
+    std::error_code ignored;
+    const std::string why = std::filesystem::is_directory(other, ignored) && is_below(run.core.only_below, other)
+                                ? ""
+                                : reason_against(run.core.only_below, other);
+    if (!why.empty()) refuse("the session is safe: " + why + ", and " + other.string() + " belongs to this one");
+  }
 }
 
 }  // namespace

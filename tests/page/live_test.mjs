@@ -1,7 +1,7 @@
 // hextwist serve in a real browser, and what it refuses.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync, rmSync, statSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -130,17 +130,33 @@ test('a long command shows its progress and is cancelled', async () => {
 
 test('files are written below the folder and can be saved', async () => {
   const page = await open(browser, address);
-  await page.selectOption('#export', '.vtu');
+  await page.selectOption('#format', '.vtu');
+  await page.fill('#prompt', 'list cur');
+  await page.focus('#export');
+  await page.keyboard.press('Enter');
   await page.waitForSelector('#log button:has-text("save bracket_out.vtu")');
   assert.ok(statSync(join(folder, 'bracket_out.vtu')).size > 1000);
+  assert.equal(await page.$eval('#prompt', (e) => e.value), 'list cur', 'what is being typed stays');
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#log button')]);
   assert.equal(download.suggestedFilename(), 'bracket_out.vtu');
   assert.equal(statSync(await download.path()).size, statSync(join(folder, 'bracket_out.vtu')).size);
-  for (const outside of ["export mesh '../outside.vtu'", "export mesh '/tmp/outside.vtu'", "import mesh '/etc/passwd'", 'set safe off']) {
+  // Not outside of it, by whatever way.
+  writeFileSync(join(output, 'outside.jou'), 'refine hex 1\n');
+  symlinkSync(output, join(folder, 'link'));
+  symlinkSync(join(output, 'outside.jou'), join(folder, 'linked.jou'));
+  symlinkSync(join(output, 'outside_new.vtu'), join(folder, 'dangling.vtu'));
+  const before = readdirSync(output).sort();
+  for (const outside of ["export mesh '../outside.vtu'", "export mesh '/tmp/outside.vtu'", "import mesh '/etc/passwd'", 'set safe off', "export mesh 'link/outside.vtu'", "export mesh 'dangling.vtu' overwrite",
+    "export openfoam 'link/outside.foam'", "draw to 'link/outside.png'", "draw to '../outside.html'", "playback 'linked.jou'", "playback '../outside.jou'", "record 'link/outside.jou'", "import mesh 'link/before.msh'", "import mesh '/proc/self/environ'",
+    "import step 'link/a.step'", "{include('../outside.jou')}"]) {
+    const seen = (await log(page)).length;
     await command(page, outside);
-    assert.match((await log(page)).split('\n').slice(-8).join('\n'), /the session is safe|expected/, outside);
+    assert.match((await log(page)).slice(seen), /the session is safe|expected|only files below|not a command/, outside);
   }
-  assert.ok(!existsSync(join(output, 'outside.vtu')));
+  assert.deepEqual(readdirSync(output).sort(), before);
+  assert.equal(await hexes(page), 488);
+  for (const name of ['link/before.msh', 'linked.jou', '../outside.jou', 'bracket_out.vtu/../../outside.jou'])
+    assert.equal((await ask(`/file?id=${await page.evaluate(() => hextwist.live.id)}&name=${encodeURIComponent(name)}`)).status, 404, name);
   await page.close();
 });
 
@@ -155,6 +171,20 @@ test('a reload finds the session of the tab, another tab has its own', async () 
   const other = await open(browser, address);
   assert.equal(await hexes(other), 488);
   await other.close();
+  // A copy of a tab has what the tab remembers, and still a session of its own.
+  const [copy] = await Promise.all([page.waitForEvent('popup'), page.evaluate(() => { window.open(location.href); })]);
+  await copy.waitForFunction(() => window.hextwist?.ready);
+  assert.equal(await hexes(copy), 488);
+  assert.notEqual(await copy.evaluate(() => hextwist.live.id), await page.evaluate(() => hextwist.live.id));
+  await command(copy, 'refine vertex 2');
+  assert.equal(await hexes(page), before);
+  await copy.reload();
+  await copy.waitForFunction(() => window.hextwist?.ready);
+  assert.match(await log(copy), /> refine vertex 2/);
+  await copy.close();
+  await page.reload();
+  await page.waitForFunction(() => window.hextwist?.ready);
+  assert.equal(await hexes(page), before);
   await page.close();
 });
 
@@ -244,6 +274,85 @@ test('what does not come from the page is refused', async () => {
   const end = ended(other.child);
   other.child.kill('SIGINT');
   assert.equal(await end, 0);
+});
+
+test('more tabs than a browser has connections do not wait for each other', async () => {
+  const other = await serve(model('bracket')), context = await browser.newContext(), tabs = [];
+  // All but the last are behind it.
+  const hide = () => { Object.defineProperty(document, 'hidden', { get: () => !window.isInFront }); };
+  await context.addInitScript(hide);
+  for (let i = 0; i < 7; ++i) {
+    const tab = await context.newPage();
+    await tab.goto(other.address);
+    await tab.waitForFunction(() => window.hextwist?.ready);
+    tabs.push(tab);
+  }
+  const front = tabs.at(-1);
+  await front.evaluate(() => { window.isInFront = true; document.dispatchEvent(new Event('visibilitychange')); });
+  await front.waitForTimeout(500);
+  const begin = performance.now();
+  await command(front, 'refine vertex 1');
+  const took = performance.now() - begin;
+  assert.ok(took < 5000, `${took} ms`);
+  // One that comes to the front knows what has happened behind.
+  await tabs[0].evaluate(() => { window.isInFront = true; document.dispatchEvent(new Event('visibilitychange')); });
+  await command(tabs[0], 'refine vertex 1');
+  assert.equal(await hexes(tabs[0]), await hexes(front));
+  await context.close();
+  const end = ended(other.child);
+  other.child.kill('SIGINT');
+  assert.equal(await end, 0);
+});
+
+test('it ends while a command runs, and leaves no half of a file', async () => {
+  const other = await serve([]), page = await open(browser, other.address), files = readdirSync(folder).sort();
+  await command(page, 'create brick x 10 interval 30');
+  await page.fill('#prompt', "refine hex 1 to 20000 smooth; export mesh 'half.vtu'");
+  await page.press('#prompt', 'Enter');
+  await page.waitForFunction(() => hextwist.live.running && document.getElementById('stage-now').textContent !== '');
+  const end = ended(other.child);
+  other.child.kill('SIGTERM');
+  assert.equal(await end, 0);
+  assert.deepEqual(readdirSync(folder).sort(), files, 'what was to be run next was not');
+  await page.waitForFunction(() => !document.getElementById('connection').hidden);
+  await page.close();
+});
+
+test('the session is used by keys alone', async () => {
+  const page = await open(browser, address), press = (key) => page.keyboard.press(key), focus = () => page.evaluate(() => document.activeElement.id);
+  await page.focus('#view');
+  await press(':');
+  assert.equal(await focus(), 'prompt');
+  // Words that are offered are chosen by arrows; an empty prompt holds nobody.
+  await page.keyboard.type('refine ve');
+  await press('Tab');
+  await page.waitForFunction(() => document.getElementById('prompt').value.startsWith('refine vertex'));
+  await page.fill('#prompt', 'refine s');
+  await press('Tab');
+  await page.waitForFunction(() => !document.getElementById('offers').hidden);
+  await press('ArrowDown');
+  await press('Enter');
+  assert.match(await page.$eval('#prompt', (e) => e.value), /^refine (surface|sheet) $/);
+  await press('Escape');
+  assert.equal(await focus(), 'view');
+  await press(':');
+  await page.fill('#prompt', 'refine vertex 1');
+  await press('Enter');
+  await page.waitForFunction(() => hextwist.scene.meta.n_hexes > 488);
+  await page.waitForFunction(() => !document.getElementById('undo').disabled && document.getElementById('prompt').value === '');
+  const reached = [];
+  for (let i = 0; i < 4; ++i) { await press('Tab'); reached.push(await focus()); }
+  assert.deepEqual(reached, ['undo', 'redo', 'export', 'format']);
+  for (let i = 0; i < 4; ++i) await press('Shift+Tab');
+  assert.equal(await focus(), 'prompt');
+  await press('Shift+Tab');
+  assert.notEqual(await focus(), 'prompt');
+  await press(':');
+  await press('Tab');
+  await press('Space');
+  await page.waitForFunction(() => hextwist.scene.meta.n_hexes === 488);
+  assert.deepEqual(page.problems, []);
+  await page.close();
 });
 
 test('CAD without a mesh is shown until there is one', async () => {

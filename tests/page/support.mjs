@@ -43,6 +43,14 @@ export const run = (args, options = {}) => execFileSync(program, args, { encodin
 export const spawn = (args) => spawnSync(program, args, { encoding: 'utf8', cwd: output }).stderr;
 export const model = (name) => ['--cad', join(source, 'models', `${name}.brep`), join(source, 'models', `${name}.msh`)];
 
+/** Kept with the results. */
+export const shot = (page, name) => page.screenshot({ path: join(output, `${name}.png`) });
+export const value = (page, id) => page.$eval(`#${id}`, (e) => e.value);
+/** Until cuts and the like are done. */
+export const settled = (page) => page.evaluate(async () => { await hextwist.queue; await new Promise((r) => setTimeout(r, 60)); });
+/** What a click picks from now on. */
+export const kindOf = (page, kind) => page.click(`#pick-kinds label:has(input[value="${kind}"])`);
+
 /** Runs commands on a model (null: none) and draws the page; returns its address. */
 export function drawn(name, start, commands = '', words = '') {
   const file = join(output, `${name}.html`);

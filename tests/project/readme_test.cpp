@@ -74,6 +74,33 @@ TEST(Readme, shell_commands_work_in_the_order_shown) {
   EXPECT_GE(run_shell(readme()), 3) << "the README shows no commands";
 }
 
+/// Pictures that a page of the docs shows, from the folder of the sources.
+std::set<std::string> shown_pictures(const std::filesystem::path& page) {
+  const std::regex picture(R"re(!\[[^\]]*\]\(([^)]+)\)|<img[^>]*src="([^"]+)")re");
+  const std::string text = content(source_folder() / page);
+  std::set<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), picture), end; at != end; ++at)
+    found.insert((page.parent_path() / ((*at)[1].matched ? (*at)[1] : (*at)[2]).str()).lexically_normal().string());
+  return found;
+}
+
+TEST(Readme, every_picture_of_it_and_of_the_docs_is_made_by_dev_pictures) {
+  std::set<std::string> shown = shown_pictures("README.md"), there;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() / "docs")) {
+    const auto path = std::filesystem::relative(entry.path(), source_folder());
+    if (path.extension() == ".md") shown.merge(shown_pictures(path));
+    const std::string extension = path.extension().string();
+    if (extension == ".png" || extension == ".gif" || extension == ".svg") there.insert(path.string());
+  }
+  const Outcome list = run(quoted(source_folder() / "docs/pictures.sh") + " --list");
+  ASSERT_EQ(list.status, 0) << list.output;
+  std::set<std::string> made;
+  for (const std::string& line : lines(list.output)) made.insert(line);
+  EXPECT_GT(made.size(), 25U);
+  EXPECT_EQ(shown, made);
+  EXPECT_EQ(there, made);
+}
+
 TEST(Tutorial, shell_commands_work_in_the_order_shown) {
   if (!std::filesystem::exists(HEXTWIST_BINARY_DIR "/app/hextwist")) GTEST_SKIP() << "the program is not built";
   EXPECT_GE(run_shell(tutorial()), 5);

@@ -62,6 +62,22 @@ TEST_F(Safe, what_a_file_includes_lies_below_the_folder_too) {
   }
 }
 
+TEST_F(Safe, files_that_belong_to_a_mesh_lie_below_the_folder_too) {
+  EXPECT_EQ(f.error("export openfoam 'deep/a.foam'; import openfoam 'deep/a.foam'"), "no error");
+  EXPECT_EQ(f.error("export specfem 'deep/a.specfem'; import specfem 'deep/a.specfem'"), "no error");
+  std::filesystem::create_directories(folder() / "elsewhere/polyMesh");
+  std::filesystem::create_directories("foam");
+  std::filesystem::create_directory_symlink(folder() / "elsewhere", "foam/constant");
+  std::filesystem::rename("deep/constant/polyMesh/points", folder() / "points");
+  std::filesystem::create_symlink(folder() / "points", "deep/constant/polyMesh/points");
+  std::filesystem::rename("deep/nodes_coords_file", folder() / "nodes");
+  std::filesystem::create_symlink(folder() / "nodes", "deep/nodes_coords_file");
+  for (const char* command : {"export openfoam 'foam/a.foam'", "import openfoam 'deep/a.foam'",
+                              "import specfem 'deep/a.specfem'", "export specfem 'deep/a.specfem' overwrite"})
+    EXPECT_TRUE(f.error(command).starts_with(elsewhere)) << command << ": " << f.error(command);
+  EXPECT_TRUE(std::filesystem::is_empty(folder() / "elsewhere/polyMesh"));
+}
+
 TEST_F(Safe, cad_is_not_read_in_this_process) {
   std::filesystem::copy_file(std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models/bracket.brep", "a.brep");
   const std::string said = f.error("reset; import geometry 'a.brep'");
