@@ -44,6 +44,7 @@ class RenumberedModel : public Model {
   CurveRange range(int curve) const override { return model_->range(old({1, curve}).id); }
   Vec3 point(Owner entity, Parameters at) const override { return model_->point(old(entity), at); }
   Vec3 tangent(int curve, double t) const override { return model_->tangent(old({1, curve}).id, t); }
+  std::array<double, 2> periods(int surface) const override { return model_->periods(old({2, surface}).id); }
   Vec3 normal(int surface, Parameters at) const override {
     const Owner own = old({2, surface});
     const std::vector<int> volumes = model_->adjacent(own, 3);

@@ -56,6 +56,7 @@ class OccModel final : public Model, public KnowsCurvature, public KnowsFacets {
   Vec3 point(Owner entity, Parameters at) const override;
   Vec3 tangent(int curve, double t) const override;
   Vec3 normal(int surface, Parameters at) const override;
+  std::array<double, 2> periods(int surface) const override;
   void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
                std::span<Projection> out) const override;
   double curvature(Owner entity, Parameters at) const override;
