@@ -9,7 +9,6 @@
 //  4. point(owner, projection.parameters) equals projection.point to rounding.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,10 +59,6 @@ class Model {
   /// Unit normal of a surface, zero at a degenerate point. Points out of the volume where the surface bounds one
   /// volume only; for a surface between two volumes, out of the lower id.
   virtual Vec3 normal(int surface, Parameters at) const = 0;
-
-  /// By how much the parameters (u, v) of a surface may differ and mean the same place, where it closes on itself; 0
-  /// where it does not.
-  virtual std::array<double, 2> periods([[maybe_unused]] int surface) const { return {0, 0}; }
 
   /// Closest points on one entity of dimension 0, 1 or 2, for many points at once.
   /// seeds: empty, or one per point (NaN: none): parameters to start from, e.g. those of a parent node; a seeded

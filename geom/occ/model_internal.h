@@ -15,6 +15,7 @@
 #include "hextwist/geom/facets.h"
 #include "hextwist/geom/occ/curve_internal.h"
 #include "hextwist/geom/occ/surface_internal.h"
+#include "hextwist/geom/periods.h"
 
 namespace hextwist::occ {
 
@@ -33,7 +34,7 @@ struct Known {
 };
 
 /// Whatever OpenCASCADE throws in its members becomes an Error that names the entity.
-class OccModel final : public Model, public KnowsCurvature, public KnowsFacets {
+class OccModel final : public Model, public KnowsCurvature, public KnowsFacets, public KnowsPeriods {
  public:
   /// known: null, then all is computed when it is asked for. Throws Error for what has no finite size.
   OccModel(const TopoDS_Shape& shape, Names names, Known* known = nullptr);

@@ -45,7 +45,7 @@ class Surface {
   /// Unit vector along dS/du x dS/dv; its limit where that vanishes; zero where there is no limit (tip of a cone).
   Vec3 normal(double u, double v) const;
 
-  /// As Model::periods().
+  /// As KnowsPeriods::periods().
   std::array<double, 2> periods() const {
     return {wraps_u_ ? natural_u_.max - natural_u_.min : 0, wraps_v_ ? natural_v_.max - natural_v_.min : 0};
   }

@@ -1,9 +1,12 @@
 #include "hextwist/mesh/fill/facts_internal.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include "hextwist/geom/periods.h"
 
 namespace hextwist::fill {
 namespace {
@@ -89,6 +92,17 @@ Eigen::Vector2d winding(const Facts& facts, int surface, const Chain& loop) {
   points.push_back(points.front());
   const auto uv = unrolled(facts.model, surface, points, Eigen::Vector2d::Constant(std::nan("")));
   return uv.back() - uv.front();
+}
+
+/// A torus, or what is closed both ways like one.
+void find_torus(const Facts& facts, SurfaceFacts& own) {
+  if (own.seams.size() != 2 || own.has_poles || !own.loops.empty()) return;
+  int a = own.seams[0], b = own.seams[1];
+  const CurveFacts &first = facts.curves[a - 1], &second = facts.curves[b - 1];
+  if (!first.is_closed() || !second.is_closed() || first.first != second.first) return;
+  if (second.length < first.length) std::swap(a, b);
+  own.is_torus = true;
+  own.sides = {Chain{{a, true}}, Chain{{b, true}}, Chain{{a, false}}, Chain{{b, false}}};
 }
 
 void find_tube(const Facts& facts, int surface, SurfaceFacts& own) {
@@ -212,6 +226,8 @@ void find_circles(const Facts& facts, int surface, SurfaceFacts& own) {
     return;
   }
   const Circle inner = circle(facts, own.loops[1]);
+  own.is_annulus = inner.radius > 0 && (inner.center - outer.center).norm() < 1e-4 * outer.radius &&
+                   own.loops[0].size() == 1 && own.loops[1].size() == 1;
   own.is_ring =
       inner.radius > 0.25 * outer.radius && (inner.center - outer.center).norm() < 0.3 * (outer.radius - inner.radius);
 }
@@ -233,9 +249,10 @@ SurfaceFacts surface_facts(const Facts& facts, int id) {
   }
   own.loops = walks(facts, rim, own.odd);
   if (!own.odd.empty()) return own;
-  if (!own.seams.empty())
+  if (!own.seams.empty()) {
     find_tube(facts, id, own);
-  else if (!own.has_poles) {
+    find_torus(facts, own);
+  } else if (!own.has_poles) {
     find_corners(facts, id, own);
     if (!own.sides) find_circles(facts, id, own);
   }
@@ -290,7 +307,7 @@ std::vector<Eigen::Vector2d> unrolled(const Model& model, int surface, const std
                                       Eigen::Vector2d from) {
   std::vector<Projection> feet(points.size());
   model.project({2, surface}, points, {}, feet);
-  const std::array<double, 2> periods = model.periods(surface);
+  const std::array<double, 2> periods = hextwist::periods(model, surface);
   std::vector<Eigen::Vector2d> result;
   for (const Projection& foot : feet) {
     Eigen::Vector2d at(foot.parameters.u, foot.parameters.v);

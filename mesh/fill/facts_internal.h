@@ -34,9 +34,11 @@ struct SurfaceFacts {
   bool is_tube = false;  ///< two loops and a seam between them
   /// Where it is mapped: four sides one after the other, all the way round. Of a tube: one rim, seam, other rim, seam.
   std::optional<std::array<Chain, 4>> sides;
-  bool is_disc = false;  ///< flat, within one circle
-  bool is_ring = false;  ///< flat, between two circles
-  std::string odd;       ///< why its rim cannot be walked along; empty: it can
+  bool is_torus = false;    ///< two closed seams: the shorter one, the longer one, and both back are its sides
+  bool is_annulus = false;  ///< flat, between two circles about one center, each a single curve
+  bool is_disc = false;     ///< flat, within one circle
+  bool is_ring = false;     ///< flat, between two circles, not too wide
+  std::string odd;          ///< why its rim cannot be walked along; empty: it can
 };
 
 /// Of the volumes asked for and what bounds them.

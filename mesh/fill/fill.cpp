@@ -50,6 +50,12 @@ std::vector<Index> Builder::nodes(const Chain& chain) const {
   return result;
 }
 
+std::vector<Index> Builder::rim_of(const Chain& loop) const {
+  std::vector<Index> result = nodes(loop);
+  result.pop_back();
+  return result;
+}
+
 namespace {
 
 /// Sweeps volume after volume, so that what several of them share is meshed before it is needed.
@@ -58,7 +64,16 @@ void sweep_all(Builder& builder, std::vector<Sweep> sweeps) {
   // Sides first: nothing else decides about them.
   for (const Sweep& sweep : sweeps)
     for (const int surface : sweep.sides)
-      if (!builder.is_meshed(surface)) builder.mesh_surface(surface);
+      if (!builder.is_meshed(surface)) {
+        if (sweep.is_turned && facts.surfaces[surface - 1].is_annulus)
+          builder.ring(surface, true);
+        else
+          builder.mesh_surface(surface);
+      }
+  std::erase_if(sweeps, [&](const Sweep& sweep) {
+    if (sweep.is_turned) builder.turn(sweep);
+    return sweep.is_turned;
+  });
   // From several caps to one there is but one way, after all that ends at those caps. Caps that are linked by volumes
   // with one at each end are alike.
   std::vector<Index> alike = singletons(static_cast<Index>(facts.surfaces.size()) + 1);

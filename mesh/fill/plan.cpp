@@ -281,6 +281,15 @@ bool is_ball(const Model& model, int volume) {
   return surfaces.size() == 1 && model.type({2, surfaces[0]}) == "sphere" && model.adjacent({3, volume}, 0).size() == 2;
 }
 
+/// Turned all the way round: tubes and flat rings that hang together by circles, or a torus.
+bool is_turned(const Facts& facts, const std::vector<int>& surfaces) {
+  if (surfaces.size() == 1) return facts.surfaces[surfaces[0] - 1].is_torus;
+  return std::ranges::all_of(surfaces, [&](int id) {
+    const SurfaceFacts& surface = facts.surfaces[id - 1];
+    return surface.is_annulus || (surface.is_tube && surface.loops[0].size() == 1 && surface.loops[1].size() == 1);
+  });
+}
+
 }  // namespace
 
 bool is_regular(const SurfaceFacts& surface) {
@@ -311,6 +320,14 @@ std::vector<Sweep> find_sweeps(const Facts& facts, const std::vector<int>& volum
       if (caps.empty()) caps = sweeps.front().caps[1];
       why = surfaces_text(caps) + " is to be paved with quads, by the program gmsh, which is not installed";
       sweeps.clear();
+    }
+    const std::vector<int> around = facts.model.adjacent({3, volume}, 2);
+    if (sweeps.empty() && is_turned(facts, around)) {
+      if (can_pave || around.size() == 1) {
+        result.push_back({.volume = volume, .is_turned = true, .sides = around});
+        continue;
+      }
+      why = "its section is to be paved with quads, by the program gmsh, which is not installed";
     }
     if (sweeps.empty()) {
       if (++n_refused <= 5)
@@ -348,11 +365,19 @@ std::vector<int> find_intervals(const Facts& facts, const std::vector<Sweep>& sw
   std::vector<int> even;
   std::set<int> seen;
   for (const Sweep& sweep : sweeps) {
+    for (const int id : sweep.is_turned ? sweep.sides : std::vector<int>()) {
+      const SurfaceFacts& surface = facts.surfaces[id - 1];
+      if (surface.is_torus) fours.push_back((*surface.sides)[0]);
+      // Its section is paved.
+      for (const int seam : surface.seams)
+        if (!surface.is_torus) even.push_back(seam);
+      if (surface.is_annulus) balances.push_back({surface.loops[0], surface.loops[1]});
+    }
     for (const Partner& partner : sweep.partners) balances.push_back({{{partner.curve}}, {{partner.other}}});
     for (const auto* surfaces : {&sweep.sides, &sweep.caps[0], &sweep.caps[1]})
       for (const int id : *surfaces) {
-        if (!seen.insert(id).second) continue;
         const SurfaceFacts& surface = facts.surfaces[id - 1];
+        if ((sweep.is_turned && surface.is_annulus) || !seen.insert(id).second) continue;
         if (surface.sides) {
           const auto& sides = *surface.sides;
           balances.push_back({sides[0], sides[2]});

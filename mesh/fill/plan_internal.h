@@ -15,6 +15,7 @@ struct Partner {
 struct Sweep {
   int volume = 0;
   bool is_ball = false;                       ///< then there is nothing else
+  bool is_turned = false;                     ///< all the way round: there are sides alone
   std::vector<int> sides = {};                ///< surfaces along which it goes
   std::array<std::vector<int>, 2> caps = {};  ///< those at its ends
   std::vector<Partner> partners = {};         ///< where both ends have several caps

@@ -4,8 +4,7 @@
 // them that moves the rim of the end best (least squares; Knupp, Next-generation sweep tool, 1998), and then as much
 // farther as the rim itself is away from that, carried inwards by harmonic functions of the quads. Both ends are asked,
 // in proportion to how near they are.
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -14,142 +13,10 @@
 
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/memory.h"
-#include "hextwist/mesh/fill/builder_internal.h"
+#include "hextwist/mesh/fill/layers_internal.h"
 #include "hextwist/mesh/primitives.h"
 
 namespace hextwist::fill {
-namespace {
-
-Edge edge_of(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
-using QuadsAtEdge = std::map<Edge, std::vector<Index>>;
-QuadsAtEdge quads_at_edges(const std::vector<Quad>& quads) {
-  QuadsAtEdge result;
-  for (std::size_t q = 0; q < quads.size(); ++q)
-    for (int k = 0; k < 4; ++k) result[edge_of(quads[q][k], quads[q][(k + 1) % 4])].push_back(static_cast<Index>(q));
-  return result;
-}
-
-int place_in(const Quad& quad, Index node) {
-  return static_cast<int>(std::ranges::find(quad, node) - quad.begin());
-}
-/// The node of the quad that an edge leads to from `node`, other than `but`.
-Index other_neighbour(const Quad& quad, Index node, Index but) {
-  const int k = place_in(quad, node);
-  return quad[(k + 1) % 4] == but ? quad[(k + 3) % 4] : quad[(k + 1) % 4];
-}
-
-/// Positions of the inner nodes of a quad mesh for any places of its rim.
-class Inside {
- public:
-  Inside(const std::vector<Quad>& quads, const std::vector<Edge>& rim) : rim_(rim) {
-    for (const auto& [a, b] : rim) {
-      if (slot_.try_emplace(a, std::ssize(slot_)).second) rim_nodes_.push_back(a);
-      if (slot_.try_emplace(b, std::ssize(slot_)).second) rim_nodes_.push_back(b);
-    }
-    for (const Quad& quad : quads)
-      for (const Index node : quad)
-        if (slot_.try_emplace(node, std::ssize(slot_)).second) inner_.push_back(node);
-    std::vector<Eigen::Triplet<double>> entries, to_rim;
-    const auto n_rim = std::ssize(rim_nodes_);
-    std::set<Edge> seen;
-    for (const Quad& quad : quads)
-      for (int k = 0; k < 4; ++k) {
-        const Index a = quad[k], b = quad[(k + 1) % 4];
-        if (!seen.insert(edge_of(a, b)).second) continue;
-        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-          const auto row = slot_.at(from) - n_rim, column = slot_.at(to) - n_rim;
-          if (row < 0) continue;
-          entries.emplace_back(row, row, 1.0);
-          if (column >= 0)
-            entries.emplace_back(row, column, -1.0);
-          else
-            to_rim.emplace_back(row, slot_.at(to), 1.0);
-        }
-      }
-    const auto n = std::ssize(inner_);
-    Eigen::SparseMatrix<double> laplacian(n, n);
-    laplacian.setFromTriplets(entries.begin(), entries.end());
-    of_rim_.resize(n, n_rim);
-    of_rim_.setFromTriplets(to_rim.begin(), to_rim.end());
-    if (n > 0) solver_.compute(laplacian);
-  }
-
-  const std::vector<Index>& inner() const { return inner_; }
-  const std::vector<Index>& rim_nodes() const { return rim_nodes_; }
-
-  /// from, from_inner: the places in one layer; to: those of the rim in the other. Both of the rim as rim_nodes().
-  std::vector<Vec3> moved(const std::vector<Vec3>& from, const std::vector<Vec3>& from_inner,
-                          const std::vector<Vec3>& to) const {
-    if (inner_.empty()) return {};
-    const auto n = std::ssize(rim_nodes_);
-    Vec3 a = Vec3::Zero(), b = Vec3::Zero();
-    for (Index i = 0; i < n; ++i) {
-      a += from[i] / static_cast<double>(n);
-      b += to[i] / static_cast<double>(n);
-    }
-    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(), square = Eigen::Matrix3d::Zero();
-    for (Index i = 0; i < n; ++i) {
-      cross += (to[i] - b) * (from[i] - a).transpose();
-      square += (from[i] - a) * (from[i] - a).transpose();
-    }
-    // A flat rim says nothing of what lies above it: normals go to normals.
-    const Vec3 area = vector_area(from), area_to = vector_area(to);
-    if (area.norm() > 0 && area_to.norm() > 0) {
-      const Vec3 up = area.normalized() * std::sqrt(area.norm()),
-                 up_to = area_to.normalized() * std::sqrt(area_to.norm());
-      cross += static_cast<double>(n) * up_to * up.transpose();
-      square += static_cast<double>(n) * up * up.transpose();
-    }
-    const Eigen::Matrix3d map = square.completeOrthogonalDecomposition().solve(cross.transpose()).transpose();
-    Eigen::MatrixX3d rest(n, 3);
-    for (Index i = 0; i < n; ++i) rest.row(i) = to[i] - (b + map * (from[i] - a));
-    const Eigen::MatrixX3d rest_inside = solver_.solve(Eigen::MatrixX3d(of_rim_ * rest));
-    std::vector<Vec3> result(inner_.size());
-    for (std::size_t i = 0; i < inner_.size(); ++i)
-      result[i] = b + map * (from_inner[i] - a) + rest_inside.row(static_cast<Index>(i)).transpose();
-    return result;
-  }
-
- private:
-  std::vector<Edge> rim_;  // as the quads turn
-  std::map<Index, std::ptrdiff_t> slot_;
-  std::vector<Index> rim_nodes_, inner_;
-  Eigen::SparseMatrix<double> of_rim_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
-
-  Vec3 vector_area(const std::vector<Vec3>& rim) const {
-    Vec3 sum = Vec3::Zero();
-    for (const auto& [a, b] : rim_) sum += rim[slot_.at(a)].cross(rim[slot_.at(b)]) / 2;
-    return sum;
-  }
-};
-
-}  // namespace
-
-void orient_alike(std::vector<Quad>& quads) {
-  const QuadsAtEdge at_edge = quads_at_edges(quads);
-  std::vector<char> seen(quads.size());
-  const auto leads = [&](Index q, Index a, Index b) { return quads[q][(place_in(quads[q], a) + 1) % 4] == b; };
-  for (std::size_t start = 0; start < quads.size(); ++start) {
-    if (seen[start]++) continue;
-    std::deque<Index> next{static_cast<Index>(start)};
-    while (!next.empty()) {
-      const Index q = next.front();
-      next.pop_front();
-      for (int k = 0; k < 4; ++k) {
-        const Index a = quads[q][k], b = quads[q][(k + 1) % 4];
-        for (const Index other : at_edge.at(edge_of(a, b))) {
-          if (other == q || seen[other]++) continue;
-          if (leads(other, a, b)) std::swap(quads[other][1], quads[other][3]);
-          next.push_back(other);
-        }
-      }
-    }
-  }
-}
 
 void Builder::sweep(const Sweep& sweep, int from) {
   check_interrupt();
@@ -165,10 +32,7 @@ void Builder::sweep(const Sweep& sweep, int from) {
   const std::vector<Quad> sides = quads_of(sweep.sides);
   orient_alike(source);
   const QuadsAtEdge at_source = quads_at_edges(source), at_side = quads_at_edges(sides);
-  std::vector<Edge> rim;  // as the quads turn
-  for (const Quad& quad : source)
-    for (int k = 0; k < 4; ++k)
-      if (at_source.at(edge_of(quad[k], quad[(k + 1) % 4])).size() == 1) rim.push_back({quad[k], quad[(k + 1) % 4]});
+  const std::vector<Edge> rim = rim_edges(source, at_source);
 
   // Up the sides.
   std::map<Index, std::vector<Index>> column;
@@ -310,25 +174,7 @@ void Builder::sweep(const Sweep& sweep, int from) {
     for (std::size_t i = 0; i < up.size(); ++i)
       level[k][inside.inner()[i]] = add((1 - t) * up[i] + t * down[i], {3, sweep.volume});
   }
-  const std::size_t first = hexes.size();
-  double sum = 0;
-  for (std::size_t k = 0; k + 1 < n_levels; ++k)
-    for (const Quad& quad : source) {
-      constexpr std::array<int, 4> bits = {0, 1, 3, 2};
-      Hex hex{};
-      for (int c = 0; c < 4; ++c) {
-        hex[bits[c]] = level[k].at(quad[c]);
-        hex[bits[c] + 4] = level[k + 1].at(quad[c]);
-      }
-      const auto along = [&](int c) { return Vec3(points[hex[c]] - points[hex[0]]); };
-      sum += along(1).cross(along(2)).dot(along(4));
-      hexes.push_back(hex);
-    }
-  // The quads may turn either way, all of them alike.
-  if (sum < 0)
-    for (std::size_t h = first; h < hexes.size(); ++h)
-      for (int c = 0; c < 4; ++c) std::swap(hexes[h][c], hexes[h][c + 4]);
-  hex_volume.resize(hexes.size(), sweep.volume);
+  add_layers(source, level, sweep.volume);
 }
 
 void Builder::fill_ball(int volume, int intervals_said) {

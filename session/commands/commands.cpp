@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "hextwist/session/commands/mesh.h"
+
 namespace hextwist {
 namespace {
 

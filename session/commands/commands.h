@@ -41,8 +41,6 @@ void do_group(Execution& run);
 void do_help(Execution& run);
 void do_import(Execution& run);
 void do_list(Execution& run);
-void do_merge(Execution& run);
-void do_mesh(Execution& run);
 void do_move(Execution& run);
 void do_node(Execution& run);
 void do_periodic(Execution& run);

@@ -6,6 +6,7 @@
 #include "hextwist/command/select/selection.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/mesh.h"
 #include "hextwist/session/load.h"
 
 namespace hextwist {

@@ -13,6 +13,7 @@
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/mesh.h"
 #include "hextwist/session/load.h"
 
 namespace hextwist {
