@@ -1,5 +1,6 @@
 #include "hextwist/io/gmsh/pave.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -8,15 +9,17 @@
 namespace hextwist {
 namespace {
 
+using Flat = Eigen::Vector2d;
+
 /// Each side of the polygons is a line of one element, so that its ends are the only nodes on it.
-std::string script(const std::vector<std::vector<Eigen::Vector2d>>& polygons, double size) {
+std::string script(const std::vector<std::vector<Flat>>& polygons, double size, bool joined) {
   std::ostringstream out;
   out.precision(17);
   // Frontal-Delaunay triangles, joined in pairs by Blossom. The algorithm made for quads crashes in Debian's 4.8.
-  out << "Mesh.Algorithm = 6; Mesh.RecombineAll = 1; Mesh.RecombinationAlgorithm = 1; Mesh.MshFileVersion = 2.2;\n"
+  out << "Mesh.Algorithm = 6; Mesh.RecombinationAlgorithm = 1; Mesh.MshFileVersion = 2.2;\n"
          "Mesh.Binary = 0; Mesh.SaveAll = 1; General.NumThreads = 1; Mesh.CharacteristicLengthExtendFromBoundary = 1;\n"
          "Mesh.CharacteristicLengthMax = "
-      << size << ";\n";
+      << size << ";\nMesh.RecombineAll = " << (joined ? 1 : 0) << ";\n";
   std::size_t n = 0;
   std::string loops;
   for (std::size_t k = 0; k < polygons.size(); ++k) {
@@ -80,6 +83,50 @@ FlatMesh read(std::istream& in, std::size_t n_given) {
   return mesh;
 }
 
+/// Sine of the angle at corner k of a polygon of n corners: negative where it turns back.
+double corner(const FlatMesh& mesh, const std::array<Index, 4>& element, int n, int k) {
+  const Flat& p = mesh.points[element[k]];
+  const Flat a = mesh.points[element[(k + 1) % n]] - p, b = mesh.points[element[(k + n - 1) % n]] - p;
+  return (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm());
+}
+
+double worst_corner(const FlatMesh& mesh, const std::array<Index, 4>& element) {
+  const int n = element[3] < 0 ? 3 : 4;
+  double worst = 1;
+  for (int k = 0; k < n; ++k) worst = std::min(worst, corner(mesh, element, n, k));
+  return worst;
+}
+
+/// All elements turn alike; quads with a corner that is flat or turns back become two triangles. False where that does
+/// not help: Blossom now and then leaves a triangle outside of the polygons, and a quad over it.
+bool mended(FlatMesh& mesh) {
+  constexpr double flat = 0.2;
+  double area = 0;
+  for (const auto& element : mesh.elements)
+    for (int k = 0, n = element[3] < 0 ? 3 : 4; k < n; ++k) {
+      const Flat &a = mesh.points[element[k]], &b = mesh.points[element[(k + 1) % n]];
+      area += a.x() * b.y() - a.y() * b.x();
+    }
+  std::vector<std::array<Index, 4>> elements;
+  for (std::array<Index, 4> element : mesh.elements) {
+    if (area < 0) std::swap(element[1], element[element[3] < 0 ? 2 : 3]);
+    if (element[3] < 0 || worst_corner(mesh, element) > flat) {
+      elements.push_back(element);
+      continue;
+    }
+    const auto [a, b, c, d] = element;
+    const std::array<std::array<std::array<Index, 4>, 2>, 2> halves = {
+        {{{{a, b, c, -1}, {a, c, d, -1}}}, {{{a, b, d, -1}, {b, c, d, -1}}}}};
+    const auto worst = [&](const auto& pair) {
+      return std::min(worst_corner(mesh, pair[0]), worst_corner(mesh, pair[1]));
+    };
+    const auto& better = halves[worst(halves[0]) >= worst(halves[1]) ? 0 : 1];
+    elements.insert(elements.end(), better.begin(), better.end());
+  }
+  mesh.elements = std::move(elements);
+  return std::ranges::all_of(mesh.elements, [&](const auto& element) { return worst_corner(mesh, element) > 0; });
+}
+
 }  // namespace
 
 std::filesystem::path find_gmsh() {
@@ -88,16 +135,27 @@ std::filesystem::path find_gmsh() {
 
 QuadMesher paver_by_gmsh(std::filesystem::path program) {
   if (program.empty()) return {};
-  return [program = std::move(program)](const std::vector<std::vector<Eigen::Vector2d>>& polygons, double size) {
+  return [program = std::move(program)](const std::vector<std::vector<Flat>>& polygons, double size) {
     std::size_t n = 0;
     for (const auto& polygon : polygons) n += polygon.size();
-    const Handover in, out;
-    std::ofstream(in.path()) << script(polygons, size);
     constexpr double seconds = 600, megabytes = 8000;
-    run_within(seconds, megabytes, program, {"-2", "-v", "0", "-nopopup", "-format", "msh22", "-o", "{out}", "{in}"},
-               in, out);
-    std::ifstream result(out.path());
-    return read(result, n);
+    // Triangles alone where joining them goes wrong.
+    for (const bool joined : {true, false}) {
+      const Handover in, out;
+      std::ofstream(in.path()) << script(polygons, size, joined);
+      FlatMesh mesh;
+      try {
+        run_within(seconds, megabytes, program,
+                   {"-2", "-v", "0", "-nopopup", "-format", "msh22", "-o", "{out}", "{in}"}, in, out);
+        std::ifstream result(out.path());
+        mesh = read(result, n);
+      } catch (const Error&) {
+        if (!joined) throw;
+        continue;
+      }
+      if (mended(mesh)) return mesh;
+    }
+    throw Error("gmsh has left elements that overlap");
   };
 }
 

@@ -48,6 +48,8 @@ struct Builder {
   /// Hexes between copies of the quads: what each node becomes in each level.
   void add_layers(const std::vector<Quad>& source, const std::vector<std::map<Index, Index>>& level, int volume);
   void fill_ball(int volume, int intervals_said);
+  /// Takes out what no hex has: nodes on seams and poles that the hexes pass by.
+  void drop_unused();
 
  private:
   std::vector<Index> vertex_nodes_;

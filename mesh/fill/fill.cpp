@@ -50,6 +50,31 @@ std::vector<Index> Builder::nodes(const Chain& chain) const {
   return result;
 }
 
+void Builder::drop_unused() {
+  std::vector<Index> now(points.size(), -1);
+  for (const Hex& hex : hexes)
+    for (const Index n : hex) now[n] = 0;
+  Index n_used = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (now[i] < 0) continue;
+    points[n_used] = points[i];
+    owners[n_used] = owners[i];
+    now[i] = n_used++;
+  }
+  points.resize(n_used);
+  owners.resize(n_used);
+  for (Hex& hex : hexes)
+    for (Index& n : hex) n = now[n];
+  for (std::vector<Index>& nodes_of_curve : curve_nodes) {
+    const bool is_used = std::ranges::all_of(nodes_of_curve, [&](Index n) { return now[n] >= 0; });
+    if (!is_used) nodes_of_curve.clear();
+    for (Index& n : nodes_of_curve) n = now[n];
+  }
+  for (std::vector<Quad>& own : surface_quads)
+    for (Quad& quad : own)
+      for (Index& n : quad) n = now[n];
+}
+
 std::vector<Index> Builder::rim_of(const Chain& loop) const {
   std::vector<Index> result = nodes(loop);
   result.pop_back();
@@ -192,6 +217,7 @@ FillResult fill_volumes(const Model& model, const FillOptions& options) {
   });
   fill::sweep_all(builder, std::move(sweeps));
 
+  builder.drop_unused();
   Mesh& mesh = result.mesh;
   mesh.points = builder.points;
   mesh.hexes = builder.hexes;

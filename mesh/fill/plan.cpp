@@ -170,18 +170,51 @@ class Search {
       if (n != 2 || is_along[0] != is_along[2]) return false;
     }
     sweep.sides.assign(sides.begin(), sides.end());
+    sweep.along = columns(near, along);
     std::vector<int> far;
     for (const int surface : surfaces_)
       if (!sides.contains(surface) && !has(near, surface)) far.push_back(surface);
-    if (far.empty() || !is_connected(far)) {
-      if (!far.empty())
-        note("seen from " + surfaces_text(near) + ", " + surfaces_text(far) + " are ends that do not hang together");
+    if (far.empty()) return false;
+    // Caps at one end go on smoothly, else hexes at the edges between them would be flat.
+    if (!hang_together(far, false)) {
+      note("seen from " + surfaces_text(near) + ", " + surfaces_text(far) + " are ends that do not hang together");
+      return false;
+    }
+    if (!hang_together(far, true) || !hang_together(near, true)) {
+      note("seen from " + surfaces_text(near) + ", there are edges between " + surfaces_text(far) +
+           " at the other end");
       return false;
     }
     for (const int cap : far)
       if (!of(cap).odd.empty() || of(cap).loops.empty()) return false;
     sweep.caps[1] = far;
     return sweep.caps[0].size() == 1 || far.size() == 1 || find_partners(sweep);
+  }
+
+  /// From the vertices of these caps along such curves, as far as these go.
+  std::vector<Chain> columns(const std::vector<int>& caps, const std::set<int>& along) const {
+    std::set<int> starts;
+    for (const int cap : caps)
+      for (const Chain& loop : of(cap).loops)
+        for (const Step& step : loop) starts.insert(facts_.start(step));
+    std::vector<Chain> result;
+    for (int at : starts) {
+      Chain chain;
+      for (bool found = true; found && chain.size() <= along.size();) {
+        found = false;
+        for (const int curve : along) {
+          const CurveFacts& own = facts_.curves[curve - 1];
+          if (own.is_closed() || (!chain.empty() && chain.back().curve == curve)) continue;
+          if (own.first != at && own.last != at) continue;
+          chain.push_back({curve, own.first == at});
+          at = facts_.end(chain.back());
+          found = true;
+          break;
+        }
+      }
+      if (!chain.empty()) result.push_back(std::move(chain));
+    }
+    return result;
   }
 
   void note(const std::string& text) {
@@ -196,7 +229,7 @@ class Search {
     return false;
   }
 
-  bool is_connected(const std::vector<int>& part) const {
+  bool hang_together(const std::vector<int>& part, bool smoothly) const {
     std::vector<int> seen{part.front()}, next{part.front()};
     while (!next.empty()) {
       const int surface = next.back();
@@ -205,6 +238,7 @@ class Search {
         for (const Step& step : loop) {
           const int other = across(surface, step.curve);
           if (!has(part, other) || std::ranges::find(seen, other) != seen.end()) continue;
+          if (smoothly && !is_smooth(surface, other, step.curve)) continue;
           seen.push_back(other);
           next.push_back(other);
         }
@@ -373,6 +407,7 @@ std::vector<int> find_intervals(const Facts& facts, const std::vector<Sweep>& sw
         if (!surface.is_torus) even.push_back(seam);
       if (surface.is_annulus) balances.push_back({surface.loops[0], surface.loops[1]});
     }
+    for (std::size_t i = 1; i < sweep.along.size(); ++i) balances.push_back({sweep.along[0], sweep.along[i]});
     for (const Partner& partner : sweep.partners) balances.push_back({{{partner.curve}}, {{partner.other}}});
     for (const auto* surfaces : {&sweep.sides, &sweep.caps[0], &sweep.caps[1]})
       for (const int id : *surfaces) {

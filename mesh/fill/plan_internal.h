@@ -18,6 +18,7 @@ struct Sweep {
   bool is_turned = false;                     ///< all the way round: there are sides alone
   std::vector<int> sides = {};                ///< surfaces along which it goes
   std::array<std::vector<int>, 2> caps = {};  ///< those at its ends
+  std::vector<Chain> along = {};              ///< from the vertices of the first caps to the other end
   std::vector<Partner> partners = {};         ///< where both ends have several caps
 };
 
