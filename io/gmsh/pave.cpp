@@ -1,8 +1,10 @@
 #include "hextwist/io/gmsh/pave.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <sstream>
+#include <typeinfo>
 
 #include "hextwist/base/fenced.h"
 
@@ -11,15 +13,23 @@ namespace {
 
 using Flat = Eigen::Vector2d;
 
+/// Settings of Gmsh, the best first. The algorithm made for quads (8) crashes in Debian's 4.8.
+struct Way {
+  int algorithm;      ///< 6: frontal, 5: Delaunay
+  int recombination;  ///< of triangles in pairs: 1 Blossom, 0 simple, -1 none
+};
+constexpr std::array<Way, 4> ways = {{{6, 1}, {5, 1}, {6, 0}, {6, -1}}};
+
 /// Each side of the polygons is a line of one element, so that its ends are the only nodes on it.
-std::string script(const std::vector<std::vector<Flat>>& polygons, double size, bool joined) {
+std::string script(const std::vector<std::vector<Flat>>& polygons, double size, const Way& way) {
   std::ostringstream out;
   out.precision(17);
-  // Frontal-Delaunay triangles, joined in pairs by Blossom. The algorithm made for quads crashes in Debian's 4.8.
-  out << "Mesh.Algorithm = 6; Mesh.RecombinationAlgorithm = 1; Mesh.MshFileVersion = 2.2;\n"
+  out << "Mesh.Algorithm = " << way.algorithm << "; Mesh.RecombineAll = " << (way.recombination < 0 ? 0 : 1)
+      << "; Mesh.RecombinationAlgorithm = " << std::max(way.recombination, 0)
+      << "; Mesh.MshFileVersion = 2.2;\n"
          "Mesh.Binary = 0; Mesh.SaveAll = 1; General.NumThreads = 1; Mesh.CharacteristicLengthExtendFromBoundary = 1;\n"
          "Mesh.CharacteristicLengthMax = "
-      << size << ";\nMesh.RecombineAll = " << (joined ? 1 : 0) << ";\n";
+      << size << ";\n";
   std::size_t n = 0;
   std::string loops;
   for (std::size_t k = 0; k < polygons.size(); ++k) {
@@ -139,23 +149,23 @@ QuadMesher paver_by_gmsh(std::filesystem::path program) {
     std::size_t n = 0;
     for (const auto& polygon : polygons) n += polygon.size();
     constexpr double seconds = 600, megabytes = 8000;
-    // Triangles alone where joining them goes wrong.
-    for (const bool joined : {true, false}) {
+    std::string wrong;
+    for (const Way& way : ways) {
       const Handover in, out;
-      std::ofstream(in.path()) << script(polygons, size, joined);
-      FlatMesh mesh;
+      std::ofstream(in.path()) << script(polygons, size, way);
       try {
         run_within(seconds, megabytes, program,
                    {"-2", "-v", "0", "-nopopup", "-format", "msh22", "-o", "{out}", "{in}"}, in, out);
         std::ifstream result(out.path());
-        mesh = read(result, n);
-      } catch (const Error&) {
-        if (!joined) throw;
-        continue;
+        FlatMesh mesh = read(result, n);
+        if (mended(mesh)) return mesh;
+        wrong = "gmsh has left elements that overlap";
+      } catch (const Error& error) {
+        if (typeid(error) != typeid(Error)) throw;  // the user stopped it
+        wrong = error.what();
       }
-      if (mended(mesh)) return mesh;
     }
-    throw Error("gmsh has left elements that overlap");
+    throw Error(wrong);
   };
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <typeinfo>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
@@ -115,6 +116,7 @@ void sweep_all(Builder& builder, std::vector<Sweep> sweeps) {
         try {
           builder.mesh_surface(surface);
         } catch (const Error& error) {
+          if (typeid(error) != typeid(Error)) throw;  // the user stopped it
           throw Error("volume " + std::to_string(sweeps[i].volume) + ": " + error.what());
         }
       }

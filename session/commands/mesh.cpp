@@ -26,7 +26,12 @@ std::shared_ptr<const Model> with_shared_surfaces(Execution& run) {
   if (state.glue != Glue::automatic || state.glued || state.cad_file.empty() || model->count(3) < 2) return model;
   run.stage("glue CAD");
   CadImport joined = glued(*model);
-  if (joined.model->count(2) == model->count(2) && joined.model->count(1) == model->count(1)) return model;
+  const auto n_uses = [](const Model& of) {
+    std::size_t n = 0;
+    for (int surface = 1; surface <= of.count(2); ++surface) n += of.adjacent({2, surface}, 3).size();
+    return n - static_cast<std::size_t>(of.count(2));
+  };
+  if (n_uses(*joined.model) == n_uses(*model)) return model;
   for (const std::string& line : joined.notices) run.note(line);
   run.note("touching solids are glued, so that their meshes fit together: ids of curves and surfaces are others now");
   state.glued = true;
@@ -48,8 +53,9 @@ std::vector<int> volumes_of(const Execution& run, const Model& model) {
     double least = 1e-3 * box.diagonal();
     for (int candidate = 1; candidate <= model.count(3); ++candidate) {
       const Box other = model.box({3, candidate});
-      const double away = (box.min - other.min).norm() + (box.max - other.max).norm() +
-                          std::cbrt(std::abs(before.measure({3, id}) - model.measure({3, candidate})));
+      const double away =
+          (box.min - other.min).norm() + (box.max - other.max).norm() +
+          std::abs(before.measure({3, id}) - model.measure({3, candidate})) / (box.diagonal() * box.diagonal());
       if (away < least) found = candidate;
       if (away < least) least = away;
     }
@@ -63,7 +69,7 @@ std::vector<int> volumes_of(const Execution& run, const Model& model) {
 
 /// Better shapes for the poor hexes of what was just filled.
 void improve(Execution& run, MeshedModel& meshed) {
-  constexpr double poor = 0.3;
+  constexpr double poor = 0.5;
   const std::vector<double> jacobians = quality(Metric::scaled_jacobian, meshed.mesh);
   std::vector<std::uint8_t> moves(meshed.mesh.points.size(), 0);
   bool any = false;

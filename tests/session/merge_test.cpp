@@ -134,7 +134,7 @@ TEST(Merge, joins_parts_in_a_session_and_refinement_goes_across) {
   EXPECT_TRUE(test::complete(meshed.mesh, meshed.association, *meshed.model));
   f.session.run("refine hex in block 1 depth 1; check");
   EXPECT_TRUE(test::conformal(f.session.meshed().mesh));
-  f.session.run("undo 3");
+  f.session.run("undo 2");
   EXPECT_EQ(f.session.meshed().mesh.n_nodes(), n);
 }
 

@@ -73,7 +73,7 @@ const std::vector<Shape> swept = {
     {"cylinder", [] { return OccShape::cylinder(2, 5); }, 0.05, 0.6, false},
     {"cone", [] { return OccShape::cone(2, 1, 3); }, 0.05, 0.5, false},
     {"ball", [] { return OccShape::sphere(2); }, 0.1, 0.6, false},
-    {"loft", [] { return OccShape::loft(); }, 0.05, 0.3, true},
+    {"loft", [] { return OccShape::loft(); }, 0.05, 0.2, true},
     {"brick with a hole", [] { return OccShape::brick_with_hole(10, 6, 2, 1.5); }, 0.02, 0.3, true},
     {"half a cylinder", [] { return OccShape::cylinder_sector(2, 4, 0.3, 0.3 + 3.14159); }, 0.05, 0.3, true},
     {"a sector across the seam", [] { return OccShape::cylinder_sector(2, 4, -0.7, 0.9); }, 0.05, 0.3, true},
@@ -202,7 +202,7 @@ TEST(MeshVolume, volumes_one_behind_the_other_agree_on_what_they_share) {
        {OccShape::brick(1, 1, 1), OccShape::brick(2, 1, 1).moved({1, 0, 0}, 0),
         OccShape::brick(3, 1, 1).moved({0, 1, 0}, 0)}},
       {"a bent rod and a straight one",
-       {OccShape::turned_disc(3, 1, 1.5), OccShape::cylinder(1, 2).moved({3, 0, -2}, 0)}},
+       {OccShape::turned_disc(3, 1, 1.5), OccShape::cylinder(1, 2).moved({3, 0, 0}, 0)}},
   };
   for (const auto& [name, solids] : cases) {
     if (std::string(name) == "two L" && !has_gmsh()) continue;
@@ -313,6 +313,10 @@ TEST(MeshVolume, whatever_becomes_of_gmsh_is_one_line_and_changes_nothing) {
       {"echo '$Nodes\n3\n1 0 0 0' >&3", "gmsh has not left a mesh"},
       {"printf '$Nodes\\n40\\n' >&3; for i in $(seq 40); do echo $i $i 0 0 >&3; done; printf "
        "'$EndNodes\\n$Elements\\n1\\n1 2 2 0 1 1 2 3\\n$EndElements\\n' >&3",
+       "gmsh has left elements that overlap"},
+      // Triangles over a part of the surface alone.
+      {"printf '$Nodes\\n40\\n' >&3; for i in $(seq 40); do echo $i $i $((i * i)) 0 >&3; done; printf "
+       "'$EndNodes\\n$Elements\\n1\\n1 2 2 0 1 1 2 3\\n$EndElements\\n' >&3",
        "was not paved as asked"},
   };
   const auto file = test::folder() / "hole.brep";
@@ -343,6 +347,24 @@ TEST(MeshVolume, says_what_is_in_the_way) {
   f.session.run("set max_hexes 1000");
   EXPECT_NE(f.error("mesh volume 1 interval 20").find("1000"), std::string::npos);
   f.session.run("set max_hexes 0");
+}
+
+TEST(MeshVolume, stops_when_the_user_wishes_while_gmsh_is_at_work) {
+  const auto file = test::folder() / "hole.brep";
+  OccShape::brick_with_hole(10, 6, 2, 1.5).write(file);
+  const FakeGmsh fake("exec sleep 60");
+  Fixture f;
+  f.session.run("import brep '" + file.string() + "'");
+  f.go_on = false;
+  EXPECT_THROW(f.session.run("mesh volume all interval 8"), CommandError);
+  int asked = 0;
+  SessionCallbacks callbacks = f.callbacks();
+  callbacks.progress = [&](const char*, double) { return ++asked < 12; };
+  f.session.set_callbacks(callbacks);
+  const std::string wrong = f.error("mesh volume all interval 8");
+  EXPECT_NE(wrong.find("cancelled"), std::string::npos) << wrong;
+  EXPECT_GE(asked, 12);
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 0);
 }
 
 TEST(MeshVolume, is_the_same_every_time_and_for_any_number_of_threads) {
