@@ -192,11 +192,11 @@ const std::vector<CommandSpec> table = {
      "CAD without a mesh, 'merge all' glues touching solids, as 'set glue on' does when CAD is read.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"tolerance", Kind::number, 0, 1e100, false, "distance, model units; default: a millionth of the diagonal of the mesh"}},
-     {"merge all", "merge all tolerance 1e-4", "merge volume 1 2", "merge node in nodeset 3 4"}},
+     {"merge all", "merge all tolerance 0.001", "merge volume 1 2", "merge node in nodeset 3 4"}},
     {"mesh", "mesh volume <range> [{size <size>|interval <n>}]", "fill volumes of the CAD with hexes",
      "Volumes that can be swept: those whose surfaces, but for the caps at two ends, have four corners each or are tubes: boxes, extruded and "
      "turned solids, pipes, cylinders; and balls. Volumes that share a surface have the same quads there. What cannot be swept is refused, with the reason. Caps "
-     "that are no discs, rings or four-sided are paved by the program gmsh, where that is installed. 'size' is the length of edges, the default a "
+     "other than discs, rings and four-sided ones are paved by the program gmsh, where that is installed. 'size' is the length of edges, the default a "
      "fifteenth of the diagonal of the volumes; 'interval' so many along each curve, more where opposite curves, or bent ones, need it. "
      "Each volume becomes a block of its number. Touching solids are glued first, unless 'set glue off' was said.",
      {{"range", Kind::range, 0, 0, false, range_help},

@@ -224,8 +224,8 @@ class Search {
     // The largest cap with the fewest neighbours that do not fit would be the best reason; the first one does.
     if (surface > 0 && near.size() == 1 && !of(near[0]).sides &&
         of(near[0]).loops.size() + of(near[0]).seams.size() > 0)
-      note("seen from surface " + std::to_string(near[0]) + ", surface " + std::to_string(surface) + " is no side" +
-           (of(surface).odd.empty() ? " with four corners" : ": " + of(surface).odd));
+      note("seen from surface " + std::to_string(near[0]) + ", surface " + std::to_string(surface) +
+           (of(surface).odd.empty() ? " does not have four corners" : " cannot be a side: " + of(surface).odd));
     return false;
   }
 

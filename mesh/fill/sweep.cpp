@@ -204,7 +204,7 @@ void Builder::fill_ball(int volume, int intervals_said) {
   }
   hex_volume.resize(hexes.size(), volume);
   if (!(model.project({2, surface}, Vec3(center + radius * x)).distance < 1e-5 * radius))
-    throw Error("volume " + std::to_string(volume) + ": it is called a sphere and is none");
+    throw Error("volume " + std::to_string(volume) + ": it is called a sphere but is not one");
 }
 
 }  // namespace hextwist::fill
