@@ -31,7 +31,7 @@ namespace hextwist {
 namespace {
 
 // Descriptors of the reader.
-constexpr int result_at = 3, alive_at = 4;
+constexpr int result_at = 3, alive_at = 4, input_at = 5;
 /// Of both ends: a reader of another version is none.
 constexpr const char* protocol = "hextwist 1";
 
@@ -73,7 +73,7 @@ struct Child {
 struct SpawnActions {
   posix_spawn_file_actions_t files{};
   posix_spawnattr_t attributes{};
-  explicit SpawnActions(int result, int alive) {
+  explicit SpawnActions(int result, int alive, int input = -1) {
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&attributes);
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
@@ -81,6 +81,7 @@ struct SpawnActions {
     for (const int to : {1, 2}) posix_spawn_file_actions_addopen(&files, to, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, result, result_at);
     posix_spawn_file_actions_adddup2(&files, alive, alive_at);
+    if (input >= 0) posix_spawn_file_actions_adddup2(&files, input, input_at);
     sigset_t none, all;
     sigemptyset(&none);
     sigfillset(&all);
@@ -217,6 +218,70 @@ void read_fenced(const Fence& fence, const std::string& kind, const std::filesys
                 " s of CPU time: the file is damaged, or 'set reading time' allows more");
   if (signal == SIGKILL) throw Error(name + ": reading it was ended from outside (no memory left?)");
   throw Error(name + ": reading it crashed (" + lower_case(strsignal(signal)) + "): the file is damaged");
+}
+
+std::filesystem::path find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::string_view left = path ? path : "";
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(':'), left.size());
+    const std::filesystem::path folder(left.substr(0, end));
+    left.remove_prefix(std::min(end + 1, left.size()));
+    // Not one in the working folder, which may be anybody's.
+    if (folder.is_absolute() && ::access((folder / name).c_str(), X_OK) == 0) return folder / name;
+  }
+  return {};
+}
+
+void run_within(double seconds, double megabytes, const std::filesystem::path& program,
+                const std::vector<std::string>& arguments, const Handover& in, const Handover& out) {
+  const std::string name = program.filename().string();
+  std::vector<std::string> text{program.string()};
+  for (const std::string& argument : arguments)
+    text.push_back(argument == "{in}"    ? "/proc/self/fd/" + std::to_string(input_at)
+                   : argument == "{out}" ? "/proc/self/fd/" + std::to_string(result_at)
+                                         : argument);
+  std::vector<char*> words;
+  for (std::string& word : text) words.push_back(word.data());
+  words.push_back(nullptr);
+  // No settings of whoever is at home here.
+  const char* path = std::getenv("PATH");
+  std::array<std::string, 3> settings = {std::string("PATH=") + (path ? path : ""), "HOME=/nonexistent", "LC_ALL=C"};
+  std::array<char*, 4> environment = {settings[0].data(), settings[1].data(), settings[2].data(), nullptr};
+
+  Pipe alive;
+  Child child;
+  {
+    const int result = out_of_the_way(out.descriptor()), held = out_of_the_way(alive.end[1]),
+              input = out_of_the_way(in.descriptor());
+    const SpawnActions actions(result, held, input);
+    const int failed =
+        posix_spawn(&child.id, text[0].c_str(), &actions.files, &actions.attributes, words.data(), environment.data());
+    for (const int descriptor : {result, held, input}) ::close(descriptor);
+    if (failed) {
+      child.id = -1;
+      throw Error(name + " cannot be started: " + error_text(failed));
+    }
+  }
+  const auto within = [&](auto resource, double most) {
+    const rlimit limits{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+    ::prlimit(child.id, resource, &limits, nullptr);
+  };
+  within(RLIMIT_CORE, 0);
+  within(RLIMIT_CPU, std::ceil(seconds));
+  within(RLIMIT_FSIZE, megabytes * 1e6);
+  within(RLIMIT_AS, megabytes * 1e6);
+  alive.close(1);
+  for (pollfd end{alive.end[0], 0, 0}; ::poll(&end, 1, 50) == 0;) check_interrupt();
+  child.wait();
+  if (!child.known) return;  // the host of this process collects its children itself: what there is tells
+  if (WIFEXITED(child.status) && WEXITSTATUS(child.status) == 0) return;
+  if (WIFEXITED(child.status))
+    throw Error(name + " failed (it ended with status " + std::to_string(WEXITSTATUS(child.status)) + ")");
+  const int signal = WTERMSIG(child.status);
+  if (signal == SIGKILL || signal == SIGXCPU)
+    throw Error(name + " took more than " + short_number(seconds, 6) + " s of CPU time, or was ended from outside");
+  throw Error(name + " crashed (" + lower_case(strsignal(signal)) + ")");
 }
 
 int serve_fenced(int argc, char** argv, const std::function<void(const FencedJob&)>& read) {

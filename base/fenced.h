@@ -34,6 +34,15 @@ class Handover {
 void read_fenced(const Fence& fence, const std::string& kind, const std::filesystem::path& file,
                  const std::vector<std::string>& words, const Handover& to, std::uintmax_t more_bytes = 0);
 
+/// Where the program of that name lies in a folder of PATH; empty: nowhere.
+std::filesystem::path find_program(const std::string& name);
+
+/// Runs a program of somebody else within limits, with nothing of the environment but PATH. Among its arguments
+/// "{in}" stands for the name of `in`, "{out}" for that of `out`. Waits, and asks check_interrupt() meanwhile. Throws
+/// Error, saying how it ended, unless it ended well. seconds: of CPU time; megabytes: of address space.
+void run_within(double seconds, double megabytes, const std::filesystem::path& program,
+                const std::vector<std::string>& arguments, const Handover& in, const Handover& out);
+
 /// The program's end: sets the limits that the command line names, calls `read` with the file, the words and where to
 /// write, and tells the caller of errors. Returns the status to end with.
 struct FencedJob {

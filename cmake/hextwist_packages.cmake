@@ -94,6 +94,8 @@ description(python "local refinement of all-hexahedral meshes, for Python"
 
 # What the library is told to read by others it reads in processes of their own, which the package of the program has.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS hextwist)
+# Paves what 'mesh volume' cannot map.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS gmsh)
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "hextwist, openmpi-bin")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS hextwist)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-gmsh)

@@ -21,8 +21,9 @@ constexpr std::string_view needs_no_display =
 constexpr std::string_view logged = "'record \"part.jou\"' writes a journal, '--json' a report";
 constexpr std::string_view measured = "'list' prints lengths, areas, radii and places";
 constexpr std::string_view meshing =
-    "this program refines a mesh that is there: read one ('import mesh \"part.e\"') or make a small one ('create brick "
-    "x 10 interval 5'); 'refine ... size' cuts until elements have a size";
+    "volumes are meshed with all that bounds them, where they can be swept: 'mesh volume all size 0.5', or 'interval "
+    "8' "
+    "along each curve; other meshes are read ('import mesh \"part.e\"')";
 constexpr std::string_view geometry =
     "geometry is not edited here: read it as it should be ('import step \"part.step\"'), then the mesh on it";
 constexpr std::string_view solids =
@@ -96,6 +97,7 @@ constexpr Row foreign_words[] = {
     {"import sizing", refused, "say 'sizing field \"name\" file \"solution.e\"', then 'refine ... sizing_function'"},
     {"export acis|step|iges|stl|parasolid|facets|ideas|patran|nastran|fluent|cubit|avs|sat", refused,
      "meshes are written as exodus, gmsh, vtk, abaqus or medit here"},
+    {"mesh volume", refused, {}},
     {"mesh", refused, meshing},
     {"remesh", refused, meshing},
     {"unmesh", refused, meshing},
@@ -105,7 +107,8 @@ constexpr Row foreign_words[] = {
     {"propagate", refused, meshing},
     {"match", refused, meshing},
     {"volume|surface|curve|vertex|body * size|interval|scheme|sizing|meshable|tetmesh|redistribute", refused, meshing},
-    {"delete mesh", refused, "'reset' drops mesh and CAD; hexes cannot be taken out of a mesh here"},
+    {"delete mesh", refused,
+     "'reset mesh' drops the mesh, 'reset' the CAD as well; hexes cannot be taken out of a mesh here"},
     {"delete volume|surface|body|curve|vertex|hex|node|edge|face|element", refused,
      "a part of a mesh or model cannot be taken out here; 'export ... block 1 partial' writes a part, 'reset' drops "
      "all"},
@@ -114,7 +117,6 @@ constexpr Row foreign_words[] = {
     {"section", refused, geometry},
     {"imprint", refused,
      "touching solids are glued when CAD is read: 'set glue on' before 'import step \"part.step\"'"},
-    {"merge", refused, "touching solids are glued when CAD is read: 'set glue on' before 'import step \"part.step\"'"},
     {"unmerge", refused, "'set glue off' before the CAD is read keeps its solids apart"},
     {"unite", refused, geometry},
     {"subtract", refused, geometry},

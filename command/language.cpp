@@ -184,6 +184,25 @@ const std::vector<CommandSpec> table = {
      "undone, and the memory that it takes.",
      {{"range", Kind::range, 0, 0, false, range_help}},
      {"list", "list undo", "list field", "list curve all", "list curve loop of surface 3 (at 0 0 1)", "list hex in sheet 3", "list sheet in hex 17"}},
+    {"merge", "merge {all|{node|edge|face|hex|vertex|curve|surface|volume|block|nodeset|sideset|group} <range>} [tolerance <tolerance>]",
+     "make coincident nodes one",
+     "Nodes (all, or those of the entities) that lie within the tolerance of each other become the one with the lowest id, so that hexes which only "
+     "touched share faces, and curves and surfaces between go. Blocks, sets, fields and other elements go on with it, and the mesh is put on its CAD anew. "
+     "Refused where an edge of a hex would vanish, a face would have three hexes, or hexes would hang at others by some of their nodes. Of "
+     "CAD without a mesh, 'merge all' glues touching solids, as 'set glue on' does when CAD is read.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"tolerance", Kind::number, 0, 1e100, false, "distance, model units; default: a millionth of the diagonal of the mesh"}},
+     {"merge all", "merge all tolerance 0.001", "merge volume 1 2", "merge node in nodeset 3 4"}},
+    {"mesh", "mesh volume <range> [{size <size>|interval <n>}]", "fill volumes of the CAD with hexes",
+     "Volumes that can be swept: those whose surfaces, but for the caps at two ends, have four corners each or are tubes: boxes, extruded and "
+     "turned solids, pipes, cylinders; and balls. Volumes that share a surface have the same quads there. What cannot be swept is refused, with the reason. Caps "
+     "other than discs, rings and four-sided ones are paved by the program gmsh, where that is installed. 'size' is the length of edges, the default a "
+     "fifteenth of the diagonal of the volumes; 'interval' so many along each curve, more where opposite curves, or bent ones, need it. "
+     "Each volume becomes a block of its number. Touching solids are glued first, unless 'set glue off' was said.",
+     {{"range", Kind::range, 0, 0, false, range_help},
+      {"size", Kind::number, 0, 1e100, true, "length of edges, model units"},
+      {"n", Kind::integer, 1, 100000, false, "intervals along each curve"}},
+     {"mesh volume all", "mesh volume all size 0.5", "mesh volume 1 2 interval 8"}},
     {"move", "move {volume <range> {" ALONG "}|=model " WHERE_TO "|<dx> <dy> <dz>|" ALONG "} [=include_merged]", "move mesh and CAD",
      "Both together, with all volumes. Fields keep their values, and levels of refinement end: what is refined later cannot be "
      "coarsened beyond the mesh as it is now. Also 'volume all move x 10'.",
@@ -302,8 +321,9 @@ const std::vector<CommandSpec> table = {
     {"reflect", "reflect {volume <range> {x|y|z|about {x|y|z|<ax> <ay> <az>}}|model [=about] {x|y|z|<ax> <ay> <az>}} [=include_merged]", "mirror mesh and CAD",
      "At a plane through the origin, given by its normal. What is kept: see 'help move'.",
      {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"reflect model x"}, {}, false},
-    {"reset", "reset [{block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets", "", {},
-     {"reset", "reset nodeset"}},
+    {"reset", "reset [{mesh|block|nodeset|sideset|=genesis}]", "forget the mesh and the CAD, or all blocks or sets",
+     "'reset mesh' leaves the CAD, for 'mesh volume' or another mesh.", {},
+     {"reset", "reset mesh", "reset nodeset"}},
     {"rotate", "rotate {volume <range> angle <degrees>|model [=angle] <degrees>} about {x|y|z|<ax> <ay> <az>|origin <x> <y> <z> direction <ax> <ay> <az>} [=include_merged]",
      "turn mesh and CAD", "About an axis through the origin, or through a point. What is kept: see 'help move'.",
      {{"range", Kind::range, 0, 0, false, "all volumes"}, MOVE_ARGUMENTS}, {"rotate model 90 about z"}},

@@ -5,11 +5,12 @@
 
 #include "hextwist/geom/curvature.h"
 #include "hextwist/geom/facets.h"
+#include "hextwist/geom/periods.h"
 
 namespace hextwist {
 namespace {
 
-class RenumberedModel : public Model {
+class RenumberedModel : public Model, public KnowsPeriods {
  public:
   RenumberedModel(std::shared_ptr<const Model> model, Renumbering renumbering)
       : model_(std::move(model)), new_(std::move(renumbering)) {
@@ -44,6 +45,7 @@ class RenumberedModel : public Model {
   CurveRange range(int curve) const override { return model_->range(old({1, curve}).id); }
   Vec3 point(Owner entity, Parameters at) const override { return model_->point(old(entity), at); }
   Vec3 tangent(int curve, double t) const override { return model_->tangent(old({1, curve}).id, t); }
+  std::array<double, 2> periods(int surface) const override { return hextwist::periods(*model_, old({2, surface}).id); }
   Vec3 normal(int surface, Parameters at) const override {
     const Owner own = old({2, surface});
     const std::vector<int> volumes = model_->adjacent(own, 3);

@@ -172,7 +172,10 @@ void glue_solids(Part& part, double tolerance) {
     notice += (k ? ", " : " ") + std::to_string(count_kind(part.shape, kinds[k])) + " -> " +
               std::to_string(count_kind(result, kinds[k])) + words[k];
   }
-  if (count_kind(part.shape, TopAbs_FACE) == count_kind(result, TopAbs_FACE)) notice += "; no two solids share a face";
+  // Faces may be cut as well: how many there are does not tell.
+  int n_uses = 0;
+  for (TopExp_Explorer it(result, TopAbs_SOLID); it.More(); it.Next()) n_uses += count_kind(it.Current(), TopAbs_FACE);
+  if (n_uses == count_kind(result, TopAbs_FACE)) notice += "; no two solids share a face";
   part.shape = result;
   part.notices.push_back(notice);
   if (!split.empty()) part.notices.push_back(split);

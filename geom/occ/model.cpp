@@ -344,6 +344,11 @@ SurfaceFacets OccModel::facets(int surface) const {
   return translated("the triangles", {2, surface}, [&] { return surfaces_[index(surface)]->facets(); });
 }
 
+std::array<double, 2> OccModel::periods(int surface) const {
+  entity({2, surface});
+  return surfaces_[index(surface)]->periods();
+}
+
 Vec3 OccModel::normal(int surface, Parameters at) const {
   entity({2, surface});
   Vec3 n = Vec3::Zero();

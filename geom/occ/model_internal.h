@@ -15,6 +15,7 @@
 #include "hextwist/geom/facets.h"
 #include "hextwist/geom/occ/curve_internal.h"
 #include "hextwist/geom/occ/surface_internal.h"
+#include "hextwist/geom/periods.h"
 
 namespace hextwist::occ {
 
@@ -33,7 +34,7 @@ struct Known {
 };
 
 /// Whatever OpenCASCADE throws in its members becomes an Error that names the entity.
-class OccModel final : public Model, public KnowsCurvature, public KnowsFacets {
+class OccModel final : public Model, public KnowsCurvature, public KnowsFacets, public KnowsPeriods {
  public:
   /// known: null, then all is computed when it is asked for. Throws Error for what has no finite size.
   OccModel(const TopoDS_Shape& shape, Names names, Known* known = nullptr);
@@ -56,6 +57,7 @@ class OccModel final : public Model, public KnowsCurvature, public KnowsFacets {
   Vec3 point(Owner entity, Parameters at) const override;
   Vec3 tangent(int curve, double t) const override;
   Vec3 normal(int surface, Parameters at) const override;
+  std::array<double, 2> periods(int surface) const override;
   void project(Owner entity, std::span<const Vec3> points, std::span<const Parameters> seeds,
                std::span<Projection> out) const override;
   double curvature(Owner entity, Parameters at) const override;

@@ -45,6 +45,11 @@ class Surface {
   /// Unit vector along dS/du x dS/dv; its limit where that vanishes; zero where there is no limit (tip of a cone).
   Vec3 normal(double u, double v) const;
 
+  /// As KnowsPeriods::periods().
+  std::array<double, 2> periods() const {
+    return {wraps_u_ ? natural_u_.max - natural_u_.min : 0, wraps_v_ ? natural_v_.max - natural_v_.min : 0};
+  }
+
   /// The larger principal curvature; 0 where there is none.
   double curvature(double u, double v) const;
 

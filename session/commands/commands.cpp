@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "hextwist/session/commands/mesh.h"
+
 namespace hextwist {
 namespace {
 
@@ -9,16 +11,17 @@ using Function = void (*)(Execution&);
 
 Function function_of(std::string_view command) {
   static const std::map<std::string_view, Function> functions = {
-      {"block", do_sets},      {"brick", do_create},    {"check", do_check},       {"coarsen", do_coarsen},
-      {"create", do_create},   {"curve", do_entity},    {"cylinder", do_create},   {"delete", do_delete},
-      {"draw", do_draw},       {"exit", do_quit},       {"export", do_export},     {"group", do_group},
-      {"help", do_help},       {"import", do_import},   {"list", do_list},         {"move", do_move},
-      {"node", do_node},       {"nodeset", do_sets},    {"periodic", do_periodic}, {"playback", do_playback},
-      {"project", do_project}, {"quality", do_quality}, {"quit", do_quit},         {"record", do_record},
-      {"redo", do_redo},       {"refine", do_refine},   {"reflect", do_move},      {"reset", do_reset},
-      {"rotate", do_move},     {"scale", do_move},      {"set", do_set},           {"sideset", do_sets},
-      {"sizing", do_sizing},   {"smooth", do_smooth},   {"sphere", do_create},     {"step", do_step},
-      {"surface", do_entity},  {"undo", do_undo},       {"vertex", do_entity},     {"volume", do_entity},
+      {"block", do_sets},        {"brick", do_create},      {"check", do_check},     {"coarsen", do_coarsen},
+      {"create", do_create},     {"curve", do_entity},      {"cylinder", do_create}, {"delete", do_delete},
+      {"draw", do_draw},         {"exit", do_quit},         {"export", do_export},   {"group", do_group},
+      {"help", do_help},         {"import", do_import},     {"list", do_list},       {"move", do_move},
+      {"merge", do_merge},       {"mesh", do_mesh},         {"node", do_node},       {"nodeset", do_sets},
+      {"periodic", do_periodic}, {"playback", do_playback}, {"project", do_project}, {"quality", do_quality},
+      {"quit", do_quit},         {"record", do_record},     {"redo", do_redo},       {"refine", do_refine},
+      {"reflect", do_move},      {"reset", do_reset},       {"rotate", do_move},     {"scale", do_move},
+      {"set", do_set},           {"sideset", do_sets},      {"sizing", do_sizing},   {"smooth", do_smooth},
+      {"sphere", do_create},     {"step", do_step},         {"surface", do_entity},  {"undo", do_undo},
+      {"vertex", do_entity},     {"volume", do_entity},
   };
   return functions.at(command);
 }
@@ -57,7 +60,8 @@ void need_mesh(const Execution& run, std::string_view purpose) {
   if (run.meshed->mesh.n_hexes() > 0) return;
   const std::string from =
       run.state.has_cad
-          ? "there is only CAD: read its mesh ('import mesh \"part.e\"'), all-hexahedral"
+          ? "there is only CAD: read its mesh ('import mesh \"part.e\"'), all-hexahedral, or fill it ('mesh volume "
+            "all')"
           : "read one ('import mesh \"part.e\"', its CAD before it) or make one ('create brick x 10 interval 5')";
   throw Error("there is no mesh " + std::string(purpose) + "; " + from);
 }

@@ -220,7 +220,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"import step \"foo", 13, "this quote is not closed"},
            {"import \"foo.step\"", 8, "expected mesh, exodus"},
            {"import mesh \"a.msh\" \"b\"", 21, "expected snap, no_snap, scale or the end of the command, found \"b\""},
-           {"reset all", 7, "expected block, nodeset, sideset or the end of the command, found 'all'"},
+           {"reset all", 7, "expected mesh, block, nodeset, sideset or the end of the command, found 'all'"},
            {"create sphere radius 0", 22, "radius must be a number above 0"},
            {"create cylinder radius 1", 25, "expected height"},
            {"set glue maybe", 10, "expected auto, on or off"},

@@ -4,6 +4,7 @@
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -14,6 +15,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -155,6 +157,44 @@ OccShape OccShape::vase() {
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(profile, top, axis).Wire()).Face();
   return OccShape(
       std::make_shared<Impl>(BRepPrimAPI_MakeRevol(face, gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))).Shape()));
+}
+
+namespace {
+
+TopoDS_Shape face_of(const std::vector<std::array<double, 2>>& polygon) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const auto& [x, y] : polygon) wire.Add(gp_Pnt(x, y, 0));
+  wire.Close();
+  return BRepBuilderAPI_MakeFace(wire.Wire()).Shape();
+}
+const gp_Ax1 y_axis(gp_Pnt(0, 0, 0), gp_Dir(0, 1, 0));
+/// All the way round without an angle: what is turned by 2 pi and a little less is not closed.
+TopoDS_Shape turn(const TopoDS_Shape& face, double angle) {
+  return angle < 6.28 ? BRepPrimAPI_MakeRevol(face, y_axis, angle).Shape()
+                      : BRepPrimAPI_MakeRevol(face, y_axis).Shape();
+}
+
+}  // namespace
+
+OccShape OccShape::extruded(const std::vector<std::array<double, 2>>& polygon, const Vec3& along) {
+  return OccShape(
+      std::make_shared<Impl>(BRepPrimAPI_MakePrism(face_of(polygon), gp_Vec(along.x(), along.y(), along.z())).Shape()));
+}
+
+OccShape OccShape::turned(const std::vector<std::array<double, 2>>& polygon, double angle) {
+  return OccShape(std::make_shared<Impl>(turn(face_of(polygon), angle)));
+}
+
+OccShape OccShape::turned_disc(double x, double r, double angle) {
+  const gp_Circ circle(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r);
+  const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  return OccShape(std::make_shared<Impl>(turn(BRepBuilderAPI_MakeFace(wire).Shape(), angle)));
+}
+
+OccShape OccShape::together(const std::vector<OccShape>& solids) {
+  std::vector<TopoDS_Shape> shapes;
+  for (const OccShape& solid : solids) shapes.push_back(solid.impl_->shape);
+  return OccShape(std::make_shared<Impl>(compound(shapes)));
 }
 
 OccShape OccShape::two_bricks() {

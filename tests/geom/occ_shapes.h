@@ -2,6 +2,7 @@
 // reached from here, so the tests compile like those of any other layer.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -32,6 +33,13 @@ class OccShape {
   static OccShape loft();
   /// Surface of revolution of a spline that starts on the axis: a pole on a general surface.
   static OccShape vase();
+  /// A polygon of the plane z = 0, moved along a vector.
+  static OccShape extruded(const std::vector<std::array<double, 2>>& polygon, const Vec3& along);
+  /// A polygon (x > 0) or a disc of the plane z = 0, turned about the y axis.
+  static OccShape turned(const std::vector<std::array<double, 2>>& polygon, double angle);
+  static OccShape turned_disc(double x, double r, double angle);
+  /// Solids that only touch.
+  static OccShape together(const std::vector<OccShape>& solids);
   /// Two bricks side by side (separate solids that touch), named in no file.
   static OccShape two_bricks();
   /// The faces of a brick and of a smaller one inside it, each on its own.

@@ -1,0 +1,136 @@
+#include "hextwist/mesh/merge.h"
+
+#include <algorithm>
+#include <map>
+
+#include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
+#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/others.h"
+#include "hextwist/mesh/topology.h"
+#include "hextwist/mesh/validate/validate_parts.h"
+
+namespace hextwist {
+namespace {
+
+/// Two places of a list that name the same node now, and did not before; {-1, -1}: none.
+std::array<Index, 2> collapsed(std::span<const Index> nodes, std::span<const Index> node_now) {
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t b = a + 1; b < nodes.size(); ++b)
+      if (nodes[a] != nodes[b] && node_now[nodes[a]] == node_now[nodes[b]]) return {nodes[a], nodes[b]};
+  return {-1, -1};
+}
+
+/// Throws where a face has more than two hexes that had not before. Returns the number of faces on the skin.
+Index checked_skin(const Mesh& before, const Mesh& now) {
+  struct Use {
+    Quad nodes;
+    Index hex;
+  };
+  std::vector<Use> uses;
+  for (Index h = 0; h < now.n_hexes(); ++h)
+    for (int f = 0; f < n_hex_faces; ++f) {
+      Quad nodes = face_nodes(now.hexes[h], f);
+      std::ranges::sort(nodes);
+      uses.push_back({nodes, h});
+    }
+  std::ranges::stable_sort(uses, {}, &Use::nodes);
+  Index n_skin = 0;
+  for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
+    for (end = i + 1; end < uses.size() && uses[end].nodes == uses[i].nodes; ++end) {
+    }
+    if (end - i == 1) ++n_skin;
+    if (end - i < 3) continue;
+    std::string text = "hexes";
+    for (std::size_t k = i; k < end && k < i + 4; ++k)
+      text += (k == i ? " " : k + 1 == end ? " and " : ", ") + std::to_string(hex_id(before, uses[k].hex));
+    text += " would share one face (nodes";
+    for (const Index n : uses[i].nodes) text += " " + std::to_string(node_id(now, n));
+    throw Error(text + "): merge fewer nodes, or with a smaller tolerance");
+  }
+  return n_skin;
+}
+
+Index n_skin_faces(const Mesh& mesh) {
+  return static_cast<Index>(boundary_sides(faces(mesh)).size());
+}
+
+}  // namespace
+
+MergeResult merge_nodes(const Mesh& mesh, double tolerance, std::span<const std::uint8_t> wanted) {
+  MergeResult result;
+  const Index n = mesh.n_nodes();
+  std::vector<Vec3> places;
+  std::vector<Index> candidates;
+  for (Index i = 0; i < n; ++i)
+    if (wanted.empty() || wanted[i]) {
+      candidates.push_back(i);
+      places.push_back(mesh.points[i]);
+    }
+  std::vector<Index> stays(mesh.points.size());
+  for (Index i = 0; i < n; ++i) stays[i] = i;
+  for (const std::vector<Index>& group : near_points(places, tolerance))
+    for (const Index member : group) stays[candidates[member]] = candidates[group.front()];
+
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    if (const auto [a, b] = collapsed(mesh.hexes[h], stays); a >= 0)
+      throw Error("nodes " + std::to_string(node_id(mesh, a)) + " and " + std::to_string(node_id(mesh, b)) +
+                  " of hex " + std::to_string(hex_id(mesh, h)) + " would become one: the tolerance (" +
+                  short_number(tolerance) + ") is too large for it");
+  if (mesh.others)
+    for (Index e = 0; e < mesh.others->size(); ++e)
+      if (const auto [a, b] = collapsed(mesh.others->nodes_of(e), stays); a >= 0)
+        throw Error("nodes " + std::to_string(node_id(mesh, a)) + " and " + std::to_string(node_id(mesh, b)) + " of " +
+                    other_text(mesh, e) + " would become one");
+
+  std::vector<Index> kept;
+  result.node_now.assign(mesh.points.size(), -1);
+  for (Index i = 0; i < n; ++i)
+    if (stays[i] == i) {
+      result.node_now[i] = static_cast<Index>(kept.size());
+      kept.push_back(i);
+    }
+  for (Index i = 0; i < n; ++i) result.node_now[i] = result.node_now[stays[i]];
+  result.n_gone = n - static_cast<Index>(kept.size());
+  if (result.n_gone == 0) {
+    result.mesh = mesh;
+    return result;
+  }
+  Mesh& out = result.mesh;
+  out = mesh;
+  out.points = items_at(mesh.points, kept);
+  // Ids stay: from now on they have gaps.
+  out.node_ids.clear();
+  for (const Index i : kept) out.node_ids.push_back(node_id(mesh, i));
+  for (Hex& hex : out.hexes)
+    for (Index& node : hex) node = result.node_now[node];
+  for (NodeSet& set : out.node_sets) {
+    for (Index& node : set.nodes) node = result.node_now[node];
+    sort_unique(set.nodes);
+  }
+  out.others = renumbered(mesh.others, result.node_now);
+  for (Field& field : out.fields) {
+    if (field.on != Field::On::node) continue;
+    const auto width = static_cast<std::size_t>(field.components);
+    Index n_differ = 0;
+    for (Index i = 0; i < n; ++i) {
+      if (stays[i] == i) continue;
+      for (std::size_t c = 0; c < width; ++c) {
+        const double own = field.values[i * width + c], other = field.values[stays[i] * width + c];
+        if (own == other || (own != own && other != other)) continue;
+        ++n_differ;
+        break;
+      }
+    }
+    if (n_differ > 0)
+      result.notices.push_back("field \"" + field.name + "\" had other values at " + std::to_string(n_differ) +
+                               (n_differ == 1 ? " node" : " nodes") +
+                               " that became others: those of the lower ids are kept");
+    field.values = items_at(field.values, kept, width);
+  }
+  const Index after = checked_skin(mesh, out);
+  result.n_faces = (n_skin_faces(mesh) - after) / 2;
+  return result;
+}
+
+}  // namespace hextwist
