@@ -1,20 +1,20 @@
-// What one rank has of a mesh: the hexes of its part and some rings of others' hexes around them (its halo).
+// What one part has of a mesh: its own hexes and some rings of others' hexes around them (its halo).
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "hextwist/parts/pass_record.h"
+#include "hextwist/parts/numbering.h"
 #include "hextwist/sizing/plan.h"
 
 namespace hextwist {
 
-/// Hexes of the input mesh that a rank has; what they have become since says which of them it came of.
+/// Hexes of the input mesh that a part has; what they have become since says which of them it came of.
 struct BaseHexes {
-  std::vector<Index> hex, node;    ///< indices in the whole, ascending
-  std::vector<std::uint8_t> ring;  ///< per hex: 0 own, 1 those that share a node with own ones, ...
-  std::vector<int> owner;          ///< per hex
+  std::vector<std::int64_t> hex, node;  ///< ids, ascending
+  std::vector<std::uint8_t> ring;       ///< per hex: 0 own, 1 those that share a node with own ones, ...
+  std::vector<int> owner;               ///< per hex: the part that has it as its own
 };
 
 struct LocalMesh {
@@ -23,28 +23,25 @@ struct LocalMesh {
   BaseHexes base;
   int n_rings = 0;      ///< that are there, and as they are in the whole
   bool is_all = false;  ///< nothing of the mesh lies beyond
+
+  bool is_own(Index hex) const { return base.ring[base_of[hex]] == 0; }
+  int owner(Index hex) const { return base.owner[base_of[hex]]; }
 };
+std::int64_t n_own_hexes(const LocalMesh& local);
 
-/// Precondition: the rank has a hex.
-LocalMesh local_mesh(const MeshedModel& whole, std::span<const int> part_of_hex, int rank, int n_rings);
+/// Takes away all rings beyond these, and their ids.
+void trim(LocalMesh& local, int n_rings, GlobalIds& ids);
 
-/// Takes away all rings beyond these. kept_nodes, kept_hexes: what the nodes and hexes that stay were called.
-void trim(LocalMesh& local, int n_rings, std::vector<Index>& kept_nodes, std::vector<Index>& kept_hexes);
-
-/// A refinement, with its target by indices of the whole input mesh where it names nodes, edges, faces or hexes.
+/// A refinement of what one part has.
 struct Asked {
-  Request request;
+  Request request;  ///< in the numbers of its local mesh
   Approach approach = Approach::trisect;
-  std::vector<Edge> edges;
-  std::vector<Quad> faces;
+  bool is_here = true;  ///< false: nothing of the target is
 };
-/// Throws Error naming what can't be done in parts. before: what is done before it.
-Asked asked_in_parts(const MeshedModel& whole, const Request& request, std::span<const Asked> before);
 
 struct LocalRun {
   std::vector<PassRecord> records;
   bool by_levels = false;
-  Index n_cut = 0;
   std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become
 };
 /// Runs the passes on what is there; the local mesh becomes the result, which is right where what lies beyond the halo

@@ -7,29 +7,12 @@
 #include "hextwist/mesh/entity.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/parts/local_mesh.h"
-#include "hextwist/patch/patch_refine.h"
 #include "hextwist/refine/split.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/loop.h"
-#include "hextwist/sizing/targets.h"
 
 namespace hextwist {
 namespace {
-
-/// Is anything of the target here? What the whole has of it was checked before.
-bool has_target(const MeshedModel& meshed, const Target& target) {
-  if (target.ids.empty()) return false;
-  std::vector<std::string> told;
-  try {
-    if (is_solid(target.kind))
-      solid_target(meshed, target);
-    else
-      sub_element_target(meshed, target, told);
-  } catch (const Error&) {
-    return false;
-  }
-  return true;
-}
 
 /// The passes that made the result of levels: their lineages are kept without parents.
 void record_levels(const Levelling& levelling, const Mesh& input, PassRecorder& recorder) {
@@ -94,17 +77,15 @@ std::vector<std::uint64_t> digests(const LocalMesh& local) {
 }  // namespace
 
 LocalRun run_locally(LocalMesh& local, const Asked& asked) {
-  const Request request =
-      request_in_part(asked.request, local.meshed.mesh, local.base.node, local.base.hex, asked.edges, asked.faces);
   std::vector<std::uint8_t> is_own(local.base_of.size());
   for (std::size_t h = 0; h < is_own.size(); ++h) is_own[h] = local.base.ring[local.base_of[h]] == 0;
   LocalRun run;
   run.by_levels = asked.approach == Approach::levels;
-  if (asked.approach == Approach::uniform || has_target(local.meshed, request.target)) {
+  if (asked.is_here) {
     PassRecorder recorder(is_own);
     Report report;
     const Progress none;
-    State state(local.meshed, request, report, none);
+    State state(local.meshed, asked.request, report, none);
     state.watch = [&](const Lineage& lineage, const Mesh& before) {
       if (!run.by_levels) recorder.record(lineage, before.hexes);
     };

@@ -86,9 +86,40 @@ TEST(InRanks, ids_beyond_two_to_the_31_go_on_from_there) {
   expect_same_file({file.string(), "", "refine hex 5000000000002 5000000000040"}, 3, "random", "--rings 2");
 }
 
+/// Ranks read parts that are there already, each its own; as many as there are, fewer and more.
+TEST(InRanks, parts_that_are_split_already_are_read_by_their_ranks) {
+  const auto folder = test::output_folder();
+  const std::string whole = brick("12 6 5"), commands = "refine hex 3 to 300 by 11";
+  split_file(whole, folder / "split.e", 3, PartitionBy::random);
+  Session session;
+  session.import_mesh(whole);
+  session.run(commands);
+  session.export_mesh(folder / "serial.e");
+  for (const int n : {2, 3, 4}) {
+    const Outcome outcome = run_ranks(n, "'" + (folder / "split.e.3.1").string() + "' -c '" + commands + "' -o '" +
+                                             (folder / "fine.e").string() + "'");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    join_files(part_name(folder / "fine.e", n, 0), folder / "joined.e");
+    EXPECT_EQ(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"), true) << outcome.out;
+  }
+  std::filesystem::remove(folder / "split.e.3.2");
+  const Outcome missing = run_ranks(2, "'" + (folder / "split.e.3.1").string() + "' -c '" + commands + "'");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.err.find("error: rank 1: " + (folder / "split.e.3.2").string() + ": this part of 3 is missing"),
+            std::string::npos)
+      << missing.err;
+}
+TEST(InRanks, hexes_are_shared_out_again_where_one_rank_has_too_many) {
+  expect_same_file({brick("16 6 5"), "", "refine hex 1 to 60 numsplit 1"}, 2, "slabs", "--rings 3");
+  const Outcome outcome = run_ranks(2, "'" + brick("16 6 5") + "' --by slabs --rings 3 -c 'refine surface 1 depth 2'");
+  EXPECT_NE(outcome.out.find("hexes are shared out again by what becomes of them"), std::string::npos) << outcome.out;
+  const std::string load = outcome.out.substr(outcome.out.rfind("the largest part has "));
+  EXPECT_LE(std::stod(load.substr(std::string("the largest part has ").size())), 1.2) << outcome.out;
+}
+
 /// By all kinds of partitions in turn.
 void expect_same_files(const std::vector<Case>& cases, const std::string& more) {
-  std::vector<std::string> by = {"slabs", "ids", "random"};
+  std::vector<std::string> by = {"slabs", "ids", "random", "boxes"};
   if (has_scotch()) by.push_back("scotch");
   std::size_t i = 0;
   for (const Case& each : cases)
