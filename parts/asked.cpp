@@ -36,7 +36,7 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, bool is_first
       refuse("an edge or a face by its number", "numbers are those of the whole mesh");
     if (!is_first)
       refuse("a refinement of nodes or hexes by id after another one", "its ids would be those of a mesh in parts");
-    if (item.kind != RangeItem::Kind::id) continue;
+    if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
     if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
     ids->push_back(item.first);
   }
@@ -50,6 +50,31 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, bool is_first
     for (const RangeTerm& term : filter.terms)
       check_range(term.any_kind ? kind : term.kind, term.range, of_cad, is_first, nullptr);
   }
+}
+
+constexpr std::int64_t most_ids = 1000000;  // of a span
+
+/// Spans of ids of nodes and hexes, id by id: a part has some of them only.
+void spell_out(EntityKind kind, Range& range) {
+  if (kind != EntityKind::node && kind != EntityKind::hex) return;
+  std::vector<RangeItem> items;
+  for (RangeItem& item : range.items) {
+    if (item.kind != RangeItem::Kind::span) {
+      items.push_back(std::move(item));
+      continue;
+    }
+    const std::int64_t step = std::max<std::int64_t>(1, std::abs(item.step));
+    const auto [low, high] = std::minmax(item.first, item.last);
+    if ((high - low) / step >= most_ids) refuse("a span of more than a million ids", "each is looked for");
+    const std::int64_t way = item.last < item.first ? -step : step;
+    for (std::int64_t k = 0; k <= (high - low) / step; ++k) {
+      RangeItem one = item;
+      one.kind = RangeItem::Kind::id;
+      one.first = item.first + k * way;
+      items.push_back(std::move(one));
+    }
+  }
+  range.items = std::move(items);
 }
 
 /// Takes out the ids that are not here. False: none was left.
@@ -138,9 +163,10 @@ PartCommands::PartCommands(std::span<const std::string> texts) {
       if (command.find("size") || command.has("sizing_function"))
         refuse("a size", "how well sizes are met is compared over the whole mesh");
       std::vector<std::int64_t> ids;
-      for (const Item& item : command.items) {
+      for (Item& item : command.items) {
         if (item.is_word || (item.name != "range" && item.name != "which")) continue;
         const bool is_target = item.name == "range";
+        if (is_target) spell_out(item.kind, item.range);
         check_range(item.kind, item.range, is_target && is_cad(item.kind), commands_.empty(),
                     is_target ? &ids : nullptr);
         if (is_mesh(item.kind) && command.find("radius"))

@@ -17,7 +17,7 @@ for n in ${sizes[*]}; do
     for parts in 1 2 4 8; do
       "$programs/hextwist" split whole.e $parts --by boxes -o split.e > /dev/null
       begin=$(date +%s.%N)
-      "${run[@]}" -n $parts "$programs/hextwist-mpi" split.e.$parts.0 --rings 3 -c "$command" -o fine.e > out
+      "${run[@]}" -n $parts "$programs/hextwist-mpi" split.e.$parts.0 --rings 6 -c "$command" -o fine.e > out
       end=$(date +%s.%N)
       read -r mib messages bytes < <(sed -n 's/at most \([0-9]*\) MiB a process; sent \([0-9]*\) messages, \([0-9]*\) bytes/\1 \2 \3/p' out)
       load=$(sed -n 's/the largest part has \([0-9.e+-]*\) times.*/\1/p' out | tail -1)
@@ -28,7 +28,7 @@ for n in ${sizes[*]}; do
     done
   done
   "$programs/hextwist" split whole.e 8 --by boxes -o split.e > /dev/null
-  "$programs/hextwist" refine-in-parts split.e.8.0 --rings 3 -c "refine volume all" -o fine.e |
+  "$programs/hextwist" refine-in-parts split.e.8.0 --rings 6 -c "refine volume all" -o fine.e |
     sed -n "s/^at most/volume all, $n^3, from disk to disk in 8 parts: at most/p"
   rm -f split.e.* fine.e.* whole.e
 done

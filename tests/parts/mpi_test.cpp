@@ -70,7 +70,7 @@ std::string brick(const std::string& interval) {
 }
 
 TEST(InRanks, a_curve_of_a_model_is_refined_by_three_as_by_one) {
-  expect_same_file({model("cam.msh"), model("cam.brep"), "refine curve 1 depth 1"}, 3, "slabs", "--rings 3");
+  expect_same_file({model("cam.msh"), model("cam.brep"), "refine curve 1 depth 1"}, 3, "slabs");
 }
 TEST(InRanks, hexes_of_a_grid_are_refined_by_two_as_by_one) {
   expect_same_file({brick("20 8 6"), "", "refine hex 1 to 400 by 7"}, 2, "ids");
@@ -83,7 +83,7 @@ TEST(InRanks, ids_beyond_two_to_the_31_go_on_from_there) {
   for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.hex_ids.push_back(far + 2 * h);
   const auto file = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "far.e";
   write_mesh(file, mesh, nullptr);
-  expect_same_file({file.string(), "", "refine hex 5000000000002 5000000000040"}, 3, "random", "--rings 2");
+  expect_same_file({file.string(), "", "refine hex 5000000000002 5000000000040"}, 3, "random");
 }
 
 /// Ranks read parts that are there already, each its own; as many as there are, fewer and more.
@@ -110,7 +110,7 @@ TEST(InRanks, parts_that_are_split_already_are_read_by_their_ranks) {
       << missing.err;
 }
 TEST(InRanks, hexes_are_shared_out_again_where_one_rank_has_too_many) {
-  expect_same_file({brick("16 6 5"), "", "refine hex 1 to 60 numsplit 1"}, 2, "slabs", "--rings 3");
+  expect_same_file({brick("16 6 5"), "", "refine hex 1 to 60 numsplit 1"}, 2, "slabs");
   const Outcome outcome = run_ranks(2, "'" + brick("16 6 5") + "' --by slabs --rings 3 -c 'refine surface 1 depth 2'");
   EXPECT_NE(outcome.out.find("hexes are shared out again by what becomes of them"), std::string::npos) << outcome.out;
   const std::string load = outcome.out.substr(outcome.out.rfind("the largest part has "));
@@ -132,7 +132,7 @@ TEST(SlowInRanks, hexes_nodes_and_surfaces_of_a_grid) {
   expect_same_files({{grid, "", "refine hex 1 to 1900 by 13"},
                      {grid, "", "refine node 40 77 900 to 1300"},
                      {grid, "", "refine surface 1 depth 2"}},
-                    "--rings 3");
+                    "");
 }
 TEST(SlowInRanks, all_of_a_grid_and_levels_and_filled_regions) {
   const std::string grid = brick("24 10 8");
@@ -141,12 +141,12 @@ TEST(SlowInRanks, all_of_a_grid_and_levels_and_filled_regions) {
                      {grid, "", "refine hex 1 to 1900 by 17 concave fill"}},
                     "");
 }
-TEST(SlowInRanks, curves_and_surfaces_of_a_model_where_halos_become_wider) {
+TEST(SlowInRanks, curves_and_surfaces_of_a_model) {
   const std::string cam = model("cam.msh"), cad = model("cam.brep");
   expect_same_files({{cam, cad, "refine curve 1"},
                      {cam, cad, "refine vertex 1; refine surface 2"},
                      {cam, cad, "refine surface 3 depth 1; refine surface 1"}},
-                    "--rings 2");
+                    "");
 }
 
 TEST(InRanks, an_error_of_one_is_one_line_with_its_rank_and_nothing_is_written) {
