@@ -120,8 +120,9 @@ int read_in_parts(int argc, char** argv, Options& options) {
       ->take_all()
       ->required();
   app.add_option("-o,--output", options.output, "OUT: parts are written to OUT.N.i")->required();
-  app.add_option("--rings", options.rings, "of hexes of others around a part, to begin with; default and least 6")
-      ->check(CLI::Range(6, 250));
+  app.add_option("--rings", options.rings,
+                 "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")
+      ->check(CLI::Range(1, 250));
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.in_parts = true;
   if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;

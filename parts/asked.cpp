@@ -26,19 +26,18 @@ void check_criterion(const Criterion& criterion, EntityKind kind) {
   for (const Criterion& operand : criterion.operands) check_criterion(operand, kind);
 }
 
-/// Refuses what a part can't find out by itself, and collects ids. is_first: no refinement came before.
-void check_range(EntityKind kind, const Range& range, bool of_cad, bool is_first, std::vector<std::int64_t>* ids) {
+/// Refuses what a part can't find out by itself, and collects ids.
+void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids) {
   const auto names_mesh = is_mesh(kind);
   for (const RangeItem& item : range.items) {
     if (item.kind == RangeItem::Kind::all || item.kind == RangeItem::Kind::within || !names_mesh) continue;
     if (item.kind == RangeItem::Kind::at) refuse("what is nearest to a point", "it may lie in any part");
     if (kind == EntityKind::edge || kind == EntityKind::face)
       refuse("an edge or a face by its number", "numbers are those of the whole mesh");
-    if (!is_first)
-      refuse("a refinement of nodes or hexes by id after another one", "its ids would be those of a mesh in parts");
     if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
     if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
-    ids->push_back(item.first);
+    // Of a span some may be missing, as to a single process; its ends show that it does not go beyond what there is.
+    ids->push_back({item.first, item.step == 0});
   }
   if (of_cad && !is_cad(kind)) refuse("a choice of CAD entities by the mesh", "a part does not see all of that");
   for (const RangeFilter& filter : range.filters) {
@@ -48,13 +47,13 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, bool is_first
       refuse("a choice of the largest or smallest", "values are compared over the whole mesh");
     if (filter.kind == RangeFilter::Kind::with) check_criterion(filter.criterion, kind);
     for (const RangeTerm& term : filter.terms)
-      check_range(term.any_kind ? kind : term.kind, term.range, of_cad, is_first, nullptr);
+      check_range(term.any_kind ? kind : term.kind, term.range, of_cad, nullptr);
   }
 }
 
 constexpr std::int64_t most_ids = 1000000;  // of a span
 
-/// Spans of ids of nodes and hexes, id by id: a part has some of them only.
+/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Those within have a step of 0.
 void spell_out(EntityKind kind, Range& range) {
   if (kind != EntityKind::node && kind != EntityKind::hex) return;
   std::vector<RangeItem> items;
@@ -63,14 +62,13 @@ void spell_out(EntityKind kind, Range& range) {
       items.push_back(std::move(item));
       continue;
     }
-    const std::int64_t step = std::max<std::int64_t>(1, std::abs(item.step));
-    const auto [low, high] = std::minmax(item.first, item.last);
-    if ((high - low) / step >= most_ids) refuse("a span of more than a million ids", "each is looked for");
-    const std::int64_t way = item.last < item.first ? -step : step;
-    for (std::int64_t k = 0; k <= (high - low) / step; ++k) {
+    const std::int64_t last = (item.last - item.first) / item.step;
+    if (last >= most_ids) refuse("a span of more than a million ids", "each is looked for");
+    for (std::int64_t k = 0; k <= last; ++k) {
       RangeItem one = item;
       one.kind = RangeItem::Kind::id;
-      one.first = item.first + k * way;
+      one.first = one.last = item.first + k * item.step;
+      one.step = k == 0 || k == last ? 1 : 0;
       items.push_back(std::move(one));
     }
   }
@@ -162,13 +160,12 @@ PartCommands::PartCommands(std::span<const std::string> texts) {
       if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
       if (command.find("size") || command.has("sizing_function"))
         refuse("a size", "how well sizes are met is compared over the whole mesh");
-      std::vector<std::int64_t> ids;
+      std::vector<NamedId> ids;
       for (Item& item : command.items) {
         if (item.is_word || (item.name != "range" && item.name != "which")) continue;
         const bool is_target = item.name == "range";
         if (is_target) spell_out(item.kind, item.range);
-        check_range(item.kind, item.range, is_target && is_cad(item.kind), commands_.empty(),
-                    is_target ? &ids : nullptr);
+        check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
         if (is_mesh(item.kind) && command.find("radius"))
           refuse("a radius around nodes or hexes", "they may lie in any part");
       }
@@ -185,7 +182,7 @@ int PartCommands::depth() const {
   return deepest;
 }
 
-PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, bool has_cad) const {
+PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& ids, bool has_cad) const {
   PartAsked result;
   result.asked.is_here = false;
   Session session;
@@ -194,14 +191,13 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, bool has_cad) con
   core.state.has_cad = has_cad;
   Command command = commands_[i];
   Mesh& mesh = local.meshed.mesh;
-  // Ids are known as long as nothing was refined.
-  const bool has_ids = i == 0;
-  if (has_ids) mesh.node_ids = local.base.node, mesh.hex_ids = local.base.hex;
+  mesh.node_ids = ids.node;
+  mesh.hex_ids = ids.hex;
   bool is_any_left = true;
   result.has_id.reserve(ids_[i].size());
   for (Item& item : command.items) {
     if (item.is_word || item.name != "range") continue;
-    for (const std::int64_t id : ids_[i])
+    for (const auto& [id, may_be_missing] : ids_[i])
       result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, id) : find_hex(mesh, id)) >= 0);
     is_any_left = is_any_left && keep_ids_here(mesh, item.kind, item.range);
   }
@@ -232,9 +228,9 @@ void PartCommands::check(std::size_t i, bool is_anywhere, const std::string& not
                          std::span<const Approach> before) const {
   if (!wrong.empty()) throw Error(wrong);
   for (std::size_t k = 0; k < has_id.size(); ++k)
-    if (has_id[k] == 0)
+    if (has_id[k] == 0 && !ids_[i][k].may_be_missing)
       throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
-                  std::to_string(ids_[i][k]));
+                  std::to_string(ids_[i][k].id));
   if (!is_anywhere) throw Error(nothing);
   if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))
     refuse("a second level", "it is made from the mesh before the first; 'numsplit 2' or 'transition nested' can be");

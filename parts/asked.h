@@ -18,6 +18,12 @@ struct PartAsked {
   std::vector<std::int64_t> has_id;  ///< per id that the command names: 1 where it is here
 };
 
+/// A node or hex that a command names.
+struct NamedId {
+  std::int64_t id;
+  bool may_be_missing;
+};
+
 class PartCommands {
  public:
   /// Refinements, separated by ';'. Throws Error for any other command and what is not done in parts.
@@ -25,8 +31,9 @@ class PartCommands {
   std::size_t size() const { return commands_.size(); }
   /// The deepest layers that are asked for.
   int depth() const;
-  /// Of command i. has_cad: the model is no skin. The mesh of `local` is as it was afterwards.
-  PartAsked asked(std::size_t i, LocalMesh& local, bool has_cad) const;
+  /// Of command i. ids: of all that is there. has_cad: the model is no skin. The mesh of `local` is as it was
+  /// afterwards.
+  PartAsked asked(std::size_t i, LocalMesh& local, const GlobalIds& ids, bool has_cad) const;
   /// What all parts have to say of command i, summed or chosen: throws Error where it can't be done. approach: the
   /// largest of those of parts that have something to do; before: those of the commands before.
   void check(std::size_t i, bool is_anywhere, const std::string& nothing, const std::string& wrong,
@@ -35,7 +42,7 @@ class PartCommands {
  private:
   bool cuts_levels(std::size_t i, Approach approach) const;
   std::vector<Command> commands_;
-  std::vector<std::vector<std::int64_t>> ids_;  // that command i names one by one
+  std::vector<std::vector<NamedId>> ids_;  // that command i names one by one
 };
 
 }  // namespace hextwist

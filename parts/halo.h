@@ -1,6 +1,7 @@
 // Which hexes of others lie around a part: its halo.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -33,6 +34,10 @@ class HaloSearch {
   };
   /// One ring more around each other part. told: by others after the ring before. Returns what to tell each part.
   std::vector<std::vector<Reached>> next_ring(std::span<const Reached> told);
+  /// Whether there may be a ring more; told or not.
+  bool goes_on() const {
+    return std::ranges::any_of(around_, [](const Around& around) { return !around.front.empty(); });
+  }
   /// The hexes that lie in the rings of another part so far, ascending.
   std::vector<Index> hexes_around(int other) const;
 
@@ -56,7 +61,7 @@ struct HaloPiece {
 };
 
 /// A part and what lies around it, in the order of the whole. own and the pieces have their ids. Of the pieces only
-/// what lies in these rings is taken. n_hexes: of the whole mesh.
+/// what lies in these rings is taken; all_rings: everything. n_hexes: of the whole mesh.
 LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPiece> pieces, int n_rings,
                      std::int64_t n_hexes);
 

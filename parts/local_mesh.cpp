@@ -1,6 +1,7 @@
 #include "hextwist/parts/local_mesh.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -17,12 +18,18 @@ void trim(LocalMesh& local, int n_rings, GlobalIds& ids) {
   const Index n = local.meshed.mesh.n_hexes();
   const std::vector<Index> stay =
       indices_where(n, [&](Index h) { return local.base.ring[local.base_of[h]] <= n_rings; });
-  if (std::ssize(stay) == n) return;
-  Patch patch = make_patch(local.meshed, stay);
-  local.base_of = items_at(local.base_of, patch.hexes);
-  local.meshed = std::move(patch.meshed);
-  ids.node = items_at(ids.node, patch.nodes);
-  ids.hex = items_at(ids.hex, patch.hexes);
+  if (std::ssize(stay) < n) {
+    Patch patch = make_patch(local.meshed, stay);
+    local.base_of = items_at(local.base_of, patch.hexes);
+    local.meshed = std::move(patch.meshed);
+    ids.node = items_at(ids.node, patch.nodes);
+    ids.hex = items_at(ids.hex, patch.hexes);
+  }
+  // All else rests on this: rules of refining compare numbers, which must be in the order of those of the whole.
+  const auto ascend = [](const std::vector<std::int64_t>& list) {
+    return (list.empty() || list[0] > 0) && std::ranges::adjacent_find(list, std::greater_equal()) == list.end();
+  };
+  if (!ascend(ids.node) || !ascend(ids.hex)) throw Error("a part has come out of the order of ids");
 }
 
 }  // namespace hextwist

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hextwist/parts/numbering.h"
@@ -21,7 +22,7 @@ struct LocalMesh {
   MeshedModel meshed;          ///< in the order of the whole, ids left out
   std::vector<Index> base_of;  ///< per hex: position in base.hex
   BaseHexes base;
-  int n_rings = 0;      ///< that are there, and as they are in the whole
+  int n_rings = 0;      ///< that are there, as they are in the whole and with their ids
   bool is_all = false;  ///< nothing of the mesh lies beyond
 
   bool is_own(Index hex) const { return base.ring[base_of[hex]] == 0; }
@@ -29,7 +30,7 @@ struct LocalMesh {
 };
 std::int64_t n_own_hexes(const LocalMesh& local);
 
-/// Takes away all rings beyond these, and their ids.
+/// Takes away all rings beyond these, and their ids. Throws Error where what stays is not in the order of ids.
 void trim(LocalMesh& local, int n_rings, GlobalIds& ids);
 
 /// A refinement of what one part has.
@@ -42,10 +43,12 @@ struct Asked {
 struct LocalRun {
   std::vector<PassRecord> records;
   bool by_levels = false;
-  std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become
+  std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become, and how
+  std::string by_whole;               ///< what was decided by all that is here at once; empty: nothing was
+  std::string wrong;                  ///< why the part's own hexes are no good; empty: they are, if all parts agree
 };
 /// Runs the passes on what is there; the local mesh becomes the result, which is right where what lies beyond the halo
-/// has no say. Throws Error where the result is no good, or depends on the whole.
+/// has no say (agree.h).
 LocalRun run_locally(LocalMesh& local, const Asked& asked);
 
 }  // namespace hextwist

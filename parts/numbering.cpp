@@ -7,8 +7,6 @@
 namespace hextwist {
 namespace {
 
-using Kind = PassRecord::Kind;
-
 std::vector<Run> runs_at(std::span<const BroughtBy> rows, std::span<const std::int64_t> ids) {
   std::vector<Run> runs;
   for (const BroughtBy& row : rows) add_key(runs, ids[row.old], {row.n, row.n_children});
@@ -27,42 +25,9 @@ void for_each_start(std::span<const BroughtBy> rows, std::span<const Run> runs, 
 
 }  // namespace
 
-PassKinds kinds_of(std::span<const PassRecord> records) {
-  const auto first_other = std::ranges::find_if(records, [](const auto& r) { return r.kind != Kind::enclose; });
-  PassKinds kinds;
-  kinds.n_enclose = first_other - records.begin();
-  kinds.n_rest = std::ssize(records) - kinds.n_enclose;
-  kinds.is_simple = std::all_of(first_other, records.end(), [](const auto& r) { return r.kind != Kind::enclose; });
-  return kinds;
-}
-
-Turns turns_of(std::span<const PassKinds> all) {
-  std::int64_t most_enclose = 0, most_rest = 0, most = 0;
-  for (const PassKinds& each : all) {
-    most_enclose = std::max(most_enclose, each.n_enclose);
-    most_rest = std::max(most_rest, each.n_rest);
-    most = std::max(most, each.n_enclose + each.n_rest);
-  }
-  // A part that has only passes of one kind may have done without the others; in other orders nobody can tell.
-  const bool is_regular_order = std::ranges::all_of(all, [&](const PassKinds& each) {
-    return each.n_enclose + each.n_rest == 0 || (each.is_simple && (each.n_rest == most_rest || each.n_rest == 0));
-  });
-  if (is_regular_order) return {most_enclose + most_rest, most_enclose};
-  const bool is_same = std::ranges::all_of(all, [&](const PassKinds& each) {
-    return each.n_enclose + each.n_rest == 0 || each.n_enclose + each.n_rest == most;
-  });
-  if (!is_same)
-    throw Error(
-        "the passes of this refinement depend on places far from each other, so parts can't make them alone; "
-        "run it with one rank");
-  return {most, -1};
-}
-
-std::int64_t Turns::pass_at(const PassKinds& mine, std::int64_t turn) const {
-  const std::int64_t n_mine = mine.n_enclose + mine.n_rest;
-  if (n_enclose < 0 || turn < mine.n_enclose) return turn < n_mine ? turn : -1;
-  const std::int64_t pass = turn - n_enclose + mine.n_enclose;
-  return turn >= n_enclose && pass < n_mine ? pass : -1;
+const PassRecord* pass_at(std::span<const PassRecord> records, const Turn& turn) {
+  const auto found = std::ranges::find(records, turn, &PassRecord::turn);
+  return found == records.end() ? nullptr : &*found;
 }
 
 RunLists brought_by(const PassRecord& record, const GlobalIds& ids) {

@@ -19,23 +19,8 @@ struct GlobalIds {
   std::int64_t highest_node = 0, highest_hex = 0;  ///< in the whole
 };
 
-/// The passes of one part, as far as their order among those of all parts goes.
-struct PassKinds {
-  std::int64_t n_enclose = 0, n_rest = 0;  ///< enclosing ones at the beginning; what comes then
-  std::int64_t is_simple = 1;              ///< no enclosing one comes later
-};
-PassKinds kinds_of(std::span<const PassRecord> records);
-
-/// When passes are made, among those of all parts: those that enclose come before one that trisects, and parts that had
-/// fewer of the former wait.
-struct Turns {
-  std::int64_t n = 0;
-  std::int64_t n_enclose = -1;  ///< turns of enclosing passes; -1: all parts have the same passes
-  /// Of a part with these passes: the place of its pass in this turn, -1 where it has none.
-  std::int64_t pass_at(const PassKinds& mine, std::int64_t turn) const;
-};
-/// Throws Error where passes of parts can't be brought into one order.
-Turns turns_of(std::span<const PassKinds> all);
+/// The pass that a part makes at this turn. Null: it makes none.
+const PassRecord* pass_at(std::span<const PassRecord> records, const Turn& turn);
 
 /// What brings something: the lower nodes of edges, the lowest ones of faces, hexes.
 inline constexpr std::size_t n_bringers = 3;

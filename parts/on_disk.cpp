@@ -77,13 +77,13 @@ class SharedNodes {
 };
 
 /// What one part's passes of a command brought, turn by turn.
-struct Turn {
-  std::int64_t pass = -1;
+struct Brought {
+  Turn turn;
   RunLists runs;
   PassSums sums;
 };
 struct Numbered {
-  std::vector<Turn> turns;
+  std::vector<Brought> turns;
   bool by_levels = false;
   std::int64_t before = 0, n_survivors = 0;
   std::vector<Run> survivors;
@@ -92,7 +92,7 @@ struct Numbered {
 
 /// A command that all parts have done.
 struct Done {
-  int alike = 0;
+  int n_rings = 0;  ///< that stay
   Approach approach = Approach::trisect;
   std::vector<Numbered> of_part;
 };
@@ -105,7 +105,7 @@ std::vector<std::byte> packed_state(const GlobalIds& ids, const std::vector<Pass
   to.value(ids.highest_hex);
   to.value(records.size());
   for (const PassRecord& record : records) {
-    to.value(record.kind);
+    to.value(record.turn);
     for (const Index n : {record.n_old_nodes, record.n_old_hexes, record.n_nodes, record.n_hexes}) to.value(n);
     to.list(record.edges);
     to.list(record.faces);
@@ -122,7 +122,7 @@ void unpack_state(std::span<const std::byte> bytes, GlobalIds& ids, std::vector<
   ids.highest_hex = from.value<std::int64_t>();
   records.resize(from.value<std::size_t>());
   for (PassRecord& record : records) {
-    record.kind = from.value<PassRecord::Kind>();
+    record.turn = from.value<Turn>();
     for (Index* n : {&record.n_old_nodes, &record.n_old_hexes, &record.n_nodes, &record.n_hexes})
       *n = from.value<Index>();
     from.list(record.edges);
@@ -142,7 +142,7 @@ class OnDisk {
         aside_(options.folder.empty() ? output.parent_path() : options.folder) {
     if (split_.n_parts == 0)
       throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...; 'hextwist split' makes them");
-    n_rings_ = std::min(options.n_rings + commands.depth(), most_rings);
+    n_rings_ = first_rings(options.n_rings, commands.depth(), commands.size());
   }
 
   void run(const std::filesystem::path& output) {
@@ -153,7 +153,9 @@ class OnDisk {
       lines_.clear();
       is_done = refine_all();
       if (!is_done) {
-        if (n_rings_ == most_rings) throw Error("parts can't be brought to agree about hexes between them");
+        if (n_rings_ == most_rings)
+          throw Error("what is cut depends on places more than " + std::to_string(most_rings) +
+                      " hexes away; run it with hextwist");
         n_rings_ = std::min(2 * n_rings_, most_rings);
         say_("what is cut depends on places far away: halos of " + counted(n_rings_, "ring") + " are needed");
       }
@@ -364,16 +366,16 @@ class OnDisk {
     ids = {local.base.node, local.base.hex, highest_node_, highest_hex_};
     for (std::size_t i = 0; i < n_commands; ++i) {
       const Done& done = done_[i];
-      PartAsked mine = commands_.asked(i, local, false);
+      PartAsked mine = commands_.asked(i, local, ids, false);
       mine.asked.approach = done.approach;
-      const LocalRun run = run_locally(local, mine.asked);
+      LocalRun run = run_locally(local, mine.asked);
+      for (PassRecord& record : run.records) keep_rings(record, done.n_rings);
       const Numbered& numbered = done.of_part[p];
-      for (const Turn& turn : numbered.turns)
-        number_pass(turn.pass < 0 ? nullptr : &run.records[static_cast<std::size_t>(turn.pass)], turn.runs, turn.sums,
-                    ids);
+      for (const Brought& brought : numbered.turns)
+        number_pass(pass_at(run.records, brought.turn), brought.runs, brought.sums, ids);
       if (numbered.by_levels)
         number_survivors(numbered.before, numbered.survivors, numbered.starts, numbered.n_survivors, ids);
-      trim(local, done.alike, ids);
+      trim(local, done.n_rings, ids);
     }
     return local;
   }
@@ -385,8 +387,8 @@ class OnDisk {
       done.of_part.resize(static_cast<std::size_t>(n_parts()));
       std::vector<HaloMade> halo(done.of_part.size());
       std::vector<std::vector<Made>> made(done.of_part.size());
-      std::vector<PassKinds> kinds(done.of_part.size());
-      std::string nothing, wrong;
+      std::vector<Turn> turns;
+      std::string nothing, wrong, by_whole, fault;
       std::vector<std::int64_t> has_id;
       bool is_anywhere = false, by_levels = false, is_all = true;
       int has_rings = most_rings;
@@ -399,7 +401,7 @@ class OnDisk {
         n_before += n_own_hexes(local);
         has_rings = std::min(has_rings, local.n_rings);
         is_all = is_all && local.is_all;
-        PartAsked mine = commands_.asked(i, local, false);
+        PartAsked mine = commands_.asked(i, local, ids, false);
         if (!mine.wrong.empty()) wrong = mine.wrong;
         if (nothing.empty()) nothing = mine.nothing;
         has_id.resize(mine.has_id.size(), 0);
@@ -416,7 +418,9 @@ class OnDisk {
           throw Error(in_part(error.what()));
         }
         by_levels = by_levels || run.by_levels;
-        kinds[p] = kinds_of(run.records);
+        for (const PassRecord& record : run.records) turns.push_back(record.turn);
+        if (by_whole.empty()) by_whole = run.by_whole;
+        if (fault.empty() && !run.wrong.empty()) fault = in_part(run.wrong);
         halo[p] = made_of_halo(local, run.digest, n_parts());
         for (std::size_t b = 0; b < local.base.hex.size() && n_parts() > 1; ++b)
           if (local.base.ring[b] == 0) made[p].push_back({local.base.hex[b], run.digest[b]});
@@ -428,14 +432,16 @@ class OnDisk {
       }
       commands_.check(i, is_anywhere, nothing, wrong, has_id, done.approach, approaches);
       approaches.push_back(done.approach);
-      done.alike = rings_alike(halo, made, has_rings);
+      const int alike = rings_alike(halo, made, has_rings);
       halo.clear();
       made.clear();
-      if (done.alike < std::min(least_rings, has_rings)) {
-        if (is_all) throw Error("parts can't be brought to agree about hexes between them");
-        return false;
-      }
-      number(done, kinds, by_levels);
+      const Verdict verdict = verdict_of(alike, has_rings, by_whole, is_all);
+      if (verdict == Verdict::needs_all)
+        throw Error(by_whole + ", so parts can't do it one after the other; run it with hextwist or hextwist-mpi");
+      if (verdict == Verdict::too_narrow) return false;
+      if (!fault.empty()) throw Error(fault);
+      done.n_rings = rings_to_keep(alike, is_all);
+      number(done, sorted_unique(std::move(turns)), by_levels);
       done_.push_back(std::move(done));
       lines_.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
                        counted(n_parts(), "part") + " of at most " + std::to_string(largest));
@@ -474,20 +480,20 @@ class OnDisk {
     }
   }
 
-  void number(Done& done, const std::vector<PassKinds>& kinds, bool by_levels) {
-    const Turns turns = turns_of(kinds);
+  void number(Done& done, const std::vector<Turn>& turns, bool by_levels) {
     const auto n = static_cast<std::size_t>(n_parts());
     const auto with_state = [&](std::size_t p, const auto& use, bool keep) {
       GlobalIds ids;
       std::vector<PassRecord> records;
       const auto file = aside_.file("state", static_cast<int>(p));
       unpack_state(read_all_bytes(file), ids, records);
+      for (PassRecord& record : records) keep_rings(record, done.n_rings);
       use(ids, records);
       if (keep) write_bytes(file, packed_state(ids, records));
     };
     std::int64_t before = 0;
-    for (std::int64_t t = 0; t <= turns.n; ++t) {
-      const bool is_last = t == turns.n;
+    for (std::size_t t = 0; t <= turns.size(); ++t) {
+      const bool is_last = t == turns.size();
       if (is_last && !by_levels) break;
       std::vector<RunLists> runs(n);
       for (std::size_t p = 0; p < n; ++p)
@@ -496,19 +502,17 @@ class OnDisk {
             [&](GlobalIds& ids, const std::vector<PassRecord>& records) {
               if (t == 0) before = ids.highest_hex;
               if (t > 0) {
-                const Turn& last = done.of_part[p].turns.back();
-                number_pass(last.pass < 0 ? nullptr : &records[static_cast<std::size_t>(last.pass)], last.runs,
-                            last.sums, ids);
+                const Brought& last = done.of_part[p].turns.back();
+                number_pass(pass_at(records, last.turn), last.runs, last.sums, ids);
               }
               if (is_last) {
                 runs[p][2] = survivors(before, ids);
                 return;
               }
-              Turn turn;
-              turn.pass = turns.pass_at(kinds[p], t);
-              if (turn.pass >= 0) turn.runs = brought_by(records[static_cast<std::size_t>(turn.pass)], ids);
-              runs[p] = turn.runs;
-              done.of_part[p].turns.push_back(std::move(turn));
+              Brought brought{turns[t], {}, {}};
+              if (const PassRecord* record = pass_at(records, turns[t])) brought.runs = brought_by(*record, ids);
+              runs[p] = brought.runs;
+              done.of_part[p].turns.push_back(std::move(brought));
             },
             t > 0 && !is_last);
       std::vector<PassSums> sums;

@@ -28,12 +28,14 @@ constexpr double perfect = 0.9999;
 
 }  // namespace
 
-std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish) {
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
+                                  bool& had_to) {
   Mesh& mesh = refined.mesh;
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
   const std::vector<Index> hexes = touching_hexes(mesh.hexes, is_new);
-  if (hexes_below(mesh, lift_below, hexes).empty()) return {};
+  had_to = !hexes_below(mesh, lift_below, hexes).empty();
+  if (!had_to) return {};
 
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });

@@ -13,6 +13,7 @@ inline constexpr double lift_below = 0.3;
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
 /// nodes on curves and those of cubes stay. In the end, once: passes to come cut hexes as
 /// the templates made them. Returns the nodes that moved, ascending.
-std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish);
+std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
+                                  bool& had_to);
 
 }  // namespace hextwist

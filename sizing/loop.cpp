@@ -36,19 +36,19 @@ void State::run(Technique& technique) {
   while (std::optional<Cut> cut = technique.next(*this)) {
     if (cut->cuts_again) smooth_between_passes();
     const bool is_first = current_ == &input;
-    const MeshedModel before = pass(std::move(*cut));
+    const MeshedModel before = pass(*cut);
     technique.follow(lineage_, is_first ? input.mesh : before.mesh, mesh());
   }
   if (current_ == &input) keep();
   technique.finish(*this);
 }
 
-MeshedModel State::pass(Cut cut) {
+MeshedModel State::pass(const Cut& cut) {
   ++n_passes_;
   const MeshedModel& from = *current_;
   check_others(from.mesh, *cut.table, cut.codes);
   begin("split");
-  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(cut.table), cut.codes);
+  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), cut.table, cut.codes);
   begin("carry");
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
@@ -64,15 +64,16 @@ MeshedModel State::pass(Cut cut) {
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     }
     begin("improve");
-    bool stopped = false;
+    bool stopped = false, had_to = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
       return !stopped;
     };
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
                                       with_inner_nodes(next.mesh, next.association, request.finish.fixed), keep_going,
-                                      request.finish.keep_jumps),
+                                      request.finish.keep_jumps, &had_to),
                       std::back_inserter(report.off_nodes));
+    if (had_to) report.by_whole = repaired_together;
     if (stopped) throw Cancelled();
   }
   const std::vector<Index>& parent = parts.lineage.parent;
@@ -84,7 +85,7 @@ MeshedModel State::pass(Cut cut) {
   result_.came_from = {};
   result_.old_node = {};
   lineage_ = std::move(parts.lineage);
-  if (watch) watch(lineage_, from.mesh);
+  if (watch) watch(lineage_, from.mesh, cut);
   current_ = &result_.refined;
   return std::exchange(result_.refined, std::move(next));
 }
@@ -216,7 +217,9 @@ void State::close() {
     std::vector<Index> nodes = new_nodes();
     if (const auto& periodic = request.finish.periodic)
       nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish);
+    bool had_to = false;
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, had_to);
+    if (had_to) report.by_whole = lifted_together;
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }

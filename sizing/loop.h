@@ -12,6 +12,11 @@
 
 namespace hextwist {
 
+/// Report::by_whole.
+inline constexpr const char* repaired_together = "inverted hexes are repaired together";
+inline constexpr const char* lifted_together = "low hexes are lifted together";
+inline constexpr const char* enclosed_together = "nodes where targets meet are enclosed one after the other";
+
 /// A mesh on its way through the passes of a request.
 class State {
  public:
@@ -38,7 +43,7 @@ class State {
   void note(std::string line) { report.notices.push_back(std::move(line)); }
 
   /// Called after every pass of a technique with what it did to the mesh before. May be empty.
-  std::function<void(const Lineage&, const Mesh& before)> watch;
+  std::function<void(const Lineage&, const Mesh& before, const Cut&)> watch;
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
   void run(Technique& technique);
@@ -60,7 +65,7 @@ class State {
 
  private:
   /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one.
-  MeshedModel pass(Cut cut);
+  MeshedModel pass(const Cut& cut);
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();

@@ -27,8 +27,9 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
          "a split mesh stay what they are where there are as many as processes, or go by boxes")
       ->check(CLI::IsMember({"scotch", "boxes", "slabs", "ids", "random"}));
   app.add_flag("--no-rebalance", options.fixed, "leave hexes where they are, however many each becomes");
-  app.add_option("--rings", options.rings, "of hexes of others around a part, to begin with; default and least 6")
-      ->check(CLI::Range(6, 250));
+  app.add_option("--rings", options.rings,
+                 "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")
+      ->check(CLI::Range(1, 250));
   app.add_option("--threads", options.threads, "threads of each process; default 1; 0: all")
       ->check(CLI::Range(0, 1024));
   app.set_version_flag("--version", "hextwist-mpi " HEXTWIST_VERSION);

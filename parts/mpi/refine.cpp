@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <optional>
 
 #include "hextwist/base/sorted.h"
@@ -16,6 +17,12 @@
 namespace hextwist {
 namespace {
 
+std::vector<Index> all_of(Index n) {
+  std::vector<Index> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 /// The part with its halo.
 LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
   const Mesh& mesh = part.own.mesh;
@@ -25,14 +32,16 @@ LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
   {
     HaloSearch search(mesh, ranks.rank(), ranks.size(), at_others(ranks, mesh, skin));
     std::vector<HaloSearch::Reached> told;
-    for (int ring = 1; ring <= n_rings; ++ring) {
+    for (int ring = 1; ring <= n_rings && n_rings < all_rings; ++ring) {
       const auto from = ranks.exchange(search.next_ring(told));
       told.clear();
       for (const auto& list : from) told.insert(told.end(), list.begin(), list.end());
+      if (ranks.largest(!told.empty() || search.goes_on()) == 0) break;
     }
     ranks.together([&] {
       for (int other = 0; other < ranks.size(); ++other) {
         std::vector<Index> hexes = search.hexes_around(other);
+        if (n_rings == all_rings && other != ranks.rank()) hexes = all_of(mesh.n_hexes());
         if (hexes.empty()) continue;
         Patch patch = make_patch(part.own, std::move(hexes));
         set_ids(mesh, patch, patch.meshed.mesh);
@@ -69,17 +78,19 @@ int rings_alike(Ranks& ranks, const LocalMesh& local, std::span<const std::uint6
   return alike;
 }
 
+/// The text of the first rank that has one.
+std::string first_text(Ranks& ranks, const std::string& text) {
+  const auto first = static_cast<int>(ranks.least(text.empty() ? ranks.size() : ranks.rank()));
+  return first == ranks.size() ? std::string() : ranks.text_of(first, text);
+}
+
 /// What all ranks make of a command together.
-Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMesh& local, bool has_cad,
-             std::vector<Approach>& before) {
+Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMesh& local, const GlobalIds& ids,
+             bool has_cad, std::vector<Approach>& before) {
   PartAsked mine;
-  ranks.together([&] { mine = commands.asked(i, local, has_cad); });
+  ranks.together([&] { mine = commands.asked(i, local, ids, has_cad); });
   const bool is_here = mine.asked.is_here;
-  const auto text_of_first = [&](const std::string& text) {
-    const auto first = static_cast<int>(ranks.least(text.empty() ? ranks.size() : ranks.rank()));
-    return first == ranks.size() ? std::string() : ranks.text_of(first, text);
-  };
-  const std::string wrong = text_of_first(mine.wrong), nothing = text_of_first(mine.nothing);
+  const std::string wrong = first_text(ranks, mine.wrong), nothing = first_text(ranks, mine.nothing);
   const auto approach =
       static_cast<Approach>(ranks.largest(is_here ? static_cast<std::int64_t>(mine.asked.approach) : 0));
   const bool is_anywhere = ranks.largest(is_here) != 0;
@@ -89,16 +100,22 @@ Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMes
   return std::move(mine.asked);
 }
 
+/// The turns of all ranks, in their order.
+std::vector<Turn> all_turns(Ranks& ranks, std::span<const PassRecord> records) {
+  std::vector<Turn> mine, all;
+  for (const PassRecord& record : records) mine.push_back(record.turn);
+  for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
+    const std::size_t before = all.size();
+    all.resize(before + bytes.size() / sizeof(Turn));
+    if (!bytes.empty()) std::memcpy(&all[before], bytes.data(), bytes.size());
+  }
+  return sorted_unique(std::move(all));
+}
+
 void number(Ranks& ranks, const LocalRun& run, GlobalIds& ids) {
-  const PassKinds mine = kinds_of(run.records);
-  std::vector<PassKinds> all;
-  for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(&mine, 1))))
-    std::memcpy(&all.emplace_back(), bytes.data(), sizeof(PassKinds));
-  const Turns turns = turns_of(all);
   const std::int64_t before = ids.highest_hex;
-  for (std::int64_t turn = 0; turn < turns.n; ++turn) {
-    const std::int64_t pass = turns.pass_at(mine, turn);
-    const PassRecord* record = pass < 0 ? nullptr : &run.records[static_cast<std::size_t>(pass)];
+  for (const Turn& turn : all_turns(ranks, run.records)) {
+    const PassRecord* record = pass_at(run.records, turn);
     RunLists runs;
     if (record) runs = brought_by(*record, ids);
     const PassSums sums = sums_of(ranks, runs);
@@ -110,9 +127,15 @@ void number(Ranks& ranks, const LocalRun& run, GlobalIds& ids) {
   number_survivors(before, runs[2], sums.before[2], sums.total[2][0], ids);
 }
 
-/// One try; nothing where halos were not wide enough.
-std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& commands, int n_rings,
-                                     std::vector<std::string>& lines) {
+/// What comes of a try.
+struct Tried {
+  std::optional<InRanks> made;
+  std::string by_whole;  ///< why nothing less than the whole mesh on each rank will do
+};
+
+/// Nothing where halos were not wide enough.
+Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& commands, int n_rings,
+                    std::vector<std::string>& lines) {
   InRanks made;
   made.n_rings = n_rings;
   made.local = with_halo(ranks, part, n_rings);
@@ -120,17 +143,22 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
   std::vector<Approach> approaches;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const std::int64_t n_before = ranks.sum(n_own_hexes(made.local));
-    const Asked asked = agreed(ranks, commands, i, made.local, part.has_cad, approaches);
+    const Asked asked = agreed(ranks, commands, i, made.local, made.ids, part.has_cad, approaches);
     LocalRun run;
     ranks.together([&] { run = run_locally(made.local, asked); });
+    const int n_rings_now = made.local.n_rings;
     const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
-    if (alike < std::min(least_rings, made.local.n_rings)) {
-      if (n_rings == most_rings || ranks.least(made.local.is_all))
-        throw Error("parts can't be brought to agree about hexes between them");
-      return std::nullopt;
-    }
+    const bool have_all = ranks.least(made.local.is_all) != 0;
+    const std::string by_whole = first_text(ranks, run.by_whole);
+    const Verdict verdict = verdict_of(alike, n_rings_now, by_whole, have_all);
+    if (verdict != Verdict::right) return {std::nullopt, by_whole};
+    ranks.together([&] {
+      if (!run.wrong.empty()) throw Error(run.wrong);
+    });
+    const int keep = rings_to_keep(alike, have_all);
+    for (PassRecord& record : run.records) keep_rings(record, keep);
     number(ranks, run, made.ids);
-    ranks.together([&] { trim(made.local, alike, made.ids); });
+    ranks.together([&] { trim(made.local, keep, made.ids); });
     const std::int64_t n_after = ranks.sum(n_own_hexes(made.local)), largest = ranks.largest(n_own_hexes(made.local));
     lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
                     counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
@@ -139,27 +167,33 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
   for (const Index b : made.local.base_of) ++n_of_base[b];
   for (std::size_t b = 0; b < n_of_base.size(); ++b)
     if (made.local.base.ring[b] == 0) made.n_made.push_back(n_of_base[b]);
-  return made;
+  return {std::move(made), {}};
 }
 
 }  // namespace
 
 InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
                         const std::function<void(const std::string&)>& say) {
-  int n_rings = options.n_rings + commands.depth(), n_restarts = 0;
+  int n_rings = first_rings(options.n_rings, commands.depth(), commands.size()), n_restarts = 0;
+  std::string by_whole;
   bool may_rebalance = options.rebalance && ranks.size() > 1;
   for (;;) {
     std::vector<std::string> lines;
-    std::optional<InRanks> made = try_to_refine(ranks, part, commands, std::min(n_rings, most_rings), lines);
+    Tried tried = try_to_refine(ranks, part, commands, n_rings, lines);
+    std::optional<InRanks>& made = tried.made;
     if (!made) {
       ++n_restarts;
-      n_rings = std::min(2 * n_rings, most_rings);
+      if (by_whole.empty()) by_whole = tried.by_whole;
+      n_rings = by_whole.empty() && 2 * n_rings <= most_rings ? 2 * n_rings : all_rings;
       continue;
     }
     made->n_restarts = n_restarts;
     for (const std::string& line : lines) say(line);
-    if (n_restarts > 0)
-      say("what is cut depends on places far away: halos of " + counted(n_rings, "ring") + " were needed");
+    if (!by_whole.empty())
+      say(by_whole + ": each rank needed the whole mesh");
+    else if (n_restarts > 0)
+      say("what is cut depends on places far away: halos of " +
+          (n_rings == all_rings ? "all rings" : counted(n_rings, "ring")) + " were needed");
     const std::int64_t mine = n_own_hexes(made->local), all = ranks.sum(mine), largest = ranks.largest(mine);
     const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);
     say("the largest part has " + short_number(load) + " times the average");

@@ -1,40 +1,21 @@
 // Refinements by several processes, against those by one: the joined parts are the same file, byte for byte.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "hextwist/io/file_part.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/session/session.h"
 #include "io/io_support.h"
+#include "ranks_support.h"
 #include "split_judge.h"
 
 namespace hextwist {
 namespace {
 
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-/// A session of several processes: arguments as a shell sees them.
-Outcome run_ranks(int n, const std::string& arguments) {
-  const auto folder = std::filesystem::path(HEXTWIST_TEST_OUTPUT) /
-                      (std::string("mpi.") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  std::filesystem::create_directories(folder);
-  const std::string out = (folder / "stdout").string(), err = (folder / "stderr").string();
-  const std::string command = std::string("'") + HEXTWIST_MPIEXEC + "' --oversubscribe --allow-run-as-root -n " +
-                              std::to_string(n) + " '" + HEXTWIST_MPI_PROGRAM + "' " + arguments + " > '" + out +
-                              "' 2> '" + err + "'";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::text_of(out), test::text_of(err)};
-}
-
-std::string model(const std::string& name) {
-  return std::string(HEXTWIST_SOURCE_DIR) + "/models/" + name;
-}
+using test::model;
+using test::Outcome;
+using test::run_ranks;
 
 struct Case {
   std::string mesh, cad, commands;
