@@ -1,12 +1,16 @@
 // What one part has of a mesh: its own hexes and some rings of others' hexes around them (its halo).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "hextwist/parts/numbering.h"
+#include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
 
 namespace hextwist {
@@ -47,8 +51,16 @@ struct LocalRun {
   std::string by_whole;               ///< what was decided by all that is here at once; empty: nothing was
   std::string wrong;                  ///< why the part's own hexes are no good; empty: they are, if all parts agree
 };
+/// The least of the bounds that all parts have for a step of lifting (sizing/lift_new.h), freedom 0 to n_freedoms - 1.
+using LeastOfAll = std::function<Bounds(int freedom, const Bounds& mine)>;
+/// Of a part that has nothing to lift.
+inline constexpr Bounds no_bounds = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+inline Bounds least(const Bounds& a, const Bounds& b) {
+  return {std::min(a.scaled_jacobian, b.scaled_jacobian), std::min(a.shape, b.shape)};
+}
+
 /// Runs the passes on what is there; the local mesh becomes the result, which is right where what lies beyond the halo
-/// has no say (agree.h).
-LocalRun run_locally(LocalMesh& local, const Asked& asked);
+/// has no say (agree.h). least_of_all is called n_freedoms times, whatever happens.
+LocalRun run_locally(LocalMesh& local, const Asked& asked, const LeastOfAll& least_of_all);
 
 }  // namespace hextwist

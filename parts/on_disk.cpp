@@ -92,7 +92,8 @@ struct Numbered {
 
 /// A command that all parts have done.
 struct Done {
-  int n_rings = 0;  ///< that stay
+  int n_rings = 0;             ///< that stay
+  std::vector<Bounds> bounds;  ///< of all parts, by freedom of lifting
   Approach approach = Approach::trisect;
   std::vector<Numbered> of_part;
 };
@@ -368,7 +369,9 @@ class OnDisk {
       const Done& done = done_[i];
       PartAsked mine = commands_.asked(i, local, ids, false);
       mine.asked.approach = done.approach;
-      LocalRun run = run_locally(local, mine.asked);
+      LocalRun run = run_locally(local, mine.asked, [&](int freedom, const Bounds& none) {
+        return freedom < std::ssize(done.bounds) ? done.bounds[freedom] : none;
+      });
       for (PassRecord& record : run.records) keep_rings(record, done.n_rings);
       const Numbered& numbered = done.of_part[p];
       for (const Brought& brought : numbered.turns)
@@ -380,71 +383,96 @@ class OnDisk {
     return local;
   }
 
+  /// What all parts have to say of a command.
+  struct Collected {
+    std::vector<HaloMade> halo;
+    std::vector<std::vector<Made>> made;
+    std::vector<Turn> turns;
+    std::string nothing, wrong, by_whole, fault;
+    std::vector<std::int64_t> has_id;
+    bool is_anywhere = false, by_levels = false, is_all = true;
+    int n_rings = all_rings;
+    std::int64_t n_before = 0, n_after = 0, largest = 0;
+    Bounds next = no_bounds;  ///< of lifting, beyond those that are known
+  };
+
+  void refine_part(int p, std::size_t i, Done& done, Collected& all) {
+    GlobalIds ids;
+    LocalMesh local = after(p, i, ids);
+    all.n_before += n_own_hexes(local);
+    all.n_rings = std::min(all.n_rings, local.n_rings);
+    all.is_all = all.is_all && local.is_all;
+    PartAsked mine = commands_.asked(i, local, ids, false);
+    if (!mine.wrong.empty()) all.wrong = mine.wrong;
+    if (all.nothing.empty()) all.nothing = mine.nothing;
+    all.has_id.resize(mine.has_id.size(), 0);
+    for (std::size_t k = 0; k < all.has_id.size(); ++k) all.has_id[k] += mine.has_id[k];
+    if (!all.wrong.empty()) return;
+    if (mine.asked.is_here) {
+      all.is_anywhere = true;
+      done.approach = mine.asked.approach;
+    }
+    LocalRun run;
+    try {
+      run = run_locally(local, mine.asked, [&](int freedom, const Bounds& bounds) {
+        const auto n_known = static_cast<int>(done.bounds.size());
+        if (freedom < n_known) return done.bounds[static_cast<std::size_t>(freedom)];
+        if (freedom == n_known) all.next = least(all.next, bounds);
+        return bounds;
+      });
+    } catch (const Error& error) {
+      throw Error(name(p) + ": " + error.what());
+    }
+    all.by_levels = all.by_levels || run.by_levels;
+    for (const PassRecord& record : run.records) all.turns.push_back(record.turn);
+    if (all.by_whole.empty()) all.by_whole = run.by_whole;
+    if (all.fault.empty() && !run.wrong.empty()) all.fault = name(p) + ": " + run.wrong;
+    all.halo.push_back(made_of_halo(local, run.digest, n_parts()));
+    all.made.emplace_back();
+    for (std::size_t b = 0; b < local.base.hex.size() && n_parts() > 1; ++b)
+      if (local.base.ring[b] == 0) all.made.back().push_back({local.base.hex[b], run.digest[b]});
+    const std::int64_t n = n_own_hexes(local);
+    all.n_after += n;
+    all.largest = std::max(all.largest, n);
+    write_bytes(aside_.file("state", p), packed_state(ids, run.records));
+    if (i + 1 == commands_.size()) count(std::move(local), p);
+  }
+
+  /// All commands; false: halos were too narrow.
   bool refine_all() {
     std::vector<Approach> approaches;
     for (std::size_t i = 0; i < commands_.size(); ++i) {
       Done done;
       done.of_part.resize(static_cast<std::size_t>(n_parts()));
-      std::vector<HaloMade> halo(done.of_part.size());
-      std::vector<std::vector<Made>> made(done.of_part.size());
-      std::vector<Turn> turns;
-      std::string nothing, wrong, by_whole, fault;
-      std::vector<std::int64_t> has_id;
-      bool is_anywhere = false, by_levels = false, is_all = true;
-      int has_rings = most_rings;
-      std::int64_t n_before = 0, n_after = 0, largest = 0;
-      counts_.clear();
-      for (int p = 0; p < n_parts(); ++p) {
-        const auto in_part = [&](const std::string& what) { return name(p) + ": " + what; };
-        GlobalIds ids;
-        LocalMesh local = after(p, i, ids);
-        n_before += n_own_hexes(local);
-        has_rings = std::min(has_rings, local.n_rings);
-        is_all = is_all && local.is_all;
-        PartAsked mine = commands_.asked(i, local, ids, false);
-        if (!mine.wrong.empty()) wrong = mine.wrong;
-        if (nothing.empty()) nothing = mine.nothing;
-        has_id.resize(mine.has_id.size(), 0);
-        for (std::size_t k = 0; k < has_id.size(); ++k) has_id[k] += mine.has_id[k];
-        if (!wrong.empty()) break;
-        if (mine.asked.is_here) {
-          is_anywhere = true;
-          done.approach = mine.asked.approach;
-        }
-        LocalRun run;
-        try {
-          run = run_locally(local, mine.asked);
-        } catch (const Error& error) {
-          throw Error(in_part(error.what()));
-        }
-        by_levels = by_levels || run.by_levels;
-        for (const PassRecord& record : run.records) turns.push_back(record.turn);
-        if (by_whole.empty()) by_whole = run.by_whole;
-        if (fault.empty() && !run.wrong.empty()) fault = in_part(run.wrong);
-        halo[p] = made_of_halo(local, run.digest, n_parts());
-        for (std::size_t b = 0; b < local.base.hex.size() && n_parts() > 1; ++b)
-          if (local.base.ring[b] == 0) made[p].push_back({local.base.hex[b], run.digest[b]});
-        const std::int64_t n = n_own_hexes(local);
-        n_after += n;
-        largest = std::max(largest, n);
-        write_bytes(aside_.file("state", p), packed_state(ids, run.records));
-        if (i + 1 == commands_.size()) count(std::move(local), p);
+      Collected all;
+      for (;;) {
+        all = {};
+        counts_.clear();
+        for (int p = 0; p < n_parts() && all.wrong.empty(); ++p) refine_part(p, i, done, all);
+        if (all.next.shape == no_bounds.shape) break;
+        // Low hexes are lifted by what all parts have at the least: once more with that.
+        done.bounds.push_back(all.next);
       }
-      commands_.check(i, is_anywhere, nothing, wrong, has_id, done.approach, approaches);
+      commands_.check(i, all.is_anywhere, all.nothing, all.wrong, all.has_id, done.approach, approaches);
       approaches.push_back(done.approach);
-      const int alike = rings_alike(halo, made, has_rings);
-      halo.clear();
-      made.clear();
-      const Verdict verdict = verdict_of(alike, has_rings, by_whole, is_all);
-      if (verdict == Verdict::needs_all)
-        throw Error(by_whole + ", so parts can't do it one after the other; run it with hextwist or hextwist-mpi");
-      if (verdict == Verdict::too_narrow) return false;
-      if (!fault.empty()) throw Error(fault);
-      done.n_rings = rings_to_keep(alike, is_all);
-      number(done, sorted_unique(std::move(turns)), by_levels);
+      const int alike = rings_alike(all.halo, all.made, all.n_rings);
+      switch (verdict_of(alike, all.n_rings, all.by_whole, all.is_all)) {
+        case Verdict::right:
+          break;
+        case Verdict::needs_all:
+          throw Error(all.by_whole +
+                      ", so parts can't do it one after the other; run it with hextwist or hextwist-mpi");
+        case Verdict::too_narrow:
+          return false;
+      }
+      if (!all.fault.empty()) throw Error(all.fault);
+      all.halo.clear();
+      all.made.clear();
+      done.n_rings = rings_to_keep(alike, all.is_all);
+      number(done, sorted_unique(std::move(all.turns)), all.by_levels);
       done_.push_back(std::move(done));
-      lines_.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
-                       counted(n_parts(), "part") + " of at most " + std::to_string(largest));
+      lines_.push_back(std::to_string(all.n_before) + " -> " + std::to_string(all.n_after) + " hexes in " +
+                       counted(n_parts(), "part") + " of at most " + std::to_string(all.largest));
     }
     for (const std::string& line : lines_) say_(line);
     return true;

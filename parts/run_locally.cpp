@@ -87,11 +87,25 @@ std::vector<std::uint64_t> digests(const LocalMesh& local, std::span<const std::
   return digest;
 }
 
-}  // namespace
+/// Asks all parts as often as each of them does.
+class Asking {
+ public:
+  explicit Asking(const LeastOfAll& least_of_all) : least_of_all_(least_of_all) {}
+  Bounds operator()(int freedom, const Bounds& mine) {
+    while (next_ < freedom) least_of_all_(next_++, no_bounds);
+    return least_of_all_(next_++, mine);
+  }
+  void finish() {
+    while (next_ < n_freedoms) least_of_all_(next_++, no_bounds);
+  }
 
-LocalRun run_locally(LocalMesh& local, const Asked& asked) {
-  std::vector<std::uint8_t> ring = items_at(local.base.ring, local.base_of);
-  PassRecorder recorder(std::move(ring));
+ private:
+  const LeastOfAll& least_of_all_;
+  int next_ = 0;
+};
+
+LocalRun run_passes_locally(LocalMesh& local, const Asked& asked, Asking& asking) {
+  PassRecorder recorder(items_at(local.base.ring, local.base_of));
   LocalRun run;
   run.by_levels = asked.approach == Approach::levels;
   if (asked.is_here) {
@@ -100,6 +114,13 @@ LocalRun run_locally(LocalMesh& local, const Asked& asked) {
     State state(local.meshed, asked.request, report, none);
     state.watch = [&](const Lineage& lineage, const Mesh& before, const Cut& cut) {
       if (!run.by_levels) recorder.record(cut.turn, lineage, before.hexes, cut.filled);
+    };
+    state.bounds_of_all = [&](int freedom, const Mesh& mesh, std::span<const Index> hexes,
+                              std::span<const Index> origin, double wanted) {
+      std::vector<Index> own;
+      for (const Index h : hexes)
+        if (local.is_own(origin[h])) own.push_back(h);
+      return asking(freedom, own.empty() ? no_bounds : bounds_of(mesh, own, wanted));
     };
     RefineResult result = run_passes(state, asked.approach);
     if (run.by_levels) record_levels(*result.levelling, local.meshed.mesh, recorder);
@@ -116,6 +137,20 @@ LocalRun run_locally(LocalMesh& local, const Asked& asked) {
   }
   run.digest = digests(local, recorder.history());
   return run;
+}
+
+}  // namespace
+
+LocalRun run_locally(LocalMesh& local, const Asked& asked, const LeastOfAll& least_of_all) {
+  Asking asking(least_of_all);
+  try {
+    LocalRun run = run_passes_locally(local, asked, asking);
+    asking.finish();
+    return run;
+  } catch (...) {  // the others go on
+    asking.finish();
+    throw;
+  }
 }
 
 }  // namespace hextwist

@@ -20,7 +20,7 @@ struct Freedom {
   int layers;  ///< of hexes around those
   int sweeps;
 };
-constexpr Freedom freedoms[] = {
+constexpr Freedom freedoms[n_freedoms] = {
     {lift_below, false, 0, 6}, {lift_below, true, 0, 6}, {0.25, true, 1, 10}, {0.2, true, 2, 10}};
 
 /// Shape of a cube, but for rounding.
@@ -29,13 +29,12 @@ constexpr double perfect = 0.9999;
 }  // namespace
 
 std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
-                                  bool& had_to) {
+                                  const BoundsOfAll& of_all) {
   Mesh& mesh = refined.mesh;
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
   const std::vector<Index> hexes = touching_hexes(mesh.hexes, is_new);
-  had_to = !hexes_below(mesh, lift_below, hexes).empty();
-  if (!had_to) return {};
+  if (hexes_below(mesh, lift_below, hexes).empty()) return {};
 
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });
@@ -48,12 +47,16 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   options.fixed = finish.fixed;
   options.keep_jumps = finish.keep_jumps;
   const std::vector<Vec3> before = mesh.points;
-  for (const Freedom& freedom : freedoms) {
+  for (int f = 0; f < n_freedoms; ++f) {
+    const Freedom& freedom = freedoms[f];
     std::vector<Index> low = hexes_below(mesh, freedom.wanted, hexes);
     if (low.empty()) break;
     options.fix_boundary = !freedom.on_cad;
     options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
-    lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps);
+    BoundsOf bounds;
+    if (of_all) bounds = [&](std::span<const Index> of) { return of_all(f, of, freedom.wanted); };
+    lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps,
+                          bounds);
   }
   return indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
 }

@@ -217,9 +217,12 @@ void State::close() {
     std::vector<Index> nodes = new_nodes();
     if (const auto& periodic = request.finish.periodic)
       nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
-    bool had_to = false;
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, had_to);
-    if (had_to) report.by_whole = lifted_together;
+    BoundsOfAll of_all;
+    if (bounds_of_all)
+      of_all = [&](int freedom, std::span<const Index> hexes, double wanted) {
+        return bounds_of_all(freedom, mesh(), hexes, result_.origin, wanted);
+      };
+    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, of_all);
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }

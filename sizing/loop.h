@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
 #include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/techniques/technique.h"
@@ -14,7 +15,6 @@ namespace hextwist {
 
 /// Report::by_whole.
 inline constexpr const char* repaired_together = "inverted hexes are repaired together";
-inline constexpr const char* lifted_together = "low hexes are lifted together";
 inline constexpr const char* enclosed_together = "nodes where targets meet are enclosed one after the other";
 
 /// A mesh on its way through the passes of a request.
@@ -44,6 +44,11 @@ class State {
 
   /// Called after every pass of a technique with what it did to the mesh before. May be empty.
   std::function<void(const Lineage&, const Mesh& before, const Cut&)> watch;
+
+  /// BoundsOfAll with the mesh and what its hexes come of. May be empty: the mesh is no part of another.
+  std::function<Bounds(int freedom, const Mesh& mesh, std::span<const Index> hexes, std::span<const Index> origin,
+                       double wanted)>
+      bounds_of_all;
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result.
   void run(Technique& technique);

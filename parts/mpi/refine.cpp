@@ -145,7 +145,13 @@ Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& comm
     const std::int64_t n_before = ranks.sum(n_own_hexes(made.local));
     const Asked asked = agreed(ranks, commands, i, made.local, made.ids, part.has_cad, approaches);
     LocalRun run;
-    ranks.together([&] { run = run_locally(made.local, asked); });
+    // What is asked of all ranks in between, each asks as often.
+    ranks.together([&] {
+      run = run_locally(made.local, asked, [&](int, const Bounds& mine) {
+        const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
+        return Bounds{-most[0], -most[1]};
+      });
+    });
     const int n_rings_now = made.local.n_rings;
     const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
     const bool have_all = ranks.least(made.local.is_all) != 0;
