@@ -158,7 +158,7 @@ class OnDisk {
           throw Error("what is cut depends on places more than " + std::to_string(most_rings) +
                       " hexes away; run it with hextwist");
         n_rings_ = std::min(2 * n_rings_, most_rings);
-        say_("what is cut depends on places far away: halos of " + counted(n_rings_, "ring") + " are needed");
+        say_("what is made depends on places far away: halos of " + counted(n_rings_, "ring") + " are needed");
       }
     }
     write_all(output);

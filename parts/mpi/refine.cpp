@@ -198,7 +198,7 @@ InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& comman
     if (!by_whole.empty())
       say(by_whole + ": each rank needed the whole mesh");
     else if (n_restarts > 0)
-      say("what is cut depends on places far away: halos of " +
+      say("what is made depends on places far away: halos of " +
           (n_rings == all_rings ? "all rings" : counted(n_rings, "ring")) + " were needed");
     const std::int64_t mine = n_own_hexes(made->local), all = ranks.sum(mine), largest = ranks.largest(mine);
     const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);

@@ -1,11 +1,10 @@
 // Refinements by several ranks, each on its part of the mesh: the parts together are what one rank would have made.
 //
 // Each rank runs the passes on its own hexes and some rings of others' hexes around them, by the code that refines any
-// mesh. What rank r makes of a hex of rank q in its halo is compared with what q makes of it: where the first two rings
-// are the same on all ranks, nothing that lies beyond the halo had a say, since influence goes from hex to hex. Rings
-// that differ are dropped before the next refinement; where the first two differ, all is done again with twice as many
-// rings. So a closing of concave places that runs far makes halos wide, and in the end each rank has the whole mesh and
-// is right for that reason.
+// mesh. What it makes of these is compared with what their owners make of them (agree.h). Rings that differ are dropped
+// before the next refinement; where too near ones do, all is done again with twice as many rings. So a closing of
+// concave places that runs far makes halos wide, and where all of the mesh is looked at at once each rank has the whole
+// mesh and is right for that reason.
 #pragma once
 
 #include <filesystem>
