@@ -55,7 +55,7 @@ Input random_input(Random& random, const std::filesystem::path& folder, bool may
   if (kind == 0) {
     const std::array<int, 3> cells = {random.number(6, 40), random.number(2, 4), random.number(2, 3)};
     Mesh mesh = test::rich_mesh(static_cast<unsigned>(random.number(1, 1 << 20)), random.one_in(2), cells);
-    if (random.one_in(2)) {  // also, as most files are
+    if (!may_be_on_cad || random.one_in(2)) {  // as most files are, and as it must be from disk to disk
       mesh.blocks = {{3, "", {}}};
       for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.blocks[0].hexes.push_back(h);
     }
@@ -103,8 +103,8 @@ std::string random_ids(Random& random, std::int64_t low, std::int64_t high) {
   }
 }
 
-/// For what the session has by now.
-std::string random_command(Random& random, const MeshedModel& meshed) {
+/// For what the session has by now. is_first: nothing was refined; later a second level would be refused.
+std::string random_command(Random& random, const MeshedModel& meshed, bool is_first) {
   const Mesh& mesh = meshed.mesh;
   std::string command = "refine ";
   const int kind = random.number(0, 11);
@@ -131,11 +131,17 @@ std::string random_command(Random& random, const MeshedModel& meshed) {
     if (random.one_in(2)) command += " numsplit " + std::to_string(random.number(1, 2));
     return command;
   }
-  if (is_solid ? random.one_in(4) : random.one_in(2)) command += " depth " + std::to_string(random.number(is_solid, 2));
-  if (random.one_in(4)) command += " numsplit " + std::to_string(random.of(std::vector<int>{2, 2, 3}));
-  if (random.one_in(4)) command += " concave fill";
-  if (random.one_in(5)) command += " transition nested";
-  if (!is_solid && random.one_in(6)) command += " method parallel";
+  const bool has_depth = is_solid ? random.one_in(4) : random.one_in(2);
+  const int depth = has_depth ? random.number(is_solid, 2) : 0;
+  if (has_depth) command += " depth " + std::to_string(depth);
+  const bool is_whole = is_solid || depth > 0;
+  if (is_whole || random.one_in(10)) {
+    if (random.one_in(4)) command += " numsplit " + std::to_string(random.of(std::vector<int>{2, 2, 3}));
+    if (random.one_in(4)) command += " concave fill";
+    if (is_first ? random.one_in(5) : !random.one_in(5)) command += " transition nested";
+  } else if (random.one_in(4)) {
+    command += random.one_in(2) ? " method parallel" : " transition nested numsplit 2";
+  }
   if (random.one_in(10)) command += " graded";
   return command;
 }
@@ -146,7 +152,8 @@ struct Tally {
 };
 
 bool is_refusal(const std::string& said) {
-  for (const char* part : {"is not done in parts", "run it with hextwist", "has no ", "can't be shared out"})
+  for (const char* part : {"is not done in parts", "run it with hextwist", "are not refined from disk to disk",
+                           "has no ", "can't be shared out"})
     if (said.find(part) != std::string::npos) return true;
   return false;
 }
@@ -173,7 +180,7 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
   constexpr Index most_hexes = 60000;
   int n_left = random.of(std::vector<int>{1, 1, 2, 3});
   for (int k = 0; n_left > 0 && k < 12; ++k) {
-    const std::string command = random_command(random, session.meshed());
+    const std::string command = random_command(random, session.meshed(), commands.empty());
     try {
       session.run(command);
     } catch (const std::exception& error) {

@@ -57,6 +57,24 @@ TEST(InRanks, hexes_of_a_grid_are_refined_by_two_as_by_one) {
   expect_same_file({brick("20 8 6"), "", "refine hex 1 to 400 by 7"}, 2, "ids");
 }
 
+/// These once were made in another order: nodes that are lifted by what is lowest anywhere, passes that not all have.
+TEST(InRanks, nodes_are_in_the_order_of_one_process_where_halos_are_narrow) {
+  std::string list;
+  for (int id = 1; id <= 400; id += 7) list += " " + std::to_string(id);
+  expect_same_file({brick("20 8 6"), "", "refine hex" + list}, 2, "slabs");
+}
+TEST(SlowInRanks, nodes_are_in_the_order_of_one_process_where_halos_are_narrow) {
+  for (const char* rings : {"--rings 2", "--rings 3", "--rings 4"})
+    for (const char* by : {"slabs", "boxes", "random"})
+      expect_same_file({model("cam.msh"), model("cam.brep"), "refine surface 2"}, 4, by, rings);
+}
+TEST(InRanks, later_commands_name_ids_of_what_the_first_has_made) {
+  expect_same_file({brick("20 6 4"), "",
+                    "refine hex 7; refine hex 3 490 to 500 by 3 transition nested; "
+                    "refine node 12 600 1200"},
+                   3, "slabs");
+}
+
 TEST(InRanks, ids_beyond_two_to_the_31_go_on_from_there) {
   Mesh mesh = read_mesh(brick("8 4 4")).mesh;
   constexpr std::int64_t far = 5'000'000'000'000;
