@@ -1,7 +1,5 @@
 #include "hextwist/parts/on_disk.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -10,6 +8,7 @@
 #include "hextwist/parts/agree.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/halo.h"
+#include "hextwist/parts/on_disk_internal.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/own_skin.h"
 #include "hextwist/parts/pack.h"
@@ -17,64 +16,6 @@
 
 namespace hextwist {
 namespace {
-
-/// A folder of our own that goes with everything in it.
-class Aside {
- public:
-  explicit Aside(const std::filesystem::path& where) {
-    std::string name = ((where.empty() ? std::filesystem::path(".") : where) / ".hextwist-parts-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(name + ": this folder cannot be made");
-    folder_ = name;
-  }
-  ~Aside() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
-  std::filesystem::path file(const char* kind, int part) const {
-    return folder_ / (kind + std::string(".") + std::to_string(part));
-  }
-
- private:
-  std::filesystem::path folder_;
-};
-
-/// Nodes that several parts have: (id, part), ascending.
-class SharedNodes {
- public:
-  void add(std::vector<std::int64_t> ids, int part) {
-    for (const std::int64_t id : ids) all_.emplace_back(id, part);
-  }
-  /// Leaves only those of several parts. Returns how often nodes are there once too often.
-  std::int64_t finish() {
-    std::ranges::sort(all_);
-    std::size_t n = 0;
-    std::int64_t n_double = 0;
-    for (std::size_t i = 0, j = 0; i < all_.size(); i = j) {
-      for (j = i + 1; j < all_.size() && all_[j].first == all_[i].first;) ++j;
-      if (j - i == 1) continue;
-      n_double += static_cast<std::int64_t>(j - i) - 1;
-      for (std::size_t k = i; k < j; ++k) all_[n++] = all_[k];
-    }
-    all_.resize(n);
-    all_.shrink_to_fit();
-    return n_double;
-  }
-  /// Calls use(other part).
-  template <class Use>
-  void for_each_part(std::int64_t id, const Use& use) const {
-    for (auto at = std::ranges::lower_bound(all_, std::pair(id, -1)); at != all_.end() && at->first == id; ++at)
-      use(at->second);
-  }
-  bool has(std::int64_t id) const {
-    const auto at = std::ranges::lower_bound(all_, std::pair(id, -1));
-    return at != all_.end() && at->first == id;
-  }
-
- private:
-  std::vector<std::pair<std::int64_t, int>> all_;
-};
 
 /// What one part's passes of a command brought, turn by turn.
 struct Brought {
@@ -97,41 +38,6 @@ struct Done {
   Approach approach = Approach::trisect;
   std::vector<Numbered> of_part;
 };
-
-std::vector<std::byte> packed_state(const GlobalIds& ids, const std::vector<PassRecord>& records) {
-  ByteWriter to;
-  to.list(ids.node);
-  to.list(ids.hex);
-  to.value(ids.highest_node);
-  to.value(ids.highest_hex);
-  to.value(records.size());
-  for (const PassRecord& record : records) {
-    to.value(record.turn);
-    for (const Index n : {record.n_old_nodes, record.n_old_hexes, record.n_nodes, record.n_hexes}) to.value(n);
-    to.list(record.edges);
-    to.list(record.faces);
-    to.list(record.hexes);
-    to.list(record.kept);
-  }
-  return to.take();
-}
-void unpack_state(std::span<const std::byte> bytes, GlobalIds& ids, std::vector<PassRecord>& records) {
-  ByteReader from(bytes);
-  from.list(ids.node);
-  from.list(ids.hex);
-  ids.highest_node = from.value<std::int64_t>();
-  ids.highest_hex = from.value<std::int64_t>();
-  records.resize(from.value<std::size_t>());
-  for (PassRecord& record : records) {
-    record.turn = from.value<Turn>();
-    for (Index* n : {&record.n_old_nodes, &record.n_old_hexes, &record.n_nodes, &record.n_hexes})
-      *n = from.value<Index>();
-    from.list(record.edges);
-    from.list(record.faces);
-    from.list(record.hexes);
-    from.list(record.kept);
-  }
-}
 
 class OnDisk {
  public:
