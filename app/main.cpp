@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   limit_memory(available_memory());
   if (options.serve) return run_server(options);
-  if (options.split || options.join) return run_parts(options);
+  if (options.split || options.join || options.in_parts) return run_parts(options);
   Session session;
   Console console;
   session.set_callbacks(console.callbacks());

@@ -92,8 +92,8 @@ int read_split(int argc, char** argv, Options& options) {
   app.add_option("MESH", options.mesh, "mesh to divide")->required();
   app.add_option("N", options.split, "number of parts")->required()->check(CLI::Range(1, 1000000));
   app.add_option("-o,--output", options.output, "NAME; default: MESH with .e, in this folder");
-  app.add_option("--by", options.split_by, "scotch (default, where it was built in), slabs or ids")
-      ->check(CLI::IsMember({"scotch", "slabs", "ids"}));
+  app.add_option("--by", options.split_by, "scotch (default, where it was built in), boxes, slabs or ids")
+      ->check(CLI::IsMember({"scotch", "boxes", "slabs", "ids"}));
   if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
   if (options.output.empty()) options.output = options.mesh.filename().replace_extension(".e");
   return -1;
@@ -105,6 +105,29 @@ int read_join(int argc, char** argv, Options& options) {
   app.add_option("-o,--output", options.output, "the mesh; format by extension")->required();
   options.join = true;
   return parsed(app, options, argc - 1, argv + 1);
+}
+
+int read_in_parts(int argc, char** argv, Options& options) {
+  CLI::App app(
+      "Refines a mesh in parts, part after part, from disk to disk: with one part in memory at a time. Refinements "
+      "only.",
+      "hextwist refine-in-parts");
+  std::vector<std::string> commands;
+  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0 ('hextwist split' makes them)")->required();
+  app.add_option("-c,--commands", commands, "refinements, separated by ';'")
+      ->type_name("COMMANDS")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->required();
+  app.add_option("-o,--output", options.output, "OUT: parts are written to OUT.N.i")->required();
+  app.add_option("--rings", options.rings,
+                 "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")
+      ->check(CLI::Range(1, 250));
+  app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
+  options.in_parts = true;
+  if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
+  for (const std::string& text : commands) options.steps.push_back({false, text});
+  return -1;
 }
 
 int read_serve(int argc, char** argv, Options& options) {
@@ -165,8 +188,13 @@ struct Mode {
   std::string_view word;
   int (*read)(int argc, char** argv, Options& options);
 };
-constexpr Mode modes[] = {{"check", read_check}, {"convert", read_convert}, {"view", read_view},
-                          {"serve", read_serve}, {"split", read_split},     {"join", read_join}};
+constexpr Mode modes[] = {{"check", read_check},
+                          {"convert", read_convert},
+                          {"view", read_view},
+                          {"serve", read_serve},
+                          {"split", read_split},
+                          {"join", read_join},
+                          {"refine-in-parts", read_in_parts}};
 
 }  // namespace
 

@@ -27,8 +27,10 @@ struct Options {
   int order = 0;                      ///< of OUT; 0: as MESH
   bool view = false;                  ///< hextwist view MESH: `output` is the page
   int split = 0;                      ///< hextwist split MESH N: `output` is the name before .N.i
-  std::string split_by;               ///< "scotch", "slabs", "ids"; empty: the first that is there
+  std::string split_by;               ///< "scotch", "boxes", "slabs", "ids"; empty: the first that is there
   bool join = false;                  ///< hextwist join PART
+  bool in_parts = false;              ///< hextwist refine-in-parts PART: `output` is the name before .N.i
+  int rings = 6;                      ///< of its halos
   bool serve = false;                 ///< hextwist serve
   std::string address = "127.0.0.1";  ///< that it listens on
   int port = 0;                       ///< 0: any that is free

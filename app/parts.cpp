@@ -1,19 +1,55 @@
 #include "parts.h"
 
+#include <tbb/global_control.h>
+
+#include <chrono>
 #include <iostream>
 #include <new>
+#include <optional>
 
 #include "exit_status.h"
 #include "hextwist/base/fence.h"
+#include "hextwist/base/memory.h"
+#include "hextwist/base/text.h"
+#include "hextwist/command/error_at.h"
 #include "hextwist/parts/files.h"
+#include "hextwist/parts/on_disk.h"
 
 namespace hextwist::app {
+
+namespace {
+
+void refine_in_parts(const Options& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<std::string> texts;
+  for (const Step& step : options.steps) texts.push_back(step.text);
+  std::optional<PartCommands> commands;
+  try {
+    commands.emplace(texts);
+  } catch (const CommandError& error) {
+    throw Error(error.message());
+  }
+  refine_on_disk(options.mesh, *commands, options.output, {options.rings, {}}, [](const std::string& line) {
+    std::cout << line << "\n" << std::flush;
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  std::cout << "at most " << (peak_memory() >> 20) << " MiB, " << short_number(seconds.count()) << " s\n";
+}
+
+}  // namespace
 
 int run_parts(const Options& options) {
   Fence fence;
   fence.readers = find_readers();
   std::string error;
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   try {
+    if (options.in_parts) {
+      refine_in_parts(options);
+      return done;
+    }
     const auto lines =
         options.join ? join_files(options.mesh, options.output, fence)
                      : split_file(options.mesh, options.output, options.split, partition_by(options.split_by), fence);

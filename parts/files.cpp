@@ -5,6 +5,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/split.h"
 
@@ -41,44 +42,67 @@ SplitName split_name(const std::filesystem::path& part) {
   return {text, n_parts};
 }
 
+Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<std::string>& notices,
+                   const Fence& fence) {
+  const int n_parts = split.n_parts;
+  const std::filesystem::path file = part_name(split.name, n_parts, p);
+  if (!std::filesystem::exists(file))
+    throw Error(file.string() + ": this part of " + std::to_string(n_parts) + " is missing");
+  const PartHead head = read_part_head(file);
+  if (head.n_parts == 0) throw Error(file.string() + ": does not say what it is a part of");
+  if (head.n_parts != n_parts)
+    throw Error(file.string() + ": is one of " + std::to_string(head.n_parts) + " parts, not of " +
+                std::to_string(n_parts));
+  if (first.n_parts == 0) first = head;
+  if (head != first)
+    throw Error(file.string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
+                std::to_string(head.n_nodes) + " nodes, " + part_name(split.name, n_parts, 0).string() + " of one of " +
+                std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
+  MeshFile read = read_mesh(file, "exodus", fence);
+  refuse_second_order(read, file);
+  for (std::string& line : read.notices)
+    if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
+  if (read.mesh.results)
+    if (const std::string lost = extras_text(*read.mesh.results); !lost.empty())
+      notices.push_back(file.string() + ": parts are joined without " + lost);
+  read.mesh.results = nullptr;
+  read.mesh.file_hexes.clear();
+  return std::move(read.mesh);
+}
+
 MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
-  const auto [name, n_parts] = split_name(any_part);
-  if (n_parts == 0) throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...");
+  const SplitName split = split_name(any_part);
+  if (split.n_parts == 0) throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...");
   std::vector<MeshedModel> pieces;
-  std::vector<std::string> notices;
-  const auto file_of = [&](int p) { return part_name(name, n_parts, p); };
-  PartHead first;
-  for (int p = 0; p < n_parts; ++p) {
-    const std::filesystem::path file = file_of(p);
-    if (!std::filesystem::exists(file))
-      throw Error(file.string() + ": this part of " + std::to_string(n_parts) + " is missing");
-    const PartHead head = read_part_head(file);
-    if (head.n_parts == 0) throw Error(file.string() + ": does not say what it is a part of");
-    if (head.n_parts != n_parts)
-      throw Error(file.string() + ": is one of " + std::to_string(head.n_parts) + " parts, not of " +
-                  std::to_string(n_parts));
-    if (p == 0) first = head;
-    if (head != first)
-      throw Error(file.string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
-                  std::to_string(head.n_nodes) + " nodes, " + file_of(0).string() + " of one of " +
-                  std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
-    MeshFile read = read_mesh(file, "exodus", fence);
-    refuse_second_order(read, file);
-    for (std::string& line : read.notices)
-      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
-    if (read.mesh.results)
-      if (const std::string lost = extras_text(*read.mesh.results); !lost.empty())
-        notices.push_back(file.string() + ": parts are joined without " + lost);
-    pieces.push_back({std::move(read.mesh), nullptr, {}});
-  }
   MeshFile result;
-  result.notices = std::move(notices);
-  result.mesh = join(pieces, [&](std::size_t p) { return file_of(static_cast<int>(p)).string(); }).mesh;
-  if (result.mesh.n_hexes() != first.n_hexes || result.mesh.n_nodes() != first.n_nodes)
-    throw Error(name.string() + ": its parts have " + std::to_string(result.mesh.n_hexes()) + " hexes and " +
-                std::to_string(result.mesh.n_nodes()) + " nodes together, and say " + std::to_string(first.n_hexes) +
-                " and " + std::to_string(first.n_nodes));
+  PartHead head;
+  for (int p = 0; p < split.n_parts; ++p)
+    pieces.push_back({read_one_part(split, p, head, result.notices, fence), nullptr, {}});
+  result.mesh = join(pieces, [&](std::size_t p) {
+                  return part_name(split.name, split.n_parts, static_cast<int>(p)).string();
+                }).mesh;
+  if (result.mesh.n_hexes() != head.n_hexes || result.mesh.n_nodes() != head.n_nodes)
+    throw Error(split.name.string() + ": its parts have " + std::to_string(result.mesh.n_hexes()) + " hexes and " +
+                std::to_string(result.mesh.n_nodes()) + " nodes together, and say " + std::to_string(head.n_hexes) +
+                " and " + std::to_string(head.n_nodes));
   return result;
+}
+
+void check_part(const Mesh& mesh, const std::string& name) {
+  Mesh turned;
+  turned.points = mesh.points;
+  turned.hexes = mesh.hexes;
+  if (const OrientationRepair repair = repair_orientation(turned); !repair.notice.empty())
+    throw Error(name + ": " + repair.notice + "; that is done by hextwist alone: run its 'import' and 'export' first");
+  for (const Violation& violation : validate(mesh))
+    if (!is_warning(violation.kind)) throw Error(name + ": " + violation.text);
+}
+
+void need_ids(Mesh& mesh) {
+  if (mesh.node_ids.empty())
+    for (Index n = 0; n < mesh.n_nodes(); ++n) mesh.node_ids.push_back(n + 1);
+  if (mesh.hex_ids.empty())
+    for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.hex_ids.push_back(h + 1);
 }
 
 PartFiles::PartFiles(const std::filesystem::path& name, int n_parts) {

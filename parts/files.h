@@ -8,6 +8,7 @@
 
 #include "hextwist/base/fence.h"
 #include "hextwist/base/replacement.h"
+#include "hextwist/io/file_part.h"
 #include "hextwist/io/io.h"
 #include "hextwist/parts/partition.h"
 
@@ -23,6 +24,16 @@ SplitName split_name(const std::filesystem::path& part);
 /// Reads all parts. Throws Error naming the file: one is missing, belongs to another mesh, has another number of parts,
 /// or the parts do not make up what they say they are parts of.
 MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence = {});
+
+/// Reads one of them, without what comes beside its last time step. first: what the parts before say of the whole; none
+/// was read yet where its n_parts is 0. Throws Error as above.
+Mesh read_one_part(const SplitName& split, int part, PartHead& first, std::vector<std::string>& notices,
+                   const Fence& fence = {});
+
+/// Throws Error where a part, by itself, is no mesh that can be refined. name: what messages call it.
+void check_part(const Mesh& part, const std::string& name);
+/// Fills in ids that were left out.
+void need_ids(Mesh& mesh);
 
 /// Files that are written together: all are renamed when all are complete.
 class PartFiles {

@@ -1,54 +1,66 @@
-// What one rank has of a mesh: the hexes of its part and some rings of others' hexes around them (its halo).
+// What one part has of a mesh: its own hexes and some rings of others' hexes around them (its halo).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "hextwist/parts/pass_record.h"
+#include "hextwist/parts/numbering.h"
+#include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
 
 namespace hextwist {
 
-/// Hexes of the input mesh that a rank has; what they have become since says which of them it came of.
+/// Hexes of the input mesh that a part has; what they have become since says which of them it came of.
 struct BaseHexes {
-  std::vector<Index> hex, node;    ///< indices in the whole, ascending
-  std::vector<std::uint8_t> ring;  ///< per hex: 0 own, 1 those that share a node with own ones, ...
-  std::vector<int> owner;          ///< per hex
+  std::vector<std::int64_t> hex, node;  ///< ids, ascending
+  std::vector<std::uint8_t> ring;       ///< per hex: 0 own, 1 those that share a node with own ones, ...
+  std::vector<int> owner;               ///< per hex: the part that has it as its own
 };
 
 struct LocalMesh {
   MeshedModel meshed;          ///< in the order of the whole, ids left out
   std::vector<Index> base_of;  ///< per hex: position in base.hex
   BaseHexes base;
-  int n_rings = 0;      ///< that are there, and as they are in the whole
+  int n_rings = 0;      ///< that are there, as they are in the whole and with their ids
   bool is_all = false;  ///< nothing of the mesh lies beyond
+
+  bool is_own(Index hex) const { return base.ring[base_of[hex]] == 0; }
+  int owner(Index hex) const { return base.owner[base_of[hex]]; }
 };
+std::int64_t n_own_hexes(const LocalMesh& local);
 
-/// Precondition: the rank has a hex.
-LocalMesh local_mesh(const MeshedModel& whole, std::span<const int> part_of_hex, int rank, int n_rings);
+/// Takes away all rings beyond these, and their ids. Throws Error where what stays is not in the order of ids.
+void trim(LocalMesh& local, int n_rings, GlobalIds& ids);
 
-/// Takes away all rings beyond these. kept_nodes, kept_hexes: what the nodes and hexes that stay were called.
-void trim(LocalMesh& local, int n_rings, std::vector<Index>& kept_nodes, std::vector<Index>& kept_hexes);
-
-/// A refinement, with its target by indices of the whole input mesh where it names nodes, edges, faces or hexes.
+/// A refinement of what one part has.
 struct Asked {
-  Request request;
+  Request request;  ///< in the numbers of its local mesh
   Approach approach = Approach::trisect;
-  std::vector<Edge> edges;
-  std::vector<Quad> faces;
+  bool is_here = true;  ///< false: nothing of the target is
 };
-/// Throws Error naming what can't be done in parts. before: what is done before it.
-Asked asked_in_parts(const MeshedModel& whole, const Request& request, std::span<const Asked> before);
 
 struct LocalRun {
   std::vector<PassRecord> records;
   bool by_levels = false;
-  Index n_cut = 0;
-  std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become
+  std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become, and how
+  std::string by_whole;               ///< what was decided by all that is here at once; empty: nothing was
+  std::string wrong;                  ///< why the part's own hexes are no good; empty: they are, if all parts agree
 };
+/// The least of the bounds that all parts have for a step of lifting (sizing/lift_new.h), freedom 0 to n_freedoms - 1.
+using LeastOfAll = std::function<Bounds(int freedom, const Bounds& mine)>;
+/// Of a part that has nothing to lift.
+inline constexpr Bounds no_bounds = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+inline Bounds least(const Bounds& a, const Bounds& b) {
+  return {std::min(a.scaled_jacobian, b.scaled_jacobian), std::min(a.shape, b.shape)};
+}
+
 /// Runs the passes on what is there; the local mesh becomes the result, which is right where what lies beyond the halo
-/// has no say. Throws Error where the result is no good, or depends on the whole.
-LocalRun run_locally(LocalMesh& local, const Asked& asked);
+/// has no say (agree.h). least_of_all is called n_freedoms times, whatever happens.
+LocalRun run_locally(LocalMesh& local, const Asked& asked, const LeastOfAll& least_of_all);
 
 }  // namespace hextwist

@@ -36,6 +36,32 @@ std::vector<int> by_slabs(const Mesh& mesh, int n_parts) {
   return in_order(order, n_parts);
 }
 
+/// Halves of halves.
+std::vector<int> by_boxes(const Mesh& mesh, int n_parts) {
+  std::vector<Vec3> middle(mesh.hexes.size(), Vec3::Zero());
+  for (std::size_t h = 0; h < middle.size(); ++h)
+    for (const Index n : mesh.hexes[h]) middle[h] += mesh.points[n];
+  std::vector<Index> order(middle.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> part(middle.size(), 0);
+  const auto halve = [&](const auto& self, std::span<Index> hexes, int first, int n) -> void {
+    if (n == 1) {
+      for (const Index h : hexes) part[h] = first;
+      return;
+    }
+    Box box;
+    for (const Index h : hexes) box.add(middle[h]);
+    Eigen::Index axis = 0;
+    (box.max - box.min).maxCoeff(&axis);
+    const auto at = static_cast<std::ptrdiff_t>(std::ssize(hexes) * (n / 2) / n);
+    std::ranges::nth_element(hexes, hexes.begin() + at, {}, [&](Index h) { return std::pair(middle[h][axis], h); });
+    self(self, hexes.first(static_cast<std::size_t>(at)), first, n / 2);
+    self(self, hexes.subspan(static_cast<std::size_t>(at)), first + n / 2, n - n / 2);
+  };
+  halve(halve, order, 0, n_parts);
+  return part;
+}
+
 #ifdef HEXTWIST_SCOTCH
 std::vector<int> by_scotch(const Mesh& mesh, int n_parts) {
   // Hexes are neighbours where they share a face.
@@ -92,6 +118,7 @@ std::vector<int> partition(const Mesh& mesh, int n_parts, PartitionBy by) {
     throw Error("this program was built without SCOTCH (Debian: libscotch-dev); divide by slabs or ids instead");
 #endif
   }
+  if (by == PartitionBy::boxes) return by_boxes(mesh, n_parts);
   if (by == PartitionBy::slabs || by == PartitionBy::scotch) return by_slabs(mesh, n_parts);
   std::vector<Index> order(mesh.hexes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -103,6 +130,7 @@ std::vector<int> partition(const Mesh& mesh, int n_parts, PartitionBy by) {
 
 PartitionBy partition_by(std::string_view word) {
   if (word == "slabs") return PartitionBy::slabs;
+  if (word == "boxes") return PartitionBy::boxes;
   if (word == "ids") return PartitionBy::ids;
   if (word == "random") return PartitionBy::random;
   return word == "scotch" || has_scotch() ? PartitionBy::scotch : PartitionBy::slabs;

@@ -11,6 +11,7 @@ namespace hextwist {
 enum class PartitionBy {
   scotch,  ///< few faces between parts, sizes within 5%: SCOTCH (Pellegrini and Roman, 1996), where it was built in
   slabs,   ///< equal counts, one behind the other along the longest side of the mesh's box
+  boxes,   ///< equal counts, halves of halves, each along the longest side of its box
   ids,     ///< equal counts in the order of ids
   random   ///< equal counts, hexes of each part anywhere: the worst that there is, for tests
 };
@@ -22,7 +23,7 @@ bool has_scotch();
 /// there are fewer hexes than parts, or SCOTCH is wished for and not there.
 std::vector<int> partition(const Mesh& mesh, int n_parts, PartitionBy by);
 
-/// "scotch", "slabs", "ids", "random"; empty: the first that is built in.
+/// "scotch", "slabs", "boxes", "ids", "random"; empty: the first that is built in.
 PartitionBy partition_by(std::string_view word);
 
 }  // namespace hextwist

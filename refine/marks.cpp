@@ -51,7 +51,7 @@ std::vector<std::uint16_t> trisect_codes(const Edges& edges, std::span<const std
   return codes;
 }
 
-Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
+Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked, std::vector<std::uint8_t>* rounds) {
   const CornerTable& table = corner_table();
   const auto state = [&](Index h) { return table.marking[corner_mask(mesh.hexes[h], marked)]; };
   const auto hexes_with = [&](Marking wanted) {
@@ -69,10 +69,13 @@ Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
   const auto n_before = n_full();
   const CompressedRows hexes_of_node = node_hexes(mesh);
   std::vector<Index> worklist;
+  std::uint8_t round = 1;
+  if (rounds) rounds->assign(marked.size(), 0);
   const auto mark_all_nodes = [&](Index h) {
     for (const Index n : mesh.hexes[h]) {
       if (marked[n]) continue;
       marked[n] = 1;
+      if (rounds) (*rounds)[n] = round;
       for (const Index neighbour : hexes_of_node[n])
         if (state(neighbour) == Marking::concave) worklist.push_back(neighbour);
     }
@@ -88,6 +91,7 @@ Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked) {
     }
     rest = hexes_with(Marking::corner);
     if (rest.empty()) return static_cast<Index>(n_full() - n_before);
+    round = static_cast<std::uint8_t>(round == 255 ? 1 : round + 1);
     for (const Index h : rest) mark_all_nodes(h);
   }
 }

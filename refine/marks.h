@@ -24,7 +24,8 @@ std::vector<std::uint16_t> trisect_codes(const Edges& edges, std::span<const std
 /// Concave filling (section 4.3): a hex that is concave in a direction gets all its nodes marked, until there is none;
 /// then all hexes that still have an L or U on a face (three marked corners, say) do, and so on until the paper's
 /// templates suffice everywhere. Only ever adds marks; the result does not depend on the order. Returns how many hexes
-/// became fully marked.
-Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked);
+/// became fully marked. rounds: per node the round in which it was marked, 0: before; empty where there was nothing to
+/// do.
+Index fill_concave(const Mesh& mesh, std::span<std::uint8_t> marked, std::vector<std::uint8_t>* rounds = nullptr);
 
 }  // namespace hextwist

@@ -97,6 +97,7 @@ void LevelRun::adopt(LevelStep step, bool is_bare) {
                " that had been moved for better shapes went back, as hexes around changed");
   tell_forced(step.n_forced, state.report);
   std::ranges::move(step.off_nodes, std::back_inserter(state.report.off_nodes));
+  if (step.is_repaired) state.report.by_whole = repaired_together;
   RefineResult result;
   result.refined = std::move(step.mesh);
   const std::vector<std::uint8_t> level = levels_of(step.forest);

@@ -22,16 +22,16 @@ struct Freedom {
   int sweeps;
   bool of_boxes = false;  ///< alone: they come that far, others give up as much of their average for it
 };
-constexpr Freedom freedoms[] = {{0.01, false, 1, 6},
-                                {0.02, false, 1, 6},
-                                {0.05, false, 1, 6},
-                                {0.1, false, 1, 6},
-                                {0.2, false, 0, 4},
-                                {0.3, false, 0, 6},
-                                {lift_below, false, 0, 6, true},
-                                {0.3, true, 0, 6},
-                                {0.25, true, 1, 10},
-                                {0.2, true, 2, 10}};
+constexpr Freedom freedoms[n_freedoms] = {{0.01, false, 1, 6},
+                                          {0.02, false, 1, 6},
+                                          {0.05, false, 1, 6},
+                                          {0.1, false, 1, 6},
+                                          {0.2, false, 0, 4},
+                                          {0.3, false, 0, 6},
+                                          {lift_below, false, 0, 6, true},
+                                          {0.3, true, 0, 6},
+                                          {0.25, true, 1, 10},
+                                          {0.2, true, 2, 10}};
 
 /// Shape of a cube, but for rounding.
 constexpr double perfect = 0.9999;
@@ -39,7 +39,7 @@ constexpr double perfect = 0.9999;
 }  // namespace
 
 std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
-                                  std::span<const Index> of_boxes) {
+                                  std::span<const Index> of_boxes, const BoundsOfAll& of_all) {
   Mesh& mesh = refined.mesh;
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
@@ -66,12 +66,16 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   options.fixed = finish.fixed;
   options.keep_jumps = finish.keep_jumps;
   const std::vector<Vec3> before = mesh.points;
-  for (const Freedom& freedom : freedoms) {
+  for (int f = 0; f < n_freedoms; ++f) {
+    const Freedom& freedom = freedoms[f];
     std::vector<Index> low = low_ones(freedom);
     if (low.empty()) continue;
     options.fix_boundary = !freedom.on_cad;
     options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
-    lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps);
+    BoundsOf bounds;
+    if (of_all) bounds = [&](std::span<const Index> of) { return of_all(f, of, freedom.wanted); };
+    lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps,
+                          bounds);
   }
   return indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
 }

@@ -36,7 +36,7 @@ bool State::run(Technique& technique) {
   while (std::optional<Cut> cut = technique.next(*this)) {
     if (cut->cuts_again) smooth_between_passes();
     const bool is_first = current_ == &input;
-    const std::optional<MeshedModel> before = pass(std::move(*cut));
+    const std::optional<MeshedModel> before = pass(*cut);
     if (!before) return false;
     technique.follow(lineage_, is_first ? input.mesh : before->mesh, mesh());
   }
@@ -45,12 +45,12 @@ bool State::run(Technique& technique) {
   return true;
 }
 
-std::optional<MeshedModel> State::pass(Cut cut) {
+std::optional<MeshedModel> State::pass(const Cut& cut) {
   ++n_passes_;
   const MeshedModel& from = *current_;
   check_others(from.mesh, *cut.table, cut.codes);
   begin("split");
-  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), std::move(cut.table), cut.codes);
+  Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), cut.table, cut.codes);
   begin("carry");
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
@@ -67,15 +67,16 @@ std::optional<MeshedModel> State::pass(Cut cut) {
     }
     begin("improve");
     if (is_second_try && cut.cuts_again && !inverted_hexes(next.mesh, parts.n_kept()).empty()) return std::nullopt;
-    bool stopped = false;
+    bool stopped = false, had_to = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
       return !stopped;
     };
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
                                       with_inner_nodes(next.mesh, next.association, request.finish.fixed), keep_going,
-                                      request.finish.keep_jumps),
+                                      request.finish.keep_jumps, &had_to),
                       std::back_inserter(report.off_nodes));
+    if (had_to) report.by_whole = repaired_together;
     if (stopped) throw Cancelled();
   }
   const std::vector<Index>& parent = parts.lineage.parent;
@@ -87,7 +88,7 @@ std::optional<MeshedModel> State::pass(Cut cut) {
   result_.came_from = {};
   result_.old_node = {};
   lineage_ = std::move(parts.lineage);
-  if (watch) watch(lineage_, from.mesh);
+  if (watch) watch(lineage_, from.mesh, cut);
   current_ = &result_.refined;
   return std::exchange(result_.refined, std::move(next));
 }
@@ -229,7 +230,13 @@ void State::close() {
     std::vector<Index> nodes = new_nodes();
     if (const auto& periodic = request.finish.periodic)
       nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
-    const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(may_be_lifted));
+    BoundsOfAll of_all;
+    if (bounds_of_all)
+      of_all = [&](int freedom, std::span<const Index> hexes, double wanted) {
+        return bounds_of_all(freedom, mesh(), hexes, result_.origin, wanted);
+      };
+    const std::vector<Index> moved =
+        lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(may_be_lifted), of_all);
     result_.smoothed = union_of(result_.smoothed, moved);
     if (!moved.empty()) look();
   }

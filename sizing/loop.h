@@ -7,11 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
 #include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/techniques/technique.h"
 
 namespace hextwist {
+
+/// Report::by_whole.
+inline constexpr const char* repaired_together = "inverted hexes are repaired together";
+inline constexpr const char* enclosed_together = "nodes where targets meet are enclosed one after the other";
 
 /// A mesh on its way through the passes of a request.
 class State {
@@ -39,7 +44,12 @@ class State {
   void note(std::string line) { report.notices.push_back(std::move(line)); }
 
   /// Called after every pass of a technique with what it did to the mesh before. May be empty.
-  std::function<void(const Lineage&, const Mesh& before)> watch;
+  std::function<void(const Lineage&, const Mesh& before, const Cut&)> watch;
+
+  /// BoundsOfAll with the mesh and what its hexes come of. May be empty: the mesh is no part of another.
+  std::function<Bounds(int freedom, const Mesh& mesh, std::span<const Index> hexes, std::span<const Index> origin,
+                       double wanted)>
+      bounds_of_all;
 
   /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
   bool is_second_try = false;
@@ -65,7 +75,7 @@ class State {
 
  private:
   /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one. Nothing: given up.
-  std::optional<MeshedModel> pass(Cut cut);
+  std::optional<MeshedModel> pass(const Cut& cut);
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();

@@ -74,12 +74,15 @@ struct Report {
   OffModel off_cad;                ///< of the result
   std::shared_ptr<const Extremes> extremes;  ///< of the result (extremes.h), for who refines it again
   double volume_before = 0;                  ///< sum over the hexes of the input, model units cubed
-  double volume_after = 0;            ///< sum over the hexes of the result; it changes where new nodes follow the CAD
-  std::vector<OffOwner> off_nodes;    ///< nodes that were left off their owner
-  bool off_nodes_allowed = false;     ///< the request said so; else each is a violation
-  std::vector<Index> flat_hexes;      ///< flat compared with the input (outcome.h): each is a violation
-  PoorHexes poor;                     ///< count 0: there are none
-  bool has_smoothed = false;          ///< because it was asked for, or shapes were too poor
+  double volume_after = 0;          ///< sum over the hexes of the result; it changes where new nodes follow the CAD
+  std::vector<OffOwner> off_nodes;  ///< nodes that were left off their owner
+  bool off_nodes_allowed = false;   ///< the request said so; else each is a violation
+  std::vector<Index> flat_hexes;    ///< flat compared with the input (outcome.h): each is a violation
+  PoorHexes poor;                   ///< count 0: there are none
+  bool has_smoothed = false;        ///< because it was asked for, or shapes were too poor
+  /// What was decided by looking at all of the mesh at once, so that a part of it alone might be refined in another
+  /// way. Empty: nothing was.
+  std::string by_whole;
   std::vector<Violation> violations;  ///< of the result; empty unless something is wrong with it
   std::optional<SizeReport> sizes;    ///< of a request for sizes; absent for a dry run
   std::vector<std::string> notices;   ///< decisions taken, one line each

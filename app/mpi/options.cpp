@@ -21,11 +21,15 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
       ->required();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
   app.add_option("-o,--output", options.output, "OUT: each process writes its part to OUT.n.i (Exodus)");
-  app.add_option("--by", options.by,
-                 "how hexes are shared out: scotch (default, where it was built in), slabs, ids or random")
-      ->check(CLI::IsMember({"scotch", "slabs", "ids", "random"}));
-  app.add_option("--rings", options.rings, "of hexes of others around a part, to begin with; default 6")
-      ->check(CLI::Range(2, 250));
+  app.add_option(
+         "--by", options.by,
+         "how hexes are shared out: scotch (default, where it was built in), boxes, slabs, ids or random; parts of "
+         "a split mesh stay what they are where there are as many as processes, or go by boxes")
+      ->check(CLI::IsMember({"scotch", "boxes", "slabs", "ids", "random"}));
+  app.add_flag("--no-rebalance", options.fixed, "leave hexes where they are, however many each becomes");
+  app.add_option("--rings", options.rings,
+                 "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")
+      ->check(CLI::Range(1, 250));
   app.add_option("--threads", options.threads, "threads of each process; default 1; 0: all")
       ->check(CLI::Range(0, 1024));
   app.set_version_flag("--version", "hextwist-mpi " HEXTWIST_VERSION);

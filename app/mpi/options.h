@@ -18,6 +18,7 @@ struct MpiOptions {
   std::string by;
   int threads = 1;
   int rings = 6;
+  bool fixed = false;  ///< hexes stay where they are
 
   /// Not empty: nothing is read, but what could be is shown to this.
   std::function<void(const CLI::App&)> describe = {};

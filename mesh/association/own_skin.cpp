@@ -5,6 +5,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/geom/facet/model.h"
 #include "hextwist/mesh/association/association_internal.h"
+#include "hextwist/mesh/association/parameters.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist {
@@ -67,8 +68,9 @@ bool bends(const Mesh& mesh, const MiddleNodes& middles) {
   return false;
 }
 
-/// Parameters of the nodes on curves and surfaces.
-std::vector<Parameters> parameters_on(const Model& model, const Mesh& mesh, std::span<const Owner> owners) {
+}  // namespace
+
+std::vector<Parameters> projected_parameters(const Model& model, const Mesh& mesh, std::span<const Owner> owners) {
   std::vector<Parameters> parameters(owners.size());
   for (int dim = 1; dim <= 2; ++dim) {
     std::vector<Index> nodes;
@@ -85,8 +87,6 @@ std::vector<Parameters> parameters_on(const Model& model, const Mesh& mesh, std:
   }
   return parameters;
 }
-
-}  // namespace
 
 FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options) {
   if (mesh.hexes.empty()) throw Error("the mesh has no hexes to associate");
@@ -137,7 +137,7 @@ FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options
     for (const Index node : pieces.edges[e]) owner[node] = {1, pieces.edge_curve[e]};
   for (std::size_t v = 0; v < pieces.vertex_nodes.size(); ++v)
     owner[pieces.vertex_nodes[v]] = {0, static_cast<std::int32_t>(v + 1)};
-  association.node_parameters = parameters_on(*import.model, mesh, owner);
+  association.node_parameters = projected_parameters(*import.model, mesh, owner);
   result.model = std::move(import.model);
   return result;
 }

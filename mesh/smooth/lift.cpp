@@ -55,7 +55,7 @@ void lift_low(SmoothState& state, const Bounds& bounds, int max_sweeps,
 }
 
 void lift_scaled_jacobians(Mesh& mesh, Association& association, const Model* model, const SmoothOptions& options,
-                           double wanted, int sweeps) {
+                           double wanted, int sweeps, const BoundsOf& bounds) {
   if (!association.empty()) association.node_parameters.resize(mesh.points.size());
   const SmoothProblem problem = make_smooth_problem(mesh, association, model, options);
   if (problem.n_nodes() == 0) return;
@@ -63,7 +63,7 @@ void lift_scaled_jacobians(Mesh& mesh, Association& association, const Model* mo
   const std::vector<Vec3> points = mesh.points;
   const std::vector<Parameters> parameters = association.node_parameters;
   const std::vector<Index> inverted_before = inverted_hexes(mesh, problem.hexes);
-  const Bounds before = bounds_of(mesh, problem.hexes, wanted);
+  const Bounds before = bounds ? bounds(problem.hexes) : bounds_of(mesh, problem.hexes, wanted);
   lift_low(state, {wanted, before.shape}, sweeps, [](const SweepCount&) { return true; });
   take_back(state, points, parameters, inverted_before, before);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "hextwist/mesh/smooth/lift.h"
 #include "hextwist/mesh/smooth/named_internal.h"
 
 namespace hextwist {
@@ -80,13 +81,6 @@ double average_distortion(const Mesh& mesh, std::span<const Index> hexes);
 /// Moves nodes until no hex of the problem is inverted or nothing helps any more. after_sweep(count) returns false to
 /// stop. Hexes that were not inverted before are not after.
 void untangle(SmoothState& state, int max_sweeps, const std::function<bool(const SweepCount&)>& after_sweep);
-
-/// What no hex may fall below; 0: anything goes.
-struct Bounds {
-  double scaled_jacobian = 0, shape = 0;
-};
-/// The smallest of these hexes, inverted ones counting as 0; the scaled Jacobian at most `wanted`.
-Bounds bounds_of(const Mesh& mesh, std::span<const Index> hexes, double wanted = 1);
 
 /// Sweeps over the nodes of hexes whose scaled Jacobian is below the bound, while no shape falls below its; after_sweep
 /// as above.

@@ -1,36 +1,27 @@
-// Numbers that are handed out over all ranks, by keys that several ranks may have.
+// Who has what, and sums over what all ranks have, by ids of the whole mesh.
 //
-// Keys are ids of the whole mesh. The rank that looks after a key (its home) follows from the key alone, in ascending
-// order; so sums of counts over all lower keys are sums over the ranks before and the keys at home.
+// The rank that looks after an id (its home) follows from the id alone, in ascending order; so sums over all lower ids
+// are sums over the ranks before and the ids at home.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "hextwist/parts/halo.h"
 #include "hextwist/parts/mpi/ranks.h"
+#include "hextwist/parts/own_skin.h"
 
 namespace hextwist {
 
-/// Counts of something at a key, of two kinds: (new nodes, 0), (new nodes in a hex, its children).
-using Counts = std::array<std::int64_t, 2>;
+/// Several lists at once. what: what keys are in messages ("node"), per list. Throws Error on all ranks where the runs
+/// of two ranks contradict each other.
+PassSums sums_of(Ranks& ranks, const RunLists& mine);
 
-struct KeyCounts {
-  std::int64_t key;
-  Counts n;
-};
+/// Which of these nodes of this rank's part (ids, ascending) others have too.
+std::vector<NodeAtOthers> at_others(Ranks& ranks, const Mesh& part, std::span<const std::int64_t> ids);
 
-struct Starts {
-  std::vector<Counts> before;  ///< per key that was asked: the sum of the counts of all lower keys of any rank
-  Counts total{};
-};
-
-/// mine: ascending by key, each once. Several ranks may have a key; then they have the same counts for it, and it
-/// counts once. what: what a key is in messages ("node"). Throws Error on all ranks where
-/// counts for a key differ.
-Starts starts_by_key(Ranks& ranks, const std::vector<KeyCounts>& mine, const char* what);
-
-/// For each key (ascending, each once) the other ranks that have it too, ascending. Rows in the order of keys.
-std::vector<std::vector<int>> others_with(Ranks& ranks, const std::vector<std::array<std::int64_t, 4>>& keys);
+/// Of the faces that one hex of each part has alone those on the skin or between volumes: of all ranks, everywhere.
+std::vector<SkinFace> skin_of_all(Ranks& ranks, std::vector<SkinFace> open, std::vector<SkinFace> walls);
 
 }  // namespace hextwist

@@ -49,16 +49,33 @@ std::vector<std::int64_t> Ranks::sum(std::vector<std::int64_t> values) {
   return result;
 }
 
-std::int64_t Ranks::sum_before(std::int64_t value) {
-  std::int64_t result = 0;
-  MPI_Exscan(&value, &result, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
-  return rank_ == 0 ? 0 : result;
+std::vector<std::int64_t> Ranks::sum_before(std::vector<std::int64_t> values) {
+  std::vector<std::int64_t> result(values.size(), 0);
+  MPI_Exscan(values.data(), result.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  if (rank_ == 0) std::ranges::fill(result, 0);
+  return result;
 }
 
-void Ranks::share(std::span<int> values) {
-  constexpr std::size_t piece = std::size_t{1} << 28;
-  for (std::size_t at = 0; at < values.size(); at += piece)
-    MPI_Bcast(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)), MPI_INT, 0, MPI_COMM_WORLD);
+std::vector<double> Ranks::largest(std::vector<double> values) {
+  std::vector<double> result(values.size());
+  MPI_Allreduce(values.data(), result.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return result;
+}
+
+std::vector<std::vector<std::byte>> Ranks::everywhere(std::span<const std::byte> mine) {
+  std::vector<std::vector<std::byte>> all(static_cast<std::size_t>(size_));
+  for (int rank = 0; rank < size_; ++rank) {
+    std::vector<std::byte>& bytes = all[rank];
+    if (rank == rank_) bytes.assign(mine.begin(), mine.end());
+    auto size = static_cast<std::int64_t>(bytes.size());
+    MPI_Bcast(&size, 1, MPI_INT64_T, rank, MPI_COMM_WORLD);
+    bytes.resize(static_cast<std::size_t>(size));
+    for (std::size_t at = 0; at < bytes.size(); at += longest_message)
+      MPI_Bcast(bytes.data() + at, static_cast<int>(std::min(longest_message, bytes.size() - at)), MPI_BYTE, rank,
+                MPI_COMM_WORLD);
+    if (rank == rank_ && size > 0) n_messages_ += size_ - 1, n_bytes_ += size * (size_ - 1);
+  }
+  return all;
 }
 
 std::string Ranks::text_of(int rank, const std::string& text) {

@@ -40,12 +40,13 @@ class Ranks {
   std::vector<std::int64_t> sum(std::vector<std::int64_t> values);
   std::int64_t least(std::int64_t value);
   std::int64_t largest(std::int64_t value);
-  /// The sum of the values of the ranks before.
-  std::int64_t sum_before(std::int64_t value);
-  /// What the first rank has, everywhere. As long on all ranks.
-  void share(std::span<int> values);
+  /// The sums of the values of the ranks before.
+  std::vector<std::int64_t> sum_before(std::vector<std::int64_t> values);
+  std::vector<double> largest(std::vector<double> values);
   /// The text of one rank, everywhere.
   std::string text_of(int rank, const std::string& text);
+  /// The bytes of each rank, everywhere.
+  std::vector<std::vector<std::byte>> everywhere(std::span<const std::byte> mine);
 
   /// Each rank does its work, which sends nothing. Where it throws on one of them, all throw Error: "rank 3: ...".
   void together(const std::function<void()>& work);

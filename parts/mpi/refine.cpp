@@ -1,104 +1,236 @@
 #include "hextwist/parts/mpi/refine.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
+#include <optional>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
+#include "hextwist/parts/agree.h"
+#include "hextwist/parts/halo.h"
+#include "hextwist/parts/mpi/directory.h"
+#include "hextwist/parts/mpi/share_out.h"
+#include "hextwist/parts/pack.h"
+#include "hextwist/patch/patch.h"
 
 namespace hextwist {
 namespace {
 
-/// Rings that are compared with their owners and must be the same.
-constexpr int least_rings = 2;
+std::vector<Index> all_of(Index n) {
+  std::vector<Index> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// The part with its halo.
+LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
+  const Mesh& mesh = part.own.mesh;
+  std::vector<std::int64_t> skin;
+  ranks.together([&] { skin = skin_nodes(mesh); });
+  std::vector<std::vector<std::byte>> to(static_cast<std::size_t>(ranks.size()));
+  {
+    HaloSearch search(mesh, ranks.rank(), ranks.size(), at_others(ranks, mesh, skin));
+    std::vector<HaloSearch::Reached> told;
+    for (int ring = 1; ring <= n_rings && n_rings < all_rings; ++ring) {
+      const auto from = ranks.exchange(search.next_ring(told));
+      told.clear();
+      for (const auto& list : from) told.insert(told.end(), list.begin(), list.end());
+      if (ranks.largest(!told.empty() || search.goes_on()) == 0) break;
+    }
+    ranks.together([&] {
+      for (int other = 0; other < ranks.size(); ++other) {
+        std::vector<Index> hexes = search.hexes_around(other);
+        if (n_rings == all_rings && other != ranks.rank()) hexes = all_of(mesh.n_hexes());
+        if (hexes.empty()) continue;
+        Patch patch = make_patch(part.own, std::move(hexes));
+        set_ids(mesh, patch, patch.meshed.mesh);
+        to[other] = packed(patch.meshed);
+      }
+    });
+  }
+  auto from = ranks.exchange(to);
+  to.clear();
+  LocalMesh local;
+  ranks.together([&] {
+    std::vector<HaloPiece> pieces;
+    for (int other = 0; other < ranks.size(); ++other) {
+      if (from[other].empty()) continue;
+      pieces.push_back({unpacked(from[other]), other});
+      from[other] = {};
+    }
+    local = local_mesh(part.own, ranks.rank(), pieces, n_rings, part.n_hexes);
+  });
+  return local;
+}
 
 /// How many rings around this rank's own hexes are what their owners made of them.
 int rings_alike(Ranks& ranks, const LocalMesh& local, std::span<const std::uint64_t> digest) {
-  struct Question {
-    Index hex;
-    std::uint32_t low, high;
-  };
-  const auto n = static_cast<std::size_t>(ranks.size());
-  std::vector<std::vector<Question>> questions(n);
-  std::vector<std::vector<std::uint8_t>> ring(n);
-  for (std::size_t i = 0; i < local.base.hex.size(); ++i) {
-    const std::uint8_t r = local.base.ring[i];
-    if (r == 0 || r > local.n_rings) continue;
-    const auto owner = static_cast<std::size_t>(local.base.owner[i]);
-    questions[owner].push_back(
-        {local.base.hex[i], static_cast<std::uint32_t>(digest[i]), static_cast<std::uint32_t>(digest[i] >> 32)});
-    ring[owner].push_back(r);
-  }
-  const auto asked = ranks.exchange(questions);
-  std::vector<std::vector<std::uint8_t>> answers(n);
-  for (std::size_t r = 0; r < n; ++r)
-    for (const Question& question : asked[r]) {
-      const std::uint64_t mine = digest[position_in(local.base.hex, question.hex)];
-      answers[r].push_back(mine == (std::uint64_t{question.high} << 32 | question.low));
-    }
+  const HaloMade made = made_of_halo(local, digest, ranks.size());
+  const auto asked = ranks.exchange(made.of);
+  std::vector<std::vector<std::uint8_t>> answers;
+  for (const auto& theirs : asked) answers.push_back(is_same(theirs, local.base, digest));
   int alike = local.n_rings;
   const auto answered = ranks.exchange(answers);
-  for (std::size_t r = 0; r < n; ++r)
+  for (std::size_t r = 0; r < answered.size(); ++r)
     for (std::size_t i = 0; i < answered[r].size(); ++i)
-      if (!answered[r][i]) alike = std::min(alike, ring[r][i] - 1);
+      if (!answered[r][i]) alike = std::min(alike, made.ring[r][i] - 1);
   return alike;
 }
 
-GlobalIds ids_of(const MeshedModel& whole, const LocalMesh& local) {
-  GlobalIds ids;
-  for (const Index n : local.base.node) ids.node.push_back(node_id(whole.mesh, n));
-  for (const Index h : local.base.hex) ids.hex.push_back(hex_id(whole.mesh, h));
-  ids.highest_node = node_id(whole.mesh, whole.mesh.n_nodes() - 1);
-  ids.highest_hex = hex_id(whole.mesh, whole.mesh.n_hexes() - 1);
-  return ids;
+/// The text of the first rank that has one.
+std::string first_text(Ranks& ranks, const std::string& text) {
+  const auto first = static_cast<int>(ranks.least(text.empty() ? ranks.size() : ranks.rank()));
+  return first == ranks.size() ? std::string() : ranks.text_of(first, text);
 }
 
-std::int64_t n_own(const LocalMesh& local) {
-  return std::ranges::count_if(local.base_of, [&](Index b) { return local.base.ring[b] == 0; });
+/// What all ranks make of a command together.
+Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMesh& local, const GlobalIds& ids,
+             bool has_cad, std::vector<Approach>& before) {
+  PartAsked mine;
+  ranks.together([&] { mine = commands.asked(i, local, ids, has_cad); });
+  const bool is_here = mine.asked.is_here;
+  const std::string wrong = first_text(ranks, mine.wrong), nothing = first_text(ranks, mine.nothing);
+  const auto approach =
+      static_cast<Approach>(ranks.largest(is_here ? static_cast<std::int64_t>(mine.asked.approach) : 0));
+  const bool is_anywhere = ranks.largest(is_here) != 0;
+  commands.check(i, is_anywhere, nothing, wrong, ranks.sum(std::move(mine.has_id)), approach, before);
+  before.push_back(approach);
+  mine.asked.approach = approach;
+  return std::move(mine.asked);
+}
+
+/// The turns of all ranks, in their order.
+std::vector<Turn> all_turns(Ranks& ranks, std::span<const PassRecord> records) {
+  std::vector<Turn> mine, all;
+  for (const PassRecord& record : records) mine.push_back(record.turn);
+  for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
+    const std::size_t before = all.size();
+    all.resize(before + bytes.size() / sizeof(Turn));
+    if (!bytes.empty()) std::memcpy(&all[before], bytes.data(), bytes.size());
+  }
+  return sorted_unique(std::move(all));
+}
+
+void number(Ranks& ranks, const LocalRun& run, GlobalIds& ids) {
+  const std::int64_t before = ids.highest_hex;
+  for (const Turn& turn : all_turns(ranks, run.records)) {
+    const PassRecord* record = pass_at(run.records, turn);
+    RunLists runs;
+    if (record) runs = brought_by(*record, ids);
+    const PassSums sums = sums_of(ranks, runs);
+    number_pass(record, runs, sums, ids);
+  }
+  if (ranks.largest(run.by_levels) == 0) return;
+  const RunLists runs = {std::vector<Run>(), std::vector<Run>(), survivors(before, ids)};
+  const PassSums sums = sums_of(ranks, runs);
+  number_survivors(before, runs[2], sums.before[2], sums.total[2][0], ids);
+}
+
+/// What comes of a try.
+struct Tried {
+  std::optional<InRanks> made;
+  std::string by_whole;  ///< why nothing less than the whole mesh on each rank will do
+};
+
+/// Nothing where halos were not wide enough.
+Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& commands, int n_rings,
+                    std::vector<std::string>& lines) {
+  InRanks made;
+  made.n_rings = n_rings;
+  made.local = with_halo(ranks, part, n_rings);
+  made.ids = {made.local.base.node, made.local.base.hex, part.highest_node, part.highest_hex};
+  std::vector<Approach> approaches;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const std::int64_t n_before = ranks.sum(n_own_hexes(made.local));
+    const Asked asked = agreed(ranks, commands, i, made.local, made.ids, part.has_cad, approaches);
+    LocalRun run;
+    // What is asked of all ranks in between, each asks as often.
+    ranks.together([&] {
+      run = run_locally(made.local, asked, [&](int, const Bounds& mine) {
+        const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
+        return Bounds{-most[0], -most[1]};
+      });
+    });
+    const int n_rings_now = made.local.n_rings;
+    const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
+    const bool have_all = ranks.least(made.local.is_all) != 0;
+    const std::string by_whole = first_text(ranks, run.by_whole);
+    const Verdict verdict = verdict_of(alike, n_rings_now, by_whole, have_all);
+    if (verdict != Verdict::right) return {std::nullopt, by_whole};
+    ranks.together([&] {
+      if (!run.wrong.empty()) throw Error(run.wrong);
+    });
+    const int keep = rings_to_keep(alike, have_all);
+    for (PassRecord& record : run.records) keep_rings(record, keep);
+    number(ranks, run, made.ids);
+    ranks.together([&] { trim(made.local, keep, made.ids); });
+    const std::int64_t n_after = ranks.sum(n_own_hexes(made.local)), largest = ranks.largest(n_own_hexes(made.local));
+    lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
+                    counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
+  }
+  std::vector<std::int64_t> n_of_base(made.local.base.hex.size(), 0);
+  for (const Index b : made.local.base_of) ++n_of_base[b];
+  for (std::size_t b = 0; b < n_of_base.size(); ++b)
+    if (made.local.base.ring[b] == 0) made.n_made.push_back(n_of_base[b]);
+  return {std::move(made), {}};
 }
 
 }  // namespace
 
-InRanks refine_in_ranks(Ranks& ranks, const MeshedModel& whole, std::span<const int> part_of_hex,
-                        std::span<const Asked> asked, int n_rings, const std::function<void(const std::string&)>& say) {
-  int deepest = 0;
-  for (const Asked& each : asked) deepest = std::max(deepest, each.request.target.depth.value_or(0));
-  n_rings += deepest;
-  constexpr int most_rings = 250;
-  for (int n_restarts = 0;; ++n_restarts, n_rings = std::min(2 * n_rings, most_rings)) {
-    InRanks made;
-    made.n_rings = n_rings;
-    made.n_restarts = n_restarts;
+InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
+                        const std::function<void(const std::string&)>& say) {
+  int n_rings = first_rings(options.n_rings, commands.depth(), commands.size()), n_restarts = 0;
+  std::string by_whole;
+  bool may_rebalance = options.rebalance && ranks.size() > 1;
+  for (;;) {
     std::vector<std::string> lines;
-    ranks.together([&] { made.local = local_mesh(whole, part_of_hex, ranks.rank(), n_rings); });
-    made.ids = ids_of(whole, made.local);
-    bool is_alike = true;
-    for (const Asked& each : asked) {
-      const std::int64_t n_before = ranks.sum(n_own(made.local));
-      LocalRun run;
-      ranks.together([&] { run = run_locally(made.local, each); });
-      const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
-      is_alike = alike >= std::min(least_rings, made.local.n_rings);
-      if (!is_alike) break;
-      number(ranks, run.records, run.by_levels, made.ids);
-      std::vector<Index> nodes, hexes;
-      ranks.together([&] { trim(made.local, alike, nodes, hexes); });
-      made.ids.node = items_at(made.ids.node, nodes);
-      made.ids.hex = items_at(made.ids.hex, hexes);
-      const std::int64_t n_after = ranks.sum(n_own(made.local)), largest = ranks.largest(n_own(made.local));
-      lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
-                      counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
-    }
-    if (!is_alike) {
-      if (n_rings == most_rings || ranks.least(made.local.is_all))
-        throw Error("parts can't be brought to agree about hexes between them");
+    Tried tried = try_to_refine(ranks, part, commands, n_rings, lines);
+    std::optional<InRanks>& made = tried.made;
+    if (!made) {
+      ++n_restarts;
+      if (by_whole.empty()) by_whole = tried.by_whole;
+      n_rings = by_whole.empty() && 2 * n_rings <= most_rings ? 2 * n_rings : all_rings;
       continue;
     }
+    made->n_restarts = n_restarts;
     for (const std::string& line : lines) say(line);
-    if (n_restarts > 0)
-      say("what is cut depends on places far away: halos of " + counted(n_rings, "ring") + " were needed");
-    return made;
+    if (!by_whole.empty())
+      say(by_whole + ": each rank needed the whole mesh");
+    else if (n_restarts > 0)
+      say("what is made depends on places far away: halos of " +
+          (n_rings == all_rings ? "all rings" : counted(n_rings, "ring")) + " were needed");
+    const std::int64_t mine = n_own_hexes(made->local), all = ranks.sum(mine), largest = ranks.largest(mine);
+    const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);
+    say("the largest part has " + short_number(load) + " times the average");
+    if (!may_rebalance || load <= fair) return std::move(*made);
+    // What comes out does not depend on who does it: the same again, by others.
+    may_rebalance = false;
+    const std::vector<std::int64_t> weights = std::move(made->n_made);
+    made.reset();
+    const std::vector<int> rank_of_hex = share_out(ranks, part.own.mesh, PartitionBy::boxes, weights);
+    part.own = moved(ranks, std::move(part.own), rank_of_hex);
+    say("hexes are shared out again by what becomes of them");
   }
+}
+
+OwnPart take_part(Ranks& ranks, InRanks made) {
+  const std::int64_t highest = std::max(made.ids.highest_node, made.ids.highest_hex);
+  OwnPart part;
+  ranks.together([&] { part = take_own(std::move(made.local), std::move(made.ids), ranks.rank(), ranks.size()); });
+  const std::vector<std::int64_t> counts = ranks.sum(part.counts);
+  const std::vector<std::int64_t> shares = ranks.sum(block_shares(part, counts));
+  fill_in_whole(part, counts, shares, highest);
+  return part;
+}
+
+std::vector<std::string> write_in_ranks(Ranks& ranks, InRanks made, const std::filesystem::path& name) {
+  const OwnPart part = take_part(ranks, std::move(made));
+  std::vector<std::string> notices;
+  PartOutput output(name, ranks.size());
+  ranks.together([&] { output.write(part, notices); });
+  ranks.together([&] { output.commit(); });
+  return notices;
 }
 
 }  // namespace hextwist

@@ -1,11 +1,10 @@
 // Refinements by several ranks, each on its part of the mesh: the parts together are what one rank would have made.
 //
 // Each rank runs the passes on its own hexes and some rings of others' hexes around them, by the code that refines any
-// mesh. What rank r makes of a hex of rank q in its halo is compared with what q makes of it: where the first two rings
-// are the same on all ranks, nothing that lies beyond the halo had a say, since influence goes from hex to hex. Rings
-// that differ are dropped before the next refinement; where the first two differ, all is done again with twice as many
-// rings. So a closing of concave places that runs far makes halos wide, and in the end each rank has the whole mesh and
-// is right for that reason.
+// mesh. What it makes of these is compared with what their owners make of them (agree.h). Rings that differ are dropped
+// before the next refinement; where too near ones do, all is done again with twice as many rings. So a closing of
+// concave places that runs far makes halos wide, and where all of the mesh is looked at at once each rank has the whole
+// mesh and is right for that reason.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +12,9 @@
 #include <span>
 #include <string>
 
-#include "hextwist/parts/local_mesh.h"
-#include "hextwist/parts/mpi/numbering.h"
+#include "hextwist/parts/asked.h"
+#include "hextwist/parts/mpi/input.h"
+#include "hextwist/parts/own_part.h"
 
 namespace hextwist {
 
@@ -23,16 +23,25 @@ struct InRanks {
   GlobalIds ids;
   int n_rings = 0;  ///< that halos began with
   int n_restarts = 0;
+  std::vector<std::int64_t> n_made;  ///< per hex of the rank's part before: what has become of it
 };
 
-/// Does the refinements one after another. n_rings: around each part, to begin with, and as many as the depth of a
-/// target more. whole and part_of_hex are the same on all ranks. say: lines about what was done; called on all ranks.
-/// Throws Error on all ranks: "rank 3: ...".
-InRanks refine_in_ranks(Ranks& ranks, const MeshedModel& whole, std::span<const int> part_of_hex,
-                        std::span<const Asked> asked, int n_rings, const std::function<void(const std::string&)>& say);
+struct RankOptions {
+  int n_rings = 6;        ///< around each part, to begin with, and as many as the depth of a target more
+  bool rebalance = true;  ///< share hexes out again where a rank ends with more than `fair` times the average
+};
+inline constexpr double fair = 1.2;
 
-/// Writes each rank's part to name.n.rank: all of them, or none where one fails. Returns what the format could not
+/// Does the refinements one after another. The part stays, but for where hexes are shared out again. say: lines about
+/// what was done; called on all ranks. Throws Error on all ranks: "rank 3: ...".
+InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
+                        const std::function<void(const std::string&)>& say);
+
+/// This rank's part of what was made, with counts of the whole.
+OwnPart take_part(Ranks& ranks, InRanks made);
+
+/// Writes each rank's part (PartOutput): all of them, or none where one fails. Returns what the format could not
 /// keep.
-std::vector<std::string> write_in_ranks(Ranks& ranks, const InRanks& made, const std::filesystem::path& name);
+std::vector<std::string> write_in_ranks(Ranks& ranks, InRanks made, const std::filesystem::path& name);
 
 }  // namespace hextwist

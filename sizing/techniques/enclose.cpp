@@ -25,7 +25,11 @@ class Enclose : public Technique {
 
   std::optional<Cut> next(State& state) override {
     for (;;) {
-      if (auto cut = round_.next(state, done_, &state.mesh() != &state.input.mesh)) return cut;
+      if (auto cut = round_.next(state, done_, &state.mesh() != &state.input.mesh)) {
+        cut->turn.round = n_rounds_;
+        return cut;
+      }
+      ++n_rounds_;
       if (--n_left_ == 0) return std::nullopt;
       round_ = EncloseRound(round_.take_target(), at_);
     }
@@ -35,7 +39,7 @@ class Enclose : public Technique {
 
  private:
   EncloseAt at_;
-  int n_left_;
+  int n_left_, n_rounds_ = 0;
   EncloseRound round_;
   Enclosed done_;
 };
@@ -54,16 +58,19 @@ std::optional<Cut> EncloseRound::next(State& state, Enclosed& done, bool cuts_ag
     state.begin("close");
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);
     for (const Index n : rest_) marked[n] = 1;
-    done.n_added += close_enclosure_nearby(mesh, marked, max_growth);
+    const Index n_added = close_enclosure_nearby(mesh, marked, max_growth);
+    done.n_added += n_added;
     const std::vector<std::uint8_t> part = enclosable_part(mesh.hexes, marked);
     std::erase_if(rest_, [&](Index n) { return part[n] != 0; });
     if (!rest_.empty()) done.n_first += static_cast<Index>(std::ranges::count(part, 1));
-    return Cut{enclose_table(at_), enclose_codes(mesh.hexes, part), std::exchange(is_first_, false) && cuts_again};
+    if (n_added > 0 || part != marked) state.report.by_whole = enclosed_together;
+    const bool again = std::exchange(is_first_, false) && cuts_again;
+    return Cut{enclose_table(at_), enclose_codes(mesh.hexes, part), again, {0, 0, n_parts_++}};
   }
   if (has_trisected_ || at_ == EncloseAt::half || uncut_.empty()) return std::nullopt;
   state.begin("close");
   has_trisected_ = true;
-  return Cut{trisect_table(), combination_codes(mesh, target_, uncut_)};
+  return Cut{trisect_table(), combination_codes(mesh, target_, uncut_), false, {0, 1, 0}};
 }
 
 void EncloseRound::follow(const Lineage& lineage, const Mesh& after) {

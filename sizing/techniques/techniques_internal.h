@@ -77,6 +77,7 @@ class EncloseRound {
   std::vector<Index> rest_;  // nodes still to be enclosed
   std::vector<Edge> uncut_;
   bool is_first_ = true, has_trisected_ = false;
+  int n_parts_ = 0;
 };
 
 }  // namespace hextwist

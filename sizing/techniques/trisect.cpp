@@ -21,8 +21,10 @@ class Trisect : public Technique {
     const Mesh& mesh = state.mesh();
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);
     mark_nodes(mesh.hexes, targets_, marked);
-    if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-    return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), &mesh != &state.input.mesh};
+    std::vector<std::uint8_t> filled;
+    if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked, &filled);
+    const Turn turn{n_done_++, 0, 0};
+    return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), &mesh != &state.input.mesh, turn, std::move(filled)};
   }
   void follow(const Lineage& lineage, const Mesh&, const Mesh&) override {
     if (--n_left_ > 0) targets_ = children_of(lineage, targets_);
@@ -30,7 +32,7 @@ class Trisect : public Technique {
 
  private:
   std::vector<Index> targets_;
-  int n_left_;
+  int n_left_, n_done_ = 0;
 };
 
 class Uniform : public Technique {

@@ -1,0 +1,239 @@
+#include "hextwist/parts/asked.h"
+
+#include <algorithm>
+
+#include "hextwist/base/text.h"
+#include "hextwist/command/braces.h"
+#include "hextwist/command/error_at.h"
+#include "hextwist/session/commands/request.h"
+#include "hextwist/session/session.h"
+#include "hextwist/sizing/targets.h"
+
+namespace hextwist {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& why) {
+  throw Error(what + " is not done in parts: " + why + "; run it with hextwist");
+}
+
+/// Whether a condition asks for more than a part knows.
+void check_criterion(const Criterion& criterion, EntityKind kind) {
+  if (criterion.op == Criterion::Op::attribute && is_cad(kind))
+    for (const Attribute attribute :
+         {Attribute::quality, Attribute::is_meshed, Attribute::element_count, Attribute::block_assigned})
+      if (criterion.attribute == attribute)
+        refuse("a choice of CAD entities by what the mesh has at them", "a part does not see all of that");
+  for (const Criterion& operand : criterion.operands) check_criterion(operand, kind);
+}
+
+/// Refuses what a part can't find out by itself, and collects ids.
+void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids) {
+  const auto names_mesh = is_mesh(kind);
+  for (const RangeItem& item : range.items) {
+    if (item.kind == RangeItem::Kind::all || item.kind == RangeItem::Kind::within || !names_mesh) continue;
+    if (item.kind == RangeItem::Kind::at) refuse("what is nearest to a point", "it may lie in any part");
+    if (kind == EntityKind::edge || kind == EntityKind::face)
+      refuse("an edge or a face by its number", "numbers are those of the whole mesh");
+    if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
+    if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
+    // Of a span some may be missing, as to a single process; its ends show that it does not go beyond what there is.
+    ids->push_back({item.first, item.step == 0});
+  }
+  if (of_cad && !is_cad(kind)) refuse("a choice of CAD entities by the mesh", "a part does not see all of that");
+  for (const RangeFilter& filter : range.filters) {
+    using Test = RangeFilter::Test;
+    if (filter.kind == RangeFilter::Kind::most ||
+        (filter.kind == RangeFilter::Kind::field && (filter.test == Test::top || filter.test == Test::bottom)))
+      refuse("a choice of the largest or smallest", "values are compared over the whole mesh");
+    if (filter.kind == RangeFilter::Kind::with) check_criterion(filter.criterion, kind);
+    for (const RangeTerm& term : filter.terms)
+      check_range(term.any_kind ? kind : term.kind, term.range, of_cad, nullptr);
+  }
+}
+
+constexpr std::int64_t most_ids = 1000000;  // of a span
+
+/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Those within have a step of 0.
+void spell_out(EntityKind kind, Range& range) {
+  if (kind != EntityKind::node && kind != EntityKind::hex) return;
+  std::vector<RangeItem> items;
+  for (RangeItem& item : range.items) {
+    if (item.kind != RangeItem::Kind::span) {
+      items.push_back(std::move(item));
+      continue;
+    }
+    const std::int64_t last = (item.last - item.first) / item.step;
+    if (last >= most_ids) refuse("a span of more than a million ids", "each is looked for");
+    for (std::int64_t k = 0; k <= last; ++k) {
+      RangeItem one = item;
+      one.kind = RangeItem::Kind::id;
+      one.first = one.last = item.first + k * item.step;
+      one.step = k == 0 || k == last ? 1 : 0;
+      items.push_back(std::move(one));
+    }
+  }
+  range.items = std::move(items);
+}
+
+/// Takes out the ids that are not here. False: none was left.
+bool keep_ids_here(const Mesh& mesh, EntityKind kind, Range& range) {
+  if (range.items.empty() || (kind != EntityKind::node && kind != EntityKind::hex)) return true;
+  std::erase_if(range.items, [&](const RangeItem& item) {
+    return item.kind == RangeItem::Kind::id &&
+           (kind == EntityKind::node ? find_node(mesh, item.first) : find_hex(mesh, item.first)) < 0;
+  });
+  return !range.items.empty();
+}
+
+void check_request(const Request& request, Approach approach) {
+  switch (approach) {
+    case Approach::uniform:
+    case Approach::trisect:
+    case Approach::levels:
+    case Approach::parallel:
+      break;
+    case Approach::combination:
+      if (std::get<Cuts>(request.how).numsplit > 1 && is_regular(request))
+        refuse("numsplit above 1 along nodes, curves and surfaces (depth 0)",
+               "it goes by levels first; 'depth 1' can be");
+      break;
+    case Approach::eight:
+      refuse("one into eight", "its sheets are planned through the whole mesh");
+    case Approach::thickness:
+    case Approach::layers:
+    case Approach::sheets:
+      refuse("a direction or a sheet", "sheets run through the whole mesh");
+    default:
+      refuse("a size", "how well sizes are met is compared over the whole mesh");
+  }
+  if (request.finish.smooth) refuse("smooth", "smoothing goes across parts");
+  if (request.finish.dry_run) refuse("dry_run", "it counts without making anything");
+}
+
+std::string in_one_line(const std::exception& error) {
+  if (const auto* at = dynamic_cast<const CommandError*>(&error)) return at->message();
+  return error.what();
+}
+
+/// What the target is where it is here; else the reason in `nothing`.
+void find_target(Execution& run, PartAsked& result) {
+  try {
+    target_of(run);
+  } catch (const std::exception& error) {
+    result.nothing = in_one_line(error);
+    return;
+  }
+  Request request = request_of(run);
+  const Approach approach = plan(*run.meshed, request).approach;
+  check_request(request, approach);
+  std::vector<std::string> told;
+  try {
+    if (request.target.radius) {
+      request.target = {EntityKind::hex, region_target(*run.meshed, request.target, told)};
+      request.method = Method::single;
+    } else if (approach != Approach::uniform) {
+      if (is_solid(request.target.kind))
+        solid_target(*run.meshed, request.target);
+      else
+        sub_element_target(*run.meshed, request.target, told);
+    }
+  } catch (const Error& error) {
+    result.nothing = error.what();
+    return;
+  }
+  result.asked = {std::move(request), approach, true};
+}
+
+}  // namespace
+
+PartCommands::PartCommands(std::span<const std::string> texts) {
+  for (const std::string& text : texts)
+    for (const Statement& statement : split_statements(text, "", 1)) {
+      if (has_braces(statement))
+        throw error_at(statement, statement.tokens.front(), "braces are not known to meshes in parts");
+      Command command = parse(statement);
+      if (command.spec->name != "refine")
+        throw error_at(
+            statement, statement.tokens.front(),
+            "'" + std::string(command.spec->name) + "' is not done in parts: join them and run it with hextwist");
+      if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
+      if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
+      if (command.find("size") || command.has("sizing_function"))
+        refuse("a size", "how well sizes are met is compared over the whole mesh");
+      std::vector<NamedId> ids;
+      for (Item& item : command.items) {
+        if (item.is_word || (item.name != "range" && item.name != "which")) continue;
+        const bool is_target = item.name == "range";
+        if (is_target) spell_out(item.kind, item.range);
+        check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
+        if (is_mesh(item.kind) && command.find("radius"))
+          refuse("a radius around nodes or hexes", "they may lie in any part");
+      }
+      ids_.push_back(std::move(ids));
+      commands_.push_back(std::move(command));
+    }
+  if (commands_.empty()) throw Error("no refinement was asked for");
+}
+
+int PartCommands::depth() const {
+  int deepest = 0;
+  for (const Command& command : commands_)
+    if (const Item* layers = command.find("layers")) deepest = std::max(deepest, static_cast<int>(layers->number));
+  return deepest;
+}
+
+PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& ids, bool has_cad) const {
+  PartAsked result;
+  result.asked.is_here = false;
+  Session session;
+  Session::Core& core = session.core();
+  core.history.on = false;
+  core.state.has_cad = has_cad;
+  Command command = commands_[i];
+  Mesh& mesh = local.meshed.mesh;
+  mesh.node_ids = ids.node;
+  mesh.hex_ids = ids.hex;
+  bool is_any_left = true;
+  result.has_id.reserve(ids_[i].size());
+  for (Item& item : command.items) {
+    if (item.is_word || item.name != "range") continue;
+    for (const auto& [id, may_be_missing] : ids_[i])
+      result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, id) : find_hex(mesh, id)) >= 0);
+    is_any_left = is_any_left && keep_ids_here(mesh, item.kind, item.range);
+  }
+  core.exchange_mesh(MeshHolder(std::move(local.meshed)));
+  if (is_any_left) {
+    try {
+      Execution run(core, command);
+      find_target(run, result);
+    } catch (const std::exception& error) {
+      result.wrong = in_one_line(error);
+    }
+  } else {
+    result.nothing = "none of them is there";
+  }
+  local.meshed = std::move(core.meshed.to_change());
+  local.meshed.mesh.node_ids.clear();
+  local.meshed.mesh.hex_ids.clear();
+  return result;
+}
+
+bool PartCommands::cuts_levels(std::size_t i, Approach approach) const {
+  return approach == Approach::levels ||
+         (approach == Approach::trisect && !commands_[i].has("fill") && !commands_[i].has("nested"));
+}
+
+void PartCommands::check(std::size_t i, bool is_anywhere, const std::string& nothing, const std::string& wrong,
+                         std::span<const std::int64_t> has_id, Approach approach,
+                         std::span<const Approach> before) const {
+  if (!wrong.empty()) throw Error(wrong);
+  for (std::size_t k = 0; k < has_id.size(); ++k)
+    if (has_id[k] == 0 && !ids_[i][k].may_be_missing)
+      throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
+                  std::to_string(ids_[i][k].id));
+  if (!is_anywhere) throw Error(nothing);
+  if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))
+    refuse("a second level", "it is made from the mesh before the first; 'numsplit 2' or 'transition nested' can be");
+}
+
+}  // namespace hextwist

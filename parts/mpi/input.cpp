@@ -1,0 +1,171 @@
+#include "hextwist/parts/mpi/input.h"
+
+#include <algorithm>
+
+#include "hextwist/base/text.h"
+#include "hextwist/geom/occ/model.h"
+#include "hextwist/io/file_part.h"
+#include "hextwist/io/io.h"
+#include "hextwist/mesh/association/meant.h"
+#include "hextwist/parts/files.h"
+#include "hextwist/parts/join.h"
+#include "hextwist/parts/mpi/directory.h"
+#include "hextwist/parts/mpi/share_out.h"
+#include "hextwist/parts/own_skin.h"
+#include "hextwist/session/core.h"
+#include "hextwist/session/session.h"
+
+namespace hextwist {
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+/// The files of a split mesh that fall to this rank.
+MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say) {
+  MeshedModel own;
+  PartHead head;
+  std::vector<std::string> notices;
+  const auto begin = [&](int rank) { return static_cast<int>(std::int64_t{split.n_parts} * rank / ranks.size()); };
+  ranks.together([&] {
+    std::vector<MeshedModel> pieces;
+    for (int p = begin(ranks.rank()); p < begin(ranks.rank() + 1); ++p)
+      pieces.push_back({read_one_part(split, p, head, notices), nullptr, {}});
+    if (pieces.size() == 1)
+      own = std::move(pieces[0]);
+    else if (!pieces.empty())
+      own = join(pieces, [&](std::size_t i) {
+        return part_name(split.name, split.n_parts, begin(ranks.rank()) + static_cast<int>(i)).string();
+      });
+    need_ids(own.mesh);
+  });
+  const auto [n_nodes, n_hexes] = std::pair(ranks.largest(head.n_nodes), ranks.largest(head.n_hexes));
+  ranks.together([&] {
+    if (head.n_parts > 0 && (head.n_nodes != n_nodes || head.n_hexes != n_hexes))
+      throw Error(part_name(split.name, split.n_parts, begin(ranks.rank())).string() + ": is part of a mesh of " +
+                  std::to_string(head.n_hexes) + " hexes and " + std::to_string(head.n_nodes) +
+                  " nodes, others of one of " + std::to_string(n_hexes) + " and " + std::to_string(n_nodes));
+  });
+  if (const std::int64_t n = ranks.sum(own.mesh.n_hexes()); n != n_hexes)
+    throw Error(split.name.string() + ": its parts have " + std::to_string(n) + " hexes together, and say " +
+                std::to_string(n_hexes));
+  for (const std::string& line : notices) say(line);
+  return own;
+}
+
+/// What the first rank reads by itself, on CAD where there is any. glued: the CAD had to be.
+MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesystem::path& cad, bool& glued, Say say) {
+  Session session;
+  Session::Core& core = session.core();
+  core.history.on = false;
+  SessionCallbacks callbacks;
+  callbacks.notice = say;
+  session.set_callbacks(callbacks);
+  MeshFile file;
+  if (split_name(mesh).n_parts > 0) file = read_parts(mesh);
+  if (!cad.empty()) {
+    session.import_cad(cad);
+    if (file.mesh.hexes.empty())
+      session.import_mesh(mesh);
+    else
+      session.take_mesh(std::move(file.mesh));
+    glued = core.state.glued;
+    return std::move(core.meshed.to_change());
+  }
+  if (file.mesh.hexes.empty()) file = read_mesh(mesh);
+  if (!file.middles.empty())
+    throw Error(mesh.string() + ": hexes of " + std::to_string(file.middles.nodes_per_hex) +
+                " nodes bend their skin, which is not done in parts; write it with 'set order 1' first");
+  for (const std::string& line : file.notices) say(line);
+  if (file.mesh.hexes.empty()) throw Error(mesh.string() + ": there are no hexes");
+  return {std::move(file.mesh), nullptr, {}};
+}
+
+/// The model of a mesh without CAD, and what that says of node sets.
+void put_on_own_skin(Ranks& ranks, MeshedModel& own) {
+  const Mesh& mesh = own.mesh;
+  std::vector<std::int64_t> block_sizes;
+  for (const Block& block : mesh.blocks) block_sizes.push_back(std::ssize(block.hexes));
+  block_sizes = ranks.sum(std::move(block_sizes));
+  if (ranks.least(has_block_each(mesh)) == 0) block_sizes.clear();
+  std::vector<int> volume = volumes_of_blocks(mesh, block_sizes);
+  std::vector<SkinFace> open, walls;
+  ranks.together([&] { find_faces(mesh, volume, open, walls); });
+  std::vector<SkinFace> all = skin_of_all(ranks, std::move(open), std::move(walls));
+  WholeSkin skin;
+  ranks.together([&] {
+    skin = make_skin_model(std::move(all));
+    put_on_skin(skin, std::move(volume), own);
+  });
+  for (NodeSet& set : own.mesh.node_sets) {
+    std::vector<std::int64_t> inner = inner_members(own, set, skin.model->count(3));
+    for (std::int64_t& flags : inner) flags = (flags & 1) | (flags & 2) << 30;  // bits that sums keep apart
+    inner = ranks.sum(std::move(inner));
+    for (std::int64_t& flags : inner)
+      flags = ((flags & ((std::int64_t{1} << 31) - 1)) != 0 ? 1 : 0) | (flags >> 31 != 0 ? 2 : 0);
+    std::vector<std::int64_t> mine;
+    for (const Index n : set.nodes)
+      if (own.association.node_owner[n].dim < 3) mine.push_back(node_id(own.mesh, n));
+    std::vector<std::int64_t> members;
+    for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
+      const auto* ids = reinterpret_cast<const std::int64_t*>(bytes.data());
+      members.insert(members.end(), ids, ids + bytes.size() / sizeof(std::int64_t));
+    }
+    std::ranges::sort(members);
+    set.meant = members.empty() && std::ranges::all_of(inner, [](std::int64_t f) { return !(f & 1); })
+                    ? std::vector<Owner>()
+                    : meant_on_skin(skin, members, inner);
+  }
+}
+
+void count_whole(Ranks& ranks, RankPart& part) {
+  const Mesh& mesh = part.own.mesh;
+  part.n_hexes = ranks.sum(mesh.n_hexes());
+  part.highest_node = ranks.largest(mesh.node_ids.empty() ? 0 : mesh.node_ids.back());
+  part.highest_hex = ranks.largest(mesh.hex_ids.empty() ? 0 : mesh.hex_ids.back());
+}
+
+}  // namespace
+
+RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const std::filesystem::path& cad,
+                       std::optional<PartitionBy> by, const Say& say) {
+  const SplitName split = split_name(mesh);
+  RankPart part;
+  part.has_cad = !cad.empty();
+  std::vector<int> rank_of_hex;
+  if (split.n_parts > 0 && cad.empty()) {
+    part.own = read_own_files(ranks, split, say);
+    share_heads(ranks, part.own.mesh);
+    if (by == PartitionBy::scotch) {
+      say("parts that are split already are shared out again by boxes, not by SCOTCH, which would need them all");
+      by = PartitionBy::boxes;
+    }
+    if (by || split.n_parts != ranks.size())
+      rank_of_hex = share_out(ranks, part.own.mesh, by.value_or(PartitionBy::boxes));
+  } else {
+    bool glued = false;
+    ranks.together([&] {
+      if (!ranks.is_first()) return;
+      part.own = read_by_first(mesh, cad, glued, say);
+      rank_of_hex = partition(part.own.mesh, ranks.size(), by.value_or(partition_by("")));
+      need_ids(part.own.mesh);
+    });
+    glued = ranks.largest(glued) != 0;
+    std::shared_ptr<const Model> model = part.own.model;
+    ranks.together([&] {
+      if (cad.empty() || ranks.is_first()) return;
+      model = read_cad(cad, {}).model;
+      if (glued) model = hextwist::glued(*model).model;
+    });
+    share_heads(ranks, part.own.mesh);
+    part.own.model = model;
+  }
+  if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
+  if (!part.has_cad) {
+    ranks.together([&] { check_part(part.own.mesh, mesh.string()); });
+    put_on_own_skin(ranks, part.own);
+  }
+  count_whole(ranks, part);
+  return part;
+}
+
+}  // namespace hextwist

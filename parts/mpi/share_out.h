@@ -1,0 +1,23 @@
+// Which rank each hex of a mesh in parts goes to, and how it gets there.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hextwist/mesh/meshed_model.h"
+#include "hextwist/parts/mpi/ranks.h"
+#include "hextwist/parts/partition.h"
+
+namespace hextwist {
+
+/// Per hex of this rank's part, which has its ids. weights: per hex, what it counts for; empty: 1. Throws Error on all
+/// ranks when there are fewer hexes than ranks. Not by SCOTCH.
+std::vector<int> share_out(Ranks& ranks, const Mesh& part, PartitionBy by, std::span<const std::int64_t> weights = {});
+
+/// Sends hexes to their ranks, with all that is known of them. The parts of all ranks have the same groups and fields.
+MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_hex);
+
+/// Gives the parts of all ranks the groups and fields that any of them has.
+void share_heads(Ranks& ranks, Mesh& part);
+
+}  // namespace hextwist
