@@ -50,7 +50,7 @@ std::string script(const std::vector<std::vector<Flat>>& polygons, double size, 
   return out.str();
 }
 
-FlatMesh read(std::istream& in, std::size_t n_given) {
+FlatMesh what_gmsh_left(std::istream& in, std::size_t n_given) {
   const auto broken = [] { return Error("gmsh has not left a mesh"); };
   const auto section = [&](const std::string& name) {
     for (std::string line; std::getline(in, line);)
@@ -157,7 +157,7 @@ QuadMesher paver_by_gmsh(std::filesystem::path program) {
         run_within(seconds, megabytes, program,
                    {"-2", "-v", "0", "-nopopup", "-format", "msh22", "-o", "{out}", "{in}"}, in, out);
         std::ifstream result(out.path());
-        FlatMesh mesh = read(result, n);
+        FlatMesh mesh = what_gmsh_left(result, n);
         if (mended(mesh)) return mesh;
         wrong = "gmsh has left elements that overlap";
       } catch (const Error& error) {
