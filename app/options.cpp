@@ -20,7 +20,8 @@ constexpr const char* description =
     "terminal, commands are read from there. 'hextwist check MESH [--cad FILE]' verifies a mesh,\n"
     "'hextwist view MESH [--cad FILE]' makes a page that shows it, 'hextwist serve [FILES]' is a page with a prompt,\n"
     "'hextwist convert MESH OUT [--order 2]' writes it in another format,\n"
-    "'hextwist split MESH N' and 'hextwist join PART' divide a mesh in files and make it one again.\n";
+    "'hextwist split MESH N' and 'hextwist join PART' divide a mesh in files and make it one again,\n"
+    "'hextwist refine-in-parts PART' refines such files one after the other.\n";
 
 bool is_journal(const std::string& name) {
   return lower_extension(name) == ".jou";
@@ -119,7 +120,9 @@ int read_in_parts(int argc, char** argv, Options& options) {
       ->allow_extra_args(false)
       ->take_all()
       ->required();
-  app.add_option("-o,--output", options.output, "OUT: parts are written to OUT.N.i")->required();
+  app.add_option("-o,--output", options.output,
+                 "OUT: parts are written to OUT.N.i (Exodus), or, where it ends in .pvtu, to .vtu files")
+      ->required();
   app.add_option("--rings", options.rings,
                  "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")
       ->check(CLI::Range(1, 250));

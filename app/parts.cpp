@@ -7,19 +7,22 @@
 #include <new>
 #include <optional>
 
+#include "console.h"
 #include "exit_status.h"
 #include "hextwist/base/fence.h"
+#include "hextwist/base/interrupt.h"
 #include "hextwist/base/memory.h"
 #include "hextwist/base/text.h"
 #include "hextwist/command/error_at.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/on_disk.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist::app {
 
 namespace {
 
-void refine_in_parts(const Options& options) {
+void refine_in_parts(const Options& options, const Fence& fence) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::string> texts;
   for (const Step& step : options.steps) texts.push_back(step.text);
@@ -29,7 +32,7 @@ void refine_in_parts(const Options& options) {
   } catch (const CommandError& error) {
     throw Error(error.message());
   }
-  refine_on_disk(options.mesh, *commands, options.output, {options.rings, {}}, [](const std::string& line) {
+  refine_on_disk(options.mesh, *commands, options.output, {options.rings, {}, fence}, [](const std::string& line) {
     std::cout << line << "\n" << std::flush;
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
@@ -45,9 +48,14 @@ int run_parts(const Options& options) {
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  bool stops = false;  // from then on whatever is asked
+  const Interruptible interruptible([&] {
+    stops = stops || take_interrupt() || ending_signal();
+    if (stops) throw Cancelled();
+  });
   try {
     if (options.in_parts) {
-      refine_in_parts(options);
+      refine_in_parts(options, fence);
       return done;
     }
     const auto lines =
@@ -61,6 +69,7 @@ int run_parts(const Options& options) {
     error = problem.what();
   }
   std::cerr << "error: " << error << "\n";
+  if (const int signal = ending_signal()) return 128 + signal;
   return command_failed;
 }
 

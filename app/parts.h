@@ -1,4 +1,4 @@
-// hextwist split and hextwist join.
+// hextwist split, hextwist join and hextwist refine-in-parts.
 #pragma once
 
 #include "options.h"

@@ -99,6 +99,13 @@ struct SpawnActions {
   SpawnActions& operator=(const SpawnActions&) = delete;
 };
 
+/// Waits until nobody else holds the other end of this pipe, and asks check_interrupt() meanwhile.
+void wait_for_end(int descriptor) {
+  pollfd end{descriptor, 0, 0};
+  // Ctrl-C ends the waiting itself: that is what is to be asked about.
+  for (int n = ::poll(&end, 1, 50); n == 0 || (n < 0 && errno == EINTR); n = ::poll(&end, 1, 50)) check_interrupt();
+}
+
 /// Above what the child's own descriptors are, so that none covers another.
 int out_of_the_way(int descriptor) {
   const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
@@ -195,7 +202,7 @@ void read_fenced(const Fence& fence, const std::string& kind, const std::filesys
   }
   alive.close(1);
   // The pipe ends when the child does.
-  for (pollfd end{alive.end[0], 0, 0}; ::poll(&end, 1, 50) == 0;) check_interrupt();
+  wait_for_end(alive.end[0]);
   child.wait();
 
   const bool ended = child.known && WIFEXITED(child.status);
@@ -272,7 +279,7 @@ void run_within(double seconds, double megabytes, const std::filesystem::path& p
   within(RLIMIT_FSIZE, megabytes * 1e6);
   within(RLIMIT_AS, megabytes * 1e6);
   alive.close(1);
-  for (pollfd end{alive.end[0], 0, 0}; ::poll(&end, 1, 50) == 0;) check_interrupt();
+  wait_for_end(alive.end[0]);
   child.wait();
   if (!child.known) return;  // the host of this process collects its children itself: what there is tells
   if (WIFEXITED(child.status) && WEXITSTATUS(child.status) == 0) return;

@@ -21,7 +21,7 @@ std::array<Index, 2> collapsed(std::span<const Index> nodes, std::span<const Ind
   return {-1, -1};
 }
 
-/// Throws where a face has more than two hexes that had not before. Returns the number of faces on the skin.
+/// Throws where a face has more than two hexes. Returns the number of faces on the skin.
 Index checked_skin(const Mesh& before, const Mesh& now) {
   struct Use {
     Quad nodes;
@@ -49,6 +49,21 @@ Index checked_skin(const Mesh& before, const Mesh& now) {
     throw Error(text + "): merge fewer nodes, or with a smaller tolerance");
   }
   return n_skin;
+}
+
+/// Throws where two hexes have the same nodes.
+void check_doubles(const Mesh& before, const Mesh& now) {
+  std::vector<std::pair<Hex, Index>> hexes;
+  for (Index h = 0; h < now.n_hexes(); ++h) {
+    hexes.emplace_back(now.hexes[h], h);
+    std::ranges::sort(hexes.back().first);
+  }
+  std::ranges::sort(hexes);
+  const auto found = std::ranges::adjacent_find(hexes, {}, [](const auto& each) { return each.first; });
+  if (found != hexes.end())
+    throw Error("hexes " + std::to_string(hex_id(before, found->second)) + " and " +
+                std::to_string(hex_id(before, std::next(found)->second)) +
+                " would have the same nodes: they lie in the same place");
 }
 
 Index n_skin_faces(const Mesh& mesh) {
@@ -129,6 +144,7 @@ MergeResult merge_nodes(const Mesh& mesh, double tolerance, std::span<const std:
     field.values = items_at(field.values, kept, width);
   }
   const Index after = checked_skin(mesh, out);
+  check_doubles(mesh, out);
   result.n_faces = (n_skin_faces(mesh) - after) / 2;
   return result;
 }

@@ -16,38 +16,68 @@ namespace {
   throw Error(what + " is not done in parts: " + why + "; run it with hextwist");
 }
 
+bool is_set(EntityKind kind) {
+  return !is_mesh(kind) && !is_cad(kind);
+}
+
+[[noreturn]] void refuse_sets() {
+  refuse("a choice of blocks or sets by what is in them", "a part does not see all of that");
+}
+[[noreturn]] void refuse_cad() {
+  refuse("a choice of CAD entities by what the mesh has at them", "a part does not see all of that");
+}
+[[noreturn]] void refuse_numbers() {
+  refuse("an edge or a face by its number", "numbers are those of the whole mesh");
+}
+
+void check_attribute(Attribute attribute, EntityKind kind) {
+  const bool is_id = attribute == Attribute::id;
+  if (is_id && (kind == EntityKind::edge || kind == EntityKind::face)) refuse_numbers();
+  if (!is_id && attribute != Attribute::name && is_set(kind)) refuse_sets();
+  if (!is_cad(kind)) return;
+  for (const Attribute of_mesh :
+       {Attribute::quality, Attribute::is_meshed, Attribute::element_count, Attribute::block_assigned})
+    if (attribute == of_mesh) refuse_cad();
+}
+
+void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids);
+
 /// Whether a condition asks for more than a part knows.
-void check_criterion(const Criterion& criterion, EntityKind kind) {
-  if (criterion.op == Criterion::Op::attribute && is_cad(kind))
-    for (const Attribute attribute :
-         {Attribute::quality, Attribute::is_meshed, Attribute::element_count, Attribute::block_assigned})
-      if (criterion.attribute == attribute)
-        refuse("a choice of CAD entities by what the mesh has at them", "a part does not see all of that");
-  for (const Criterion& operand : criterion.operands) check_criterion(operand, kind);
+void check_criterion(const Criterion& criterion, EntityKind kind, bool of_cad) {
+  if (criterion.op == Criterion::Op::attribute) {
+    for (const RangeTerm& term : criterion.of) check_range(term.kind, term.range, of_cad, nullptr);
+    check_attribute(criterion.attribute, criterion.of.empty() ? kind : criterion.of[0].kind);
+  }
+  for (const Criterion& operand : criterion.operands) check_criterion(operand, kind, of_cad);
 }
 
 /// Refuses what a part can't find out by itself, and collects ids.
 void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids) {
   const auto names_mesh = is_mesh(kind);
+  if (kind == EntityKind::sheet) refuse("a sheet", "sheets run through the whole mesh");
   for (const RangeItem& item : range.items) {
+    if (is_set(kind) && (item.kind == RangeItem::Kind::within || item.kind == RangeItem::Kind::at)) refuse_sets();
     if (item.kind == RangeItem::Kind::all || item.kind == RangeItem::Kind::within || !names_mesh) continue;
     if (item.kind == RangeItem::Kind::at) refuse("what is nearest to a point", "it may lie in any part");
-    if (kind == EntityKind::edge || kind == EntityKind::face)
-      refuse("an edge or a face by its number", "numbers are those of the whole mesh");
+    if (kind == EntityKind::edge || kind == EntityKind::face) refuse_numbers();
     if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
     if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
     // Of a span some may be missing, as to a single process; its ends show that it does not go beyond what there is.
     ids->push_back({item.first, item.step == 0});
   }
-  if (of_cad && !is_cad(kind)) refuse("a choice of CAD entities by the mesh", "a part does not see all of that");
+  if (of_cad && !is_cad(kind)) refuse_cad();
   for (const RangeFilter& filter : range.filters) {
     using Test = RangeFilter::Test;
     if (filter.kind == RangeFilter::Kind::most ||
         (filter.kind == RangeFilter::Kind::field && (filter.test == Test::top || filter.test == Test::bottom)))
       refuse("a choice of the largest or smallest", "values are compared over the whole mesh");
-    if (filter.kind == RangeFilter::Kind::with) check_criterion(filter.criterion, kind);
+    if (filter.kind == RangeFilter::Kind::with)
+      check_criterion(filter.criterion, kind, is_cad(kind));
+    else if (filter.kind != RangeFilter::Kind::except && is_set(kind))
+      refuse_sets();
+    if (filter.kind == RangeFilter::Kind::field && is_cad(kind)) refuse_cad();
     for (const RangeTerm& term : filter.terms)
-      check_range(term.any_kind ? kind : term.kind, term.range, of_cad, nullptr);
+      check_range(term.any_kind ? kind : term.kind, term.range, is_cad(kind), nullptr);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/split.h"
@@ -26,6 +27,10 @@ void refuse_second_order(const MeshFile& file, const std::filesystem::path& path
   if (file.middles.empty()) return;
   throw Error(path.string() + ": hexes of " + std::to_string(file.middles.nodes_per_hex) +
               " nodes are not split or joined; write it with 'set order 1' first");
+}
+
+void refuse_others(const Mesh& mesh, const std::filesystem::path& path) {
+  if (mesh.others) throw Error(path.string() + ": other elements are not done in parts: it has " + others_text(mesh));
 }
 
 }  // namespace
@@ -60,6 +65,7 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
                 std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
   MeshFile read = read_mesh(file, "exodus", fence);
   refuse_second_order(read, file);
+  refuse_others(read.mesh, file);
   for (std::string& line : read.notices)
     if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
   if (read.mesh.results)

@@ -1,7 +1,7 @@
 // Ids of what passes made, as passes over the whole mesh would have given them.
 //
 // Each part says what its own nodes and hexes bring, sums over all parts say where that begins, and the part gives out
-// ids. How the sums are made (mpi/sums.h, on_disk.cpp) is not its business.
+// ids. How the sums are made (mpi/directory.h, on_disk.cpp) is not its business.
 #pragma once
 
 #include <array>

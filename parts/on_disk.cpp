@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "hextwist/base/interrupt.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/parts/agree.h"
@@ -46,6 +47,7 @@ class OnDisk {
       : split_(split_name(any_part)),
         commands_(commands),
         say_(say),
+        fence_(options.fence),
         aside_(options.folder.empty() ? output.parent_path() : options.folder) {
     if (split_.n_parts == 0)
       throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...; 'hextwist split' makes them");
@@ -84,8 +86,10 @@ class OnDisk {
     std::int64_t n_nodes = 0, n_hexes = 0;
     MeshedModel heads;
     for (int p = 0; p < n_parts(); ++p) {
-      MeshedModel part{read_one_part(split_, p, head, notices), nullptr, {}};
+      check_interrupt();
+      MeshedModel part{read_one_part(split_, p, head, notices, fence_), nullptr, {}};
       Mesh& mesh = part.mesh;
+      if (mesh.hexes.empty()) throw Error(name(p) + ": there are no hexes");
       need_ids(mesh);
       check_part(mesh, name(p));
       check_groups(mesh, p, heads.mesh);
@@ -171,6 +175,7 @@ class OnDisk {
   }
 
   MeshedModel own(int p) const {
+    check_interrupt();
     MeshedModel part = unpacked(read_all_bytes(aside_.file("own", p)));
     for (std::size_t s = 0; s < meant_.size(); ++s) part.mesh.node_sets[s].meant = meant_[s];
     part.model = model_;
@@ -299,7 +304,7 @@ class OnDisk {
     bool is_anywhere = false, by_levels = false, is_all = true;
     int n_rings = all_rings;
     std::int64_t n_before = 0, n_after = 0, largest = 0;
-    Bounds next = no_bounds;  ///< of lifting, beyond those that are known
+    std::vector<Bounds> next = std::vector<Bounds>(n_freedoms, no_bounds);  ///< of lifting, beyond those that are known
   };
 
   void refine_part(int p, std::size_t i, Done& done, Collected& all) {
@@ -321,9 +326,8 @@ class OnDisk {
     LocalRun run;
     try {
       run = run_locally(local, mine.asked, [&](int freedom, const Bounds& bounds) {
-        const auto n_known = static_cast<int>(done.bounds.size());
-        if (freedom < n_known) return done.bounds[static_cast<std::size_t>(freedom)];
-        if (freedom == n_known) all.next = least(all.next, bounds);
+        if (freedom < std::ssize(done.bounds)) return done.bounds[freedom];
+        all.next[freedom] = least(all.next[freedom], bounds);
         return bounds;
       });
     } catch (const Error& error) {
@@ -355,9 +359,13 @@ class OnDisk {
         all = {};
         counts_.clear();
         for (int p = 0; p < n_parts() && all.wrong.empty(); ++p) refine_part(p, i, done, all);
-        if (all.next.shape == no_bounds.shape) break;
-        // Low hexes are lifted by what all parts have at the least: once more with that.
-        done.bounds.push_back(all.next);
+        // Low hexes are lifted by what all parts have at the least: once more with that of the first step that is not
+        // known and lifts any. What is said of the steps behind it may change for it.
+        const auto known = all.next.begin() + std::ssize(done.bounds);
+        const auto lifts =
+            std::find_if(known, all.next.end(), [](const Bounds& of) { return of.shape != no_bounds.shape; });
+        if (lifts == all.next.end()) break;
+        done.bounds.insert(done.bounds.end(), known, lifts + 1);
       }
       commands_.check(i, all.is_anywhere, all.nothing, all.wrong, all.has_id, done.approach, approaches);
       approaches.push_back(done.approach);
@@ -493,6 +501,7 @@ class OnDisk {
       fill_in_whole(part, counts_, shares, highest);
       files.write(part, notices);
     }
+    check_interrupt();
     files.commit();
     for (const std::string& line : notices) say_(line);
   }
@@ -500,6 +509,7 @@ class OnDisk {
   SplitName split_;
   const PartCommands& commands_;
   const std::function<void(const std::string&)>& say_;
+  const Fence& fence_;
   Aside aside_;
   int n_rings_ = 0;
   SharedNodes shared_;

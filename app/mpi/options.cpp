@@ -20,7 +20,8 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
       ->take_all()
       ->required();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
-  app.add_option("-o,--output", options.output, "OUT: each process writes its part to OUT.n.i (Exodus)");
+  app.add_option("-o,--output", options.output,
+                 "OUT: each process writes its part to OUT.n.i (Exodus), or, where it ends in .pvtu, to a .vtu file");
   app.add_option(
          "--by", options.by,
          "how hexes are shared out: scotch (default, where it was built in), boxes, slabs, ids or random; parts of "

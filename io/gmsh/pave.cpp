@@ -93,11 +93,12 @@ FlatMesh what_gmsh_left(std::istream& in, std::size_t n_given) {
   return mesh;
 }
 
-/// Sine of the angle at corner k of a polygon of n corners: negative where it turns back.
+/// Sine of the angle at corner k of a polygon of n corners: negative where it turns back, or there is no angle.
 double corner(const FlatMesh& mesh, const std::array<Index, 4>& element, int n, int k) {
   const Flat& p = mesh.points[element[k]];
   const Flat a = mesh.points[element[(k + 1) % n]] - p, b = mesh.points[element[(k + n - 1) % n]] - p;
-  return (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm());
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1.0;
 }
 
 double worst_corner(const FlatMesh& mesh, const std::array<Index, 4>& element) {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <typeinfo>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/union_find.h"
 #include "hextwist/mesh/fill/builder_internal.h"
@@ -25,6 +26,8 @@ Builder::Builder(const Facts& of, std::vector<int> intervals_of_curves, double s
     if (node < 0) node = add(facts.model.point({0, vertex}, {}), {0, vertex});
     return node;
   };
+  const double n_on_curves = std::accumulate(intervals.begin(), intervals.end(), 0.0);
+  check_memory(n_on_curves / 12, n_on_curves, "at least ");  // each interval is an edge of a hex
   for (std::size_t c = 0; c < intervals.size(); ++c) {
     if (intervals[c] == 0) continue;
     const int curve = static_cast<int>(c) + 1;

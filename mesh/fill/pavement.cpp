@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/mesh/fill/builder_internal.h"
 
 namespace hextwist::fill {
@@ -61,6 +62,7 @@ std::vector<Quad> Builder::o_grid(const std::vector<Index>& rim, Owner owner) {
   // blocks meet (mesh/primitives.cpp has the same numbers).
   constexpr double core = 0.5, bulge = 0.37;
   const auto k = static_cast<int>(rim.size() / 4), layers = (k + 1) / 2;
+  check_memory(3.0 * k * k, 0);
   Vec3 center = Vec3::Zero();
   for (const Index n : rim) center += points[n] / static_cast<double>(rim.size());
   // The node of the core behind place i on the rim.

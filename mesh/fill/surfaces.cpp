@@ -156,8 +156,9 @@ void Builder::ring(int surface, bool even) {
   double width = 0;
   for (Index i = 0; i < n; ++i) width += (points[outer[i]] - points[inner[i]]).norm() / static_cast<double>(n);
   const double edge = (average_edge(loops[0]) + average_edge(loops[1])) / 2;
-  int layers = std::max(1, static_cast<int>(std::round(width / (size > 0 ? std::min(edge, size) : edge))));
+  int layers = static_cast<int>(std::clamp(std::round(width / (size > 0 ? std::min(edge, size) : edge)), 1.0, 1e6));
   if (even && layers % 2) ++layers;
+  check_memory(static_cast<double>(n) * layers, 0);
   std::vector<Index> last = inner;
   std::vector<Index>& column = ring_columns_[surface];
   column.push_back(inner[0]);

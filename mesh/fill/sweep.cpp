@@ -191,8 +191,8 @@ void Builder::fill_ball(int volume, int intervals_said) {
   x = (x - z * z.dot(x)).normalized();
   Eigen::Matrix3d frame;
   frame << x, z.cross(x), z;
-  const int n = intervals_said > 0 ? std::min(intervals_said, 1000)
-                                   : std::max(1, static_cast<int>(std::round(std::numbers::pi / 4 * radius / size)));
+  const double wished = intervals_said > 0 ? intervals_said : std::round(std::numbers::pi / 4 * radius / size);
+  const auto n = static_cast<int>(std::clamp(wished, 1.0, intervals_said > 0 ? 1000.0 : 1e6));
   check_memory(56.0 * n * n * n, 56.0 * n * n * n);
   const Mesh ball = mesh_sphere({radius}, sphere_intervals(n));
   const auto first = static_cast<Index>(points.size());

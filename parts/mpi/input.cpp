@@ -7,6 +7,7 @@
 #include "hextwist/io/file_part.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/meant.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/mpi/directory.h"
@@ -38,7 +39,7 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
       });
     need_ids(own.mesh);
   });
-  const auto [n_nodes, n_hexes] = std::pair(ranks.largest(head.n_nodes), ranks.largest(head.n_hexes));
+  const std::int64_t n_nodes = ranks.largest(head.n_nodes), n_hexes = ranks.largest(head.n_hexes);
   ranks.together([&] {
     if (head.n_parts > 0 && (head.n_nodes != n_nodes || head.n_hexes != n_hexes))
       throw Error(part_name(split.name, split.n_parts, begin(ranks.rank())).string() + ": is part of a mesh of " +
@@ -50,6 +51,18 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
                 std::to_string(n_hexes));
   for (const std::string& line : notices) say(line);
   return own;
+}
+
+/// What parts would lose, or refine in another way than a single process.
+void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& name) {
+  if (mesh.others) throw Error(name + ": other elements are not done in parts: it has " + others_text(mesh));
+  if (!extras) return;
+  for (const auto& [block, n] : extras->nodes_per_hex)
+    if (n > 8)
+      throw Error(name + ": hexes of " + std::to_string(n) +
+                  " nodes are not done in parts; write it with 'set order 1' first");
+  if (std::ranges::find(extras->periodic, 2, &PeriodicPairs::dim) != extras->periodic.end())
+    throw Error(name + ": periodic surfaces are not kept alike in parts; run it with hextwist");
 }
 
 /// What the first rank reads by itself, on CAD where there is any. glued: the CAD had to be.
@@ -68,6 +81,7 @@ MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesyst
       session.import_mesh(mesh);
     else
       session.take_mesh(std::move(file.mesh));
+    refuse_more(core.meshed->mesh, core.state.extras.get(), mesh.string());
     glued = core.state.glued;
     return std::move(core.meshed.to_change());
   }
@@ -75,6 +89,7 @@ MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesyst
   if (!file.middles.empty())
     throw Error(mesh.string() + ": hexes of " + std::to_string(file.middles.nodes_per_hex) +
                 " nodes bend their skin, which is not done in parts; write it with 'set order 1' first");
+  refuse_more(file.mesh, &file.extras, mesh.string());
   for (const std::string& line : file.notices) say(line);
   if (file.mesh.hexes.empty()) throw Error(mesh.string() + ": there are no hexes");
   return {std::move(file.mesh), nullptr, {}};

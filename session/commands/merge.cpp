@@ -2,6 +2,8 @@
 
 #include "hextwist/mesh/merge.h"
 
+#include <algorithm>
+
 #include "hextwist/base/sorted.h"
 #include "hextwist/command/select/selection.h"
 #include "hextwist/geom/occ/model.h"
@@ -55,6 +57,9 @@ void do_merge(Execution& run) {
   for (const std::string& line : merged.notices) run.note(line);
   if (state.periodic) run.note("surfaces are periodic no longer: that was said of the mesh before");
   if (state.levelling) run.note("levels end here: this mesh is the base of what is refined from now on");
+  const auto is_curved = [](const auto& block) { return block.second > 8; };
+  if (!state.has_cad && state.extras && std::ranges::any_of(state.extras->nodes_per_hex, is_curved))
+    run.note("the skin is straight from node to node now: middle nodes, which bent it, are not merged");
   if (state.fixed_nodes) {
     std::vector<Index> fixed;
     for (const Index n : *state.fixed_nodes) fixed.push_back(merged.node_now[n]);

@@ -139,7 +139,7 @@ void do_mesh(Execution& run) {
   MeshedModel meshed{std::move(filled.mesh), model, std::move(associated.association)};
   improve(run, meshed);
   refuse_inverted(meshed);
-  forget_members(state, false);
+  forget_members(state, model != run.meshed->model);
   state.tags = nullptr;
   state.extras = nullptr;
   load_meshed(run, std::move(meshed));

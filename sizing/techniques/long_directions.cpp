@@ -17,7 +17,7 @@ namespace {
 /// cut edges, the pieces would have sharp corners (a tenth: 0.15), so the cuts go on to the next.
 constexpr double thinnest_end = 0.4;
 
-/// EdgesToCut in three until a length is no more than sqrt(3) times the wish.
+/// Cuts in three until a length is no more than sqrt(3) times the wish.
 int n_cuts(double length, double wished) {
   int n = 0;
   for (; length > std::numbers::sqrt3 * wished * (1 + 1e-9); length /= 3) ++n;

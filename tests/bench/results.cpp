@@ -39,7 +39,8 @@ void read_peers(const std::filesystem::path& file, Results& results) {
   std::ifstream in(file);
   std::string name;
   double seconds = 0, items = 0;
-  while (in >> name >> seconds >> items) results["peer/" + name] = {seconds, seconds, items / seconds, 1e-6 * items / seconds};
+  while (in >> name >> seconds >> items)
+    results["peer/" + name] = {seconds, seconds, items / seconds, 1e-6 * items / seconds};
 }
 
 }  // namespace hextwist::bench

@@ -108,6 +108,15 @@ TEST(InRanks, parts_that_are_split_already_are_read_by_their_ranks) {
             std::string::npos)
       << missing.err;
 }
+TEST(InRanks, what_parts_would_lose_is_refused) {
+  const auto file = test::output_folder() / "wedge.msh";
+  std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+                         "5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0.5\n10 2 1 0.5\n$EndNodes\n$Elements\n2\n"
+                         "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 6 2 1 1 2 6 9 3 7 10\n$EndElements\n";
+  const Outcome outcome = run_ranks(1, "'" + file.string() + "' -c 'refine hex 1'");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("other elements are not done in parts"), std::string::npos) << outcome.err;
+}
 TEST(InRanks, hexes_are_shared_out_again_where_one_rank_has_too_many) {
   expect_same_file({brick("16 6 5"), "", "refine hex 1 to 60 numsplit 1"}, 2, "slabs");
   const Outcome outcome = run_ranks(2, "'" + brick("16 6 5") + "' --by slabs --rings 3 -c 'refine surface 1 depth 2'");

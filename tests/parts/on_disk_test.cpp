@@ -85,6 +85,8 @@ TEST(OnDisk, is_the_same_as_at_once) {
   expect_same_on_disk("refine volume all", 5, PartitionBy::boxes, 2);
   expect_same_on_disk("refine hex 1 to 300 by 13", 3, PartitionBy::random, 2);
   expect_same_on_disk("refine curve 1; refine surface 2", 4, PartitionBy::slabs, 2);
+  // Low hexes of all kinds, none so low that the first step of lifting is for them.
+  expect_same_on_disk("refine hex in surface 1 2", 3, PartitionBy::slabs, 2);
 }
 TEST(SlowOnDisk, is_the_same_as_at_once) {
   for (const int n : {1, 2, 8}) {
@@ -110,6 +112,12 @@ TEST(OnDisk, says_what_is_wrong_and_writes_nothing) {
   EXPECT_EQ(said("refine hex 1 97 98"), "there is no hex 97");
   EXPECT_NE(said("refine hex 1; refine hex 96").find("a second level is not done in parts"), std::string::npos);
   EXPECT_NE(said("refine hex all smooth").find("smooth is not done in parts"), std::string::npos);
+  // What each part would find another way.
+  for (const char* target :
+       {"hex in sheet 1", "edge with id < 5", "hex in (block with element_count > 60)",
+        "hex with x_coord > x_coord of node 7", "hex in (nodeset in surface 1)", "hex in (surface in block 1)"})
+    EXPECT_NE(said("refine " + std::string(target)).find("is not done in parts"), std::string::npos)
+        << target << ": " << said("refine " + std::string(target));
   std::filesystem::remove(folder / "parts.e.2.1");
   EXPECT_EQ(said("refine hex 1"), (folder / "parts.e.2.1").string() + ": this part of 2 is missing");
   EXPECT_FALSE(std::filesystem::exists(folder / "no.e.2.0"));

@@ -101,6 +101,14 @@ TEST(Merge, refuses_what_would_collapse_an_edge_or_crowd_a_face) {
   mesh.fields.clear();
   EXPECT_NE(refusal(mesh, 1e-6).find("hexes 1, 2 and 3 would share one face (nodes 2 4 6 8)"), std::string::npos)
       << refusal(mesh, 1e-6);
+  // Two in one place.
+  Mesh twice = test::grid(1, 1, 1);
+  const Mesh one = twice;
+  twice.points.insert(twice.points.end(), one.points.begin(), one.points.end());
+  twice.hexes.push_back(one.hexes[0]);
+  for (Index& n : twice.hexes[1]) n += 8;
+  EXPECT_NE(refusal(twice, 1e-6).find("hexes 1 and 2 would have the same nodes"), std::string::npos)
+      << refusal(twice, 1e-6);
 }
 
 /// Writes and reads it.
