@@ -57,7 +57,10 @@ void accept_refining(Transaction& run, Refining refining) {
   PatchResult& patch = *refining.patch;
   if (patch.splice->hexes().come.empty() && patch.splice->hexes().gone.empty()) {
     run.leave_mesh();
-    return take_measured(run, patch.result.report);
+    take_measured(run, patch.result.report);
+    // What was cut for the sake of others may be wished for now, or no longer.
+    if (patch.result.levelling) take_levelling(run, patch.result.levelling);
+    return;
   }
   const Report report = std::move(patch.result.report);
   const Reindexing nodes = patch.splice->nodes();
