@@ -262,16 +262,16 @@ void expect_same_in_all(unsigned first, unsigned n_runs, bool by_ranks) {
 }
 
 TEST(RandomInRanks, is_the_same_as_by_one) {
-  expect_same_in_all(1, 8, true);
+  expect_same_in_all(1, 6, true);
 }
 TEST(RandomOnDisk, is_the_same_as_at_once) {
-  expect_same_in_all(1, 10, false);
+  expect_same_in_all(1, 6, false);
 }
 TEST(SlowRandomInRanks, is_the_same_as_by_one) {
-  expect_same_in_all(100, 100, true);
+  expect_same_in_all(100, 20, true);
 }
 TEST(SlowRandomOnDisk, is_the_same_as_at_once) {
-  expect_same_in_all(100, 300, false);
+  expect_same_in_all(100, 40, false);
 }
 
 }  // namespace
