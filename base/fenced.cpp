@@ -113,6 +113,35 @@ int out_of_the_way(int descriptor) {
   return copy;
 }
 
+/// Runs a program until it ends: text is its path and its words. started: called once it runs. Returns 0, or why it
+/// can't be started.
+template <class Started>
+int run_to_the_end(Child& child, std::vector<std::string> text, char* const* environment, const Handover& out,
+                   const Handover* in, const Started& started) {
+  std::vector<char*> words;
+  for (std::string& word : text) words.push_back(word.data());
+  words.push_back(nullptr);
+  Pipe alive;
+  {
+    const int result = out_of_the_way(out.descriptor()), held = out_of_the_way(alive.end[1]),
+              input = in ? out_of_the_way(in->descriptor()) : -1;
+    const SpawnActions actions(result, held, input);
+    const int failed = posix_spawn(&child.id, words[0], &actions.files, &actions.attributes, words.data(), environment);
+    for (const int descriptor : {result, held, input})
+      if (descriptor >= 0) ::close(descriptor);
+    if (failed) {
+      child.id = -1;
+      return failed;
+    }
+  }
+  started(child.id);
+  // The pipe ends when the child does.
+  alive.close(1);
+  wait_for_end(alive.end[0]);
+  child.wait();
+  return 0;
+}
+
 /// more: until the program is ended without a word, which SIGXCPU would have been.
 void limit(int resource, double most, rlim_t more = 0) {
   const auto value = static_cast<rlim_t>(most);
@@ -182,28 +211,9 @@ void read_fenced(const Fence& fence, const std::string& kind, const std::filesys
   const std::string reader = (fence.readers / ("hextwist_read_" + kind)).string();
   std::vector<std::string> text = {reader, protocol, name, short_number(seconds, 12), short_number(megabytes, 12)};
   text.insert(text.end(), words.begin(), words.end());
-  std::vector<char*> arguments;
-  for (std::string& word : text) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-
-  Pipe alive;
   Child child;
-  {
-    const int result = out_of_the_way(to.descriptor()), held = out_of_the_way(alive.end[1]);
-    const SpawnActions actions(result, held);
-    const int failed =
-        posix_spawn(&child.id, reader.c_str(), &actions.files, &actions.attributes, arguments.data(), environ);
-    ::close(result);
-    ::close(held);
-    if (failed) {
-      child.id = -1;
-      throw Error(name + ": the program that reads it, " + reader + ", cannot be started: " + error_text(failed));
-    }
-  }
-  alive.close(1);
-  // The pipe ends when the child does.
-  wait_for_end(alive.end[0]);
-  child.wait();
+  if (const int failed = run_to_the_end(child, std::move(text), environ, to, nullptr, [](pid_t) {}))
+    throw Error(name + ": the program that reads it, " + reader + ", cannot be started: " + error_text(failed));
 
   const bool ended = child.known && WIFEXITED(child.status);
   const int status = ended ? WEXITSTATUS(child.status) : -1;
@@ -248,39 +258,24 @@ void run_within(double seconds, double megabytes, const std::filesystem::path& p
     text.push_back(argument == "{in}"    ? "/proc/self/fd/" + std::to_string(input_at)
                    : argument == "{out}" ? "/proc/self/fd/" + std::to_string(result_at)
                                          : argument);
-  std::vector<char*> words;
-  for (std::string& word : text) words.push_back(word.data());
-  words.push_back(nullptr);
   // No settings of whoever is at home here.
   const char* path = std::getenv("PATH");
   std::array<std::string, 3> settings = {std::string("PATH=") + (path ? path : ""), "HOME=/nonexistent", "LC_ALL=C"};
   std::array<char*, 4> environment = {settings[0].data(), settings[1].data(), settings[2].data(), nullptr};
 
-  Pipe alive;
   Child child;
-  {
-    const int result = out_of_the_way(out.descriptor()), held = out_of_the_way(alive.end[1]),
-              input = out_of_the_way(in.descriptor());
-    const SpawnActions actions(result, held, input);
-    const int failed =
-        posix_spawn(&child.id, text[0].c_str(), &actions.files, &actions.attributes, words.data(), environment.data());
-    for (const int descriptor : {result, held, input}) ::close(descriptor);
-    if (failed) {
-      child.id = -1;
-      throw Error(name + " cannot be started: " + error_text(failed));
-    }
-  }
-  const auto within = [&](auto resource, double most) {
-    const rlimit limits{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
-    ::prlimit(child.id, resource, &limits, nullptr);
+  const auto keep_within = [&](pid_t id) {
+    const auto within = [id](auto resource, double most) {
+      const rlimit limits{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+      ::prlimit(id, resource, &limits, nullptr);
+    };
+    within(RLIMIT_CORE, 0);
+    within(RLIMIT_CPU, std::ceil(seconds));
+    within(RLIMIT_FSIZE, megabytes * 1e6);
+    within(RLIMIT_AS, megabytes * 1e6);
   };
-  within(RLIMIT_CORE, 0);
-  within(RLIMIT_CPU, std::ceil(seconds));
-  within(RLIMIT_FSIZE, megabytes * 1e6);
-  within(RLIMIT_AS, megabytes * 1e6);
-  alive.close(1);
-  wait_for_end(alive.end[0]);
-  child.wait();
+  if (const int failed = run_to_the_end(child, std::move(text), environment.data(), out, &in, keep_within))
+    throw Error(name + " cannot be started: " + error_text(failed));
   if (!child.known) return;  // the host of this process collects its children itself: what there is tells
   if (WIFEXITED(child.status) && WEXITSTATUS(child.status) == 0) return;
   if (WIFEXITED(child.status))

@@ -1,13 +1,11 @@
 #include "hextwist/mesh/merge.h"
 
 #include <algorithm>
-#include <map>
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
-#include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/others.h"
-#include "hextwist/mesh/topology.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 
 namespace hextwist {
@@ -23,32 +21,21 @@ std::array<Index, 2> collapsed(std::span<const Index> nodes, std::span<const Ind
 
 /// Throws where a face has more than two hexes. Returns the number of faces on the skin.
 Index checked_skin(const Mesh& before, const Mesh& now) {
-  struct Use {
-    Quad nodes;
-    Index hex;
-  };
-  std::vector<Use> uses;
-  for (Index h = 0; h < now.n_hexes(); ++h)
-    for (int f = 0; f < n_hex_faces; ++f) {
-      Quad nodes = face_nodes(now.hexes[h], f);
-      std::ranges::sort(nodes);
-      uses.push_back({nodes, h});
-    }
-  std::ranges::stable_sort(uses, {}, &Use::nodes);
-  Index n_skin = 0;
-  for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
-    for (end = i + 1; end < uses.size() && uses[end].nodes == uses[i].nodes; ++end) {
-    }
-    if (end - i == 1) ++n_skin;
-    if (end - i < 3) continue;
-    std::string text = "hexes";
-    for (std::size_t k = i; k < end && k < i + 4; ++k)
-      text += (k == i ? " " : k + 1 == end ? " and " : ", ") + std::to_string(hex_id(before, uses[k].hex));
-    text += " would share one face (nodes";
-    for (const Index n : uses[i].nodes) text += " " + std::to_string(node_id(now, n));
-    throw Error(text + "): merge fewer nodes, or with a smaller tolerance");
-  }
-  return n_skin;
+  const LooseFaces loose = loose_faces(now);
+  if (loose.more.empty()) return static_cast<Index>(boundary_sides(loose.faces).size());
+  const Index face = loose.more.front().first;
+  std::vector<std::int64_t> hexes;
+  for (const Side& side : loose.faces.sides[face]) hexes.push_back(hex_id(before, side.hex));
+  for (const auto& [other, side] : loose.more)
+    if (other == face) hexes.push_back(hex_id(before, side.hex));
+  std::string text = "hexes";
+  for (std::size_t k = 0; k < hexes.size() && k < 4; ++k)
+    text += (k == 0 ? " " : k + 1 == hexes.size() ? " and " : ", ") + std::to_string(hexes[k]);
+  text += " would share one face (nodes";
+  Quad nodes = loose.faces.nodes[face];
+  std::ranges::sort(nodes);
+  for (const Index n : nodes) text += " " + std::to_string(node_id(now, n));
+  throw Error(text + "): merge fewer nodes, or with a smaller tolerance");
 }
 
 /// Throws where two hexes have the same nodes.
@@ -64,10 +51,6 @@ void check_doubles(const Mesh& before, const Mesh& now) {
     throw Error("hexes " + std::to_string(hex_id(before, found->second)) + " and " +
                 std::to_string(hex_id(before, std::next(found)->second)) +
                 " would have the same nodes: they lie in the same place");
-}
-
-Index n_skin_faces(const Mesh& mesh) {
-  return static_cast<Index>(boundary_sides(faces(mesh)).size());
 }
 
 }  // namespace
@@ -145,7 +128,7 @@ MergeResult merge_nodes(const Mesh& mesh, double tolerance, std::span<const std:
   }
   const Index after = checked_skin(mesh, out);
   check_doubles(mesh, out);
-  result.n_faces = (n_skin_faces(mesh) - after) / 2;
+  result.n_faces = (static_cast<Index>(boundary_sides(faces(mesh)).size()) - after) / 2;
   return result;
 }
 

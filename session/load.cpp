@@ -89,14 +89,6 @@ void snap(const Transaction& run, Mesh& mesh, const Association& association, co
              std::to_string(node_id(mesh, worst)) + "); 'import ... no_snap' leaves them");
 }
 
-/// Long loops ask whether the user wants to go on.
-Interruptible interruptible_as(const Transaction& run, const char* stage) {
-  return Interruptible([&run, stage] {
-    const auto& progress = run.core.callbacks.progress;
-    if (progress && !progress(stage, 0)) throw Cancelled();
-  });
-}
-
 /// By the smallest tolerance that works, up to the one that was asked for: what is more than the mesh needs only takes
 /// nodes for those of other curves and surfaces. Throws what associate() has to say of the largest.
 AssociateResult associated_within(const Mesh& mesh, const Model& model, const Association* tags, double most) {
@@ -143,6 +135,13 @@ void find_meant(const Transaction& run, MeshedModel& meshed) {
 }
 
 }  // namespace
+
+Interruptible interruptible_as(const Transaction& run, const char* stage) {
+  return Interruptible([&run, stage] {
+    const auto& progress = run.core.callbacks.progress;
+    if (progress && !progress(stage, 0)) throw Cancelled();
+  });
+}
 
 Fence fence_of(const Transaction& run) {
   const SessionState& state = run.state;

@@ -5,9 +5,13 @@
 #include <string>
 
 #include "hextwist/base/fence.h"
+#include "hextwist/base/interrupt.h"
 #include "hextwist/session/transaction.h"
 
 namespace hextwist {
+
+/// Long loops ask whether the user wants to go on, while it lives.
+Interruptible interruptible_as(const Transaction& run, const char* stage);
 
 /// Where CAD and Exodus files are read.
 Fence fence_of(const Transaction& run);

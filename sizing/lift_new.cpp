@@ -22,14 +22,15 @@ struct Freedom {
   int sweeps;
   bool of_boxes = false;  ///< alone: they come that far, others give up as much of their average for it
 };
+constexpr double lift_others_below = 0.3;  // those that did not come of boxes
 constexpr Freedom freedoms[n_freedoms] = {{0.01, false, 1, 6},
                                           {0.02, false, 1, 6},
                                           {0.05, false, 1, 6},
                                           {0.1, false, 1, 6},
                                           {0.2, false, 0, 4},
-                                          {0.3, false, 0, 6},
+                                          {lift_others_below, false, 0, 6},
                                           {lift_below, false, 0, 6, true},
-                                          {0.3, true, 0, 6},
+                                          {lift_others_below, true, 0, 6},
                                           {0.25, true, 1, 10},
                                           {0.2, true, 2, 10}};
 
@@ -47,12 +48,13 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   // Few hexes are low, and only those around them change.
   const std::vector<Index> low_now = hexes_below(mesh, lift_below, hexes);
   if (low_now.empty()) return {};
+  // Beyond what all are lifted to, there is something to do for boxes alone.
+  if (intersection(low_now, of_boxes).empty() && hexes_below(mesh, lift_others_below, low_now).empty()) return {};
   const std::vector<Index> near = intersection(with_layers(mesh, low_now, 1), hexes);
   const std::vector<Index> near_of_boxes = intersection(near, of_boxes);
   const auto low_ones = [&](const Freedom& freedom) {
     return hexes_below(mesh, freedom.wanted, freedom.of_boxes ? near_of_boxes : near);
   };
-  if (std::ranges::all_of(freedoms, [&](const Freedom& freedom) { return low_ones(freedom).empty(); })) return {};
 
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });

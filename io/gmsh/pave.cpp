@@ -93,18 +93,12 @@ FlatMesh what_gmsh_left(std::istream& in, std::size_t n_given) {
   return mesh;
 }
 
-/// Sine of the angle at corner k of a polygon of n corners: negative where it turns back, or there is no angle.
-double corner(const FlatMesh& mesh, const std::array<Index, 4>& element, int n, int k) {
-  const Flat& p = mesh.points[element[k]];
-  const Flat a = mesh.points[element[(k + 1) % n]] - p, b = mesh.points[element[(k + n - 1) % n]] - p;
-  const double lengths = a.norm() * b.norm();
-  return lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1.0;
-}
-
 double worst_corner(const FlatMesh& mesh, const std::array<Index, 4>& element) {
   const int n = element[3] < 0 ? 3 : 4;
   double worst = 1;
-  for (int k = 0; k < n; ++k) worst = std::min(worst, corner(mesh, element, n, k));
+  for (int k = 0; k < n; ++k)
+    worst = std::min(worst, corner_sine(mesh.points[element[(k + n - 1) % n]], mesh.points[element[k]],
+                                        mesh.points[element[(k + 1) % n]]));
   return worst;
 }
 

@@ -8,6 +8,8 @@
 
 namespace hextwist::fill {
 
+class Inside;
+
 struct Builder {
   Builder(const Facts& of, std::vector<int> intervals_of_curves, double size_of_edges, QuadMesher paver);
 
@@ -28,6 +30,8 @@ struct Builder {
   std::vector<Index> nodes(const Chain& chain) const;
   /// The same of a closed chain, each node once.
   std::vector<Index> rim_of(const Chain& loop) const;
+  /// What lies within a closed line of nodes, as it turns.
+  Vec3 vector_area(const std::vector<Index>& rim) const;
   bool is_meshed(int surface) const { return !surface_quads[surface - 1].empty(); }
 
   /// Gives a surface its quads: a grid, an O-grid, circles or a pavement.
@@ -45,6 +49,11 @@ struct Builder {
   void turn(const Sweep& sweep);
   /// Circles between the two rims of a flat ring. even: so many layers.
   void ring(int surface, bool even = false);
+  /// Throws Error where hexes between so many quads and layers cannot fit into memory.
+  void check_room(std::size_t n_quads, std::size_t n_layers) const;
+  /// Places of the rim in layer k of these columns, in the order of rim_nodes(); level gets what its nodes become.
+  std::vector<Vec3> rim_of_level(const Inside& inside, const std::map<Index, std::vector<Index>>& columns,
+                                 std::size_t k, std::map<Index, Index>& level) const;
   /// Hexes between copies of the quads: what each node becomes in each level.
   void add_layers(const std::vector<Quad>& source, const std::vector<std::map<Index, Index>>& level, int volume);
   void fill_ball(int volume, int intervals_said);

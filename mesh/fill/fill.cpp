@@ -1,5 +1,6 @@
 #include "hextwist/mesh/fill/fill.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -52,6 +53,12 @@ std::vector<Index> Builder::nodes(const Chain& chain) const {
     result.insert(result.end(), own.begin() + (result.empty() ? 0 : 1), own.end());
   }
   return result;
+}
+
+Vec3 Builder::vector_area(const std::vector<Index>& rim) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < rim.size(); ++i) sum += points[rim[i]].cross(points[rim[(i + 1) % rim.size()]]) / 2;
+  return sum;
 }
 
 void Builder::drop_unused() {

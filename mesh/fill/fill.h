@@ -28,6 +28,14 @@ struct FlatMesh {
   std::vector<std::array<Index, 4>> elements;
 };
 
+/// Sine of the angle at p from the way to `next` to the way to `before`: negative where a polygon that turns to the
+/// left turns back there, -1 where there is no angle.
+inline double corner_sine(const Eigen::Vector2d& before, const Eigen::Vector2d& p, const Eigen::Vector2d& next) {
+  const Eigen::Vector2d a = next - p, b = before - p;
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1.0;
+}
+
 /// Meshes what lies between closed polygons (the outer one and those of holes, in any order and direction): points are
 /// those of the polygons, in their order, and then what it adds inside; no side of a polygon is cut. size: wished
 /// length of edges inside. Throws Error.

@@ -6,6 +6,8 @@
 #include <deque>
 #include <set>
 
+#include "hextwist/base/memory.h"
+
 namespace hextwist::fill {
 namespace {
 
@@ -55,6 +57,17 @@ std::vector<Edge> rim_edges(const std::vector<Quad>& quads, const QuadsAtEdge& a
     for (int k = 0; k < 4; ++k)
       if (at_edge.at(edge_of(quad[k], quad[(k + 1) % 4])).size() == 1) rim.push_back({quad[k], quad[(k + 1) % 4]});
   return rim;
+}
+
+void add_column(Columns& columns, const std::vector<Index>& column, const std::string& volume) {
+  if (const auto [at, is_new] = columns.try_emplace(column.front(), column); !is_new && at->second != column)
+    throw Error(volume + "its sides do not fit together");
+}
+
+std::size_t height_of(const Columns& columns) {
+  if (columns.empty()) return 0;
+  const std::size_t n = columns.begin()->second.size();
+  return std::ranges::all_of(columns, [&](const auto& entry) { return entry.second.size() == n; }) ? n : 0;
 }
 
 Inside::Inside(const std::vector<Quad>& quads, const std::vector<Edge>& rim) : rim_(rim) {
@@ -126,6 +139,21 @@ Vec3 Inside::vector_area(const std::vector<Vec3>& rim) const {
   Vec3 sum = Vec3::Zero();
   for (const auto& [a, b] : rim_) sum += rim[slot_.at(a)].cross(rim[slot_.at(b)]) / 2;
   return sum;
+}
+
+void Builder::check_room(std::size_t n_quads, std::size_t n_layers) const {
+  const double n_hexes = static_cast<double>(n_quads) * static_cast<double>(n_layers);
+  check_memory(static_cast<double>(hexes.size()) + n_hexes, static_cast<double>(points.size()) + n_hexes);
+}
+
+std::vector<Vec3> Builder::rim_of_level(const Inside& inside, const std::map<Index, std::vector<Index>>& columns,
+                                        std::size_t k, std::map<Index, Index>& level) const {
+  std::vector<Vec3> places;
+  for (const Index node : inside.rim_nodes()) {
+    level[node] = columns.at(node)[k];
+    places.push_back(points[level[node]]);
+  }
+  return places;
 }
 
 void Builder::add_layers(const std::vector<Quad>& source, const std::vector<std::map<Index, Index>>& level,

@@ -20,6 +20,13 @@ void orient_alike(std::vector<Quad>& quads);
 /// Edges of one quad alone, as the quads turn.
 std::vector<Edge> rim_edges(const std::vector<Quad>& quads, const QuadsAtEdge& at_edge);
 
+/// Per node of a rim the nodes above it, from itself on.
+using Columns = std::map<Index, std::vector<Index>>;
+/// Throws Error where its first node has another one. volume: how messages begin.
+void add_column(Columns& columns, const std::vector<Index>& column, const std::string& volume);
+/// How many nodes each of them has; 0: they differ, or there are none.
+std::size_t height_of(const Columns& columns);
+
 /// Positions of the inner nodes of a quad mesh for any places of its rim.
 class Inside {
  public:

@@ -25,12 +25,9 @@ void smooth_flat(std::vector<Flat>& points, const std::vector<Quad>& quads, std:
   const auto worst = [&](Index n) {
     double result = 1;
     for (const Index q : around[n])
-      for (int k = 0; k < 4; ++k) {
-        const Flat& p = points[quads[q][k]];
-        const Flat a = points[quads[q][(k + 1) % 4]] - p, b = points[quads[q][(k + 3) % 4]] - p;
-        const double lengths = a.norm() * b.norm();
-        result = std::min(result, lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : -1.0);
-      }
+      for (int k = 0; k < 4; ++k)
+        result = std::min(
+            result, corner_sine(points[quads[q][(k + 3) % 4]], points[quads[q][k]], points[quads[q][(k + 1) % 4]]));
     return result;
   };
   constexpr int sweeps = 40;

@@ -91,7 +91,10 @@ class Search {
     return into(a).dot(into(b)) < -std::cos(40 * std::numbers::pi / 180);
   }
 
-  std::vector<int> smooth_part(int seed) const {
+  /// Surfaces of the volume that one can get to from this one, ascending: over curves where goes_on(surface, other,
+  /// curve).
+  template <class GoesOn>
+  std::vector<int> reached(int seed, const GoesOn& goes_on) const {
     std::vector<int> part{seed}, next{seed};
     while (!next.empty()) {
       const int surface = next.back();
@@ -99,7 +102,7 @@ class Search {
       for (const Chain& loop : of(surface).loops)
         for (const Step& step : loop) {
           const int other = across(surface, step.curve);
-          if (other == 0 || std::ranges::find(part, other) != part.end() || !is_smooth(surface, other, step.curve))
+          if (other == 0 || std::ranges::find(part, other) != part.end() || !goes_on(surface, other, step.curve))
             continue;
           part.push_back(other);
           next.push_back(other);
@@ -107,6 +110,9 @@ class Search {
     }
     std::ranges::sort(part);
     return part;
+  }
+  std::vector<int> smooth_part(int seed) const {
+    return reached(seed, [&](int surface, int other, int curve) { return is_smooth(surface, other, curve); });
   }
 
   /// Fills in sides and the other caps. False, with a reason, where that does not come out.
@@ -230,20 +236,10 @@ class Search {
   }
 
   bool hang_together(const std::vector<int>& part, bool smoothly) const {
-    std::vector<int> seen{part.front()}, next{part.front()};
-    while (!next.empty()) {
-      const int surface = next.back();
-      next.pop_back();
-      for (const Chain& loop : of(surface).loops)
-        for (const Step& step : loop) {
-          const int other = across(surface, step.curve);
-          if (!has(part, other) || std::ranges::find(seen, other) != seen.end()) continue;
-          if (smoothly && !is_smooth(surface, other, step.curve)) continue;
-          seen.push_back(other);
-          next.push_back(other);
-        }
-    }
-    return seen.size() == part.size();
+    const auto goes_on = [&](int surface, int other, int curve) {
+      return has(part, other) && (!smoothly || is_smooth(surface, other, curve));
+    };
+    return reached(part.front(), goes_on).size() == part.size();
   }
 
   std::vector<int> curves_between(const std::vector<int>& caps) const {

@@ -20,11 +20,8 @@ std::vector<Flat> parameters_along(const Builder& builder, int surface, const Ch
   constexpr int finer = 4;
   std::vector<Vec3> points;
   for (const Step& step : chain) {
-    const int n = builder.intervals[step.curve - 1] * finer;
-    for (int i = 0; i < n; ++i) {
-      const double part = static_cast<double>(i) / n;
-      points.push_back(builder.facts.point_at(step.curve, step.forward ? part : 1 - part));
-    }
+    const std::vector<Vec3> own = builder.facts.samples({step}, builder.intervals[step.curve - 1] * finer);
+    points.insert(points.end(), own.begin(), own.end());
   }
   const Step& last = chain.back();
   points.push_back(builder.facts.point_at(last.curve, last.forward ? 1 : 0));
@@ -141,12 +138,7 @@ void Builder::ring(int surface, bool even) {
   const auto& loops = facts.surfaces[surface - 1].loops;
   std::vector<Index> outer = rim_of(loops[0]), inner = rim_of(loops[1]);
   const auto n = static_cast<Index>(outer.size());
-  const auto turning = [&](const std::vector<Index>& rim) {
-    Vec3 area = Vec3::Zero();
-    for (Index i = 0; i < n; ++i) area += points[rim[i]].cross(points[rim[(i + 1) % n]]);
-    return area;
-  };
-  if (turning(outer).dot(turning(inner)) < 0) std::ranges::reverse(inner);
+  if (vector_area(outer).dot(vector_area(inner)) < 0) std::ranges::reverse(inner);
   Vec3 center = Vec3::Zero();
   for (const Index node : inner) center += points[node] / static_cast<double>(n);
   const Vec3 towards = (points[outer[0]] - center).normalized();

@@ -35,7 +35,7 @@ void Builder::sweep(const Sweep& sweep, int from) {
   const std::vector<Edge> rim = rim_edges(source, at_source);
 
   // Up the sides.
-  std::map<Index, std::vector<Index>> column;
+  Columns column;
   std::size_t n_passed = 0;
   for (auto [a, b] : rim) {
     std::vector<Index> up_a{a}, up_b{b};
@@ -55,17 +55,12 @@ void Builder::sweep(const Sweep& sweep, int from) {
       up_b.push_back(b);
       if (++n_passed > sides.size()) break;
     }
-    for (const auto* up : {&up_a, &up_b})
-      if (const auto [at, is_new] = column.try_emplace(up->front(), *up); !is_new && at->second != *up)
-        throw Error(volume + "its sides do not fit together");
+    add_column(column, up_a, volume);
+    add_column(column, up_b, volume);
   }
-  const std::size_t n_levels = column.empty() ? 0 : column.begin()->second.size();
-  if (n_levels < 2 || n_passed != sides.size() ||
-      std::ranges::any_of(column, [&](const auto& entry) { return entry.second.size() != n_levels; }))
-    throw Error(volume + "its sides have different numbers of layers");
-
-  const double n_hexes = static_cast<double>(source.size()) * static_cast<double>(n_levels - 1);
-  check_memory(static_cast<double>(hexes.size()) + n_hexes, static_cast<double>(points.size()) + n_hexes);
+  const std::size_t n_levels = height_of(column);
+  if (n_levels < 2 || n_passed != sides.size()) throw Error(volume + "its sides have different numbers of layers");
+  check_room(source.size(), n_levels - 1);
 
   // The other end: node by node what this end becomes.
   const std::vector<int>& far = sweep.caps[1 - from];
@@ -159,11 +154,7 @@ void Builder::sweep(const Sweep& sweep, int from) {
   std::vector<std::map<Index, Index>> level(n_levels);
   for (std::size_t k = 0; k < n_levels; ++k) {
     check_interrupt();
-    std::vector<Vec3> rim_here;
-    for (const Index node : inside.rim_nodes()) {
-      level[k][node] = column.at(node)[k];
-      rim_here.push_back(points[level[k][node]]);
-    }
+    const std::vector<Vec3> rim_here = rim_of_level(inside, column, k, level[k]);
     if (k == 0 || k + 1 == n_levels) {
       for (const Index node : inside.inner()) level[k][node] = k == 0 ? node : image.at(node);
       continue;

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "hextwist/base/interrupt.h"
-#include "hextwist/base/memory.h"
 #include "hextwist/mesh/fill/layers_internal.h"
 
 namespace hextwist::fill {
@@ -55,16 +54,11 @@ void Builder::turn(const Sweep& sweep) {
     sides.insert(sides.end(), surface_quads[id - 1].begin(), surface_quads[id - 1].end());
   }
   std::vector<std::vector<Index>> loops = closed_lines(std::move(pieces), volume);
-  const auto area_of = [&](const std::vector<Index>& loop) {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < loop.size(); ++i) sum += points[loop[i]].cross(points[loop[(i + 1) % loop.size()]]) / 2;
-    return sum;
-  };
-  std::ranges::stable_sort(loops, std::greater<>(), [&](const auto& loop) { return area_of(loop).norm(); });
-  const Vec3 normal = area_of(loops[0]).normalized(), x = normal.unitOrthogonal(), y = normal.cross(x);
+  std::ranges::stable_sort(loops, std::greater<>(), [&](const auto& loop) { return vector_area(loop).norm(); });
+  const Vec3 area = vector_area(loops[0]), normal = area.normalized(), x = normal.unitOrthogonal(), y = normal.cross(x);
   const Vec3 origin = points[loops[0][0]];
   std::vector<std::vector<Flat>> flat;
-  const double width = std::sqrt(area_of(loops[0]).norm());
+  const double width = std::sqrt(area.norm());
   for (const auto& loop : loops) {
     flat.emplace_back();
     for (const Index node : loop) {
@@ -88,7 +82,7 @@ void Builder::turn(const Sweep& sweep) {
   const Vec3 ahead = inside.vector_area(here);
 
   // Round the side surfaces, edge by edge of the section, to where it begins.
-  std::map<Index, std::vector<Index>> column;
+  Columns column;
   std::size_t n_passed = 0;
   for (const auto& [first_a, first_b] : rim) {
     Index a = first_a, b = first_b, quad = -1;
@@ -115,25 +109,17 @@ void Builder::turn(const Sweep& sweep) {
       b = on[1];
       if (++n_passed > sides.size()) throw Error(volume + "its sides do not lead back to where they begin");
     } while (a != first_a || b != first_b);
-    for (const auto* round : {&round_a, &round_b})
-      if (const auto [at, is_new] = column.try_emplace(round->front(), *round); !is_new && at->second != *round)
-        throw Error(volume + "its sides do not fit together");
+    add_column(column, round_a, volume);
+    add_column(column, round_b, volume);
   }
-  const std::size_t n = column.begin()->second.size();
-  if (n_passed != sides.size() ||
-      std::ranges::any_of(column, [&](const auto& entry) { return entry.second.size() != n; }))
-    throw Error(volume + "its sides have different numbers of layers");
-  const double n_hexes = static_cast<double>(source.size()) * static_cast<double>(n);
-  check_memory(static_cast<double>(hexes.size()) + n_hexes, static_cast<double>(points.size()) + n_hexes);
+  const std::size_t n = height_of(column);
+  if (n_passed != sides.size() || n == 0) throw Error(volume + "its sides have different numbers of layers");
+  check_room(source.size(), n);
 
   std::vector<std::map<Index, Index>> level(n + 1);
   for (std::size_t k = 0; k < n; ++k) {
     check_interrupt();
-    std::vector<Vec3> rim_here;
-    for (const Index node : inside.rim_nodes()) {
-      level[k][node] = column.at(node)[k];
-      rim_here.push_back(points[level[k][node]]);
-    }
+    const std::vector<Vec3> rim_here = rim_of_level(inside, column, k, level[k]);
     const std::vector<Vec3> moved = k == 0 ? inner_here : inside.moved(here, inner_here, rim_here);
     for (std::size_t i = 0; i < moved.size(); ++i)
       level[k][inside.inner()[i]] = k == 0 ? inside.inner()[i] : add(moved[i], owner);

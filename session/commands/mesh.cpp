@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "hextwist/base/interrupt.h"
-#include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/gmsh/pave.h"
@@ -70,22 +68,13 @@ std::vector<int> volumes_of(const Execution& run, const Model& model) {
 /// Better shapes for the poor hexes of what was just filled.
 void improve(Execution& run, MeshedModel& meshed) {
   constexpr double poor = 0.5;
-  const std::vector<double> jacobians = quality(Metric::scaled_jacobian, meshed.mesh);
-  std::vector<std::uint8_t> moves(meshed.mesh.points.size(), 0);
-  bool any = false;
-  for (Index h = 0; h < meshed.mesh.n_hexes(); ++h)
-    if (jacobians[h] < poor) {
-      any = true;
-      for (const Index n : meshed.mesh.hexes[h]) moves[n] = 1;
-    }
-  if (!any) return;
-  constexpr int rings = 2;
-  for (int ring = 0; ring < rings; ++ring)
-    for (const Index h : touching_hexes(meshed.mesh.hexes, moves))
-      for (const Index n : meshed.mesh.hexes[h]) moves[n] = 1;
+  constexpr int layers = 2;
+  const Mesh& mesh = meshed.mesh;
+  std::vector<Index> low = hexes_below(mesh, poor);
+  if (low.empty()) return;
   run.stage("smooth");
   SmoothOptions options;
-  options.nodes = indices_where(meshed.mesh.n_nodes(), [&](Index n) { return moves[n] != 0; });
+  options.nodes = nodes_of_hexes(mesh, with_layers(mesh, std::move(low), layers));
   options.iterations = 50;
   if (smooth(meshed.mesh, meshed.association, meshed.model.get(), options, [&](const char* stage, double fraction) {
         return !run.core.callbacks.progress || run.core.callbacks.progress(stage, fraction);
@@ -125,10 +114,7 @@ void do_mesh(Execution& run) {
   if (const Item* n = run.command.find("n")) options.intervals = static_cast<int>(n->number);
   options.quads = paver_by_gmsh(find_gmsh());
   run.stage("fill volumes");
-  const Interruptible interruptible([&run] {
-    const auto& progress = run.core.callbacks.progress;
-    if (progress && !progress("fill volumes", 0)) throw Cancelled();
-  });
+  const Interruptible interruptible = interruptible_as(run, "fill volumes");
   FillResult filled = fill_volumes(*model, options);
   for (const std::string& line : filled.notices) run.note(line);
   run.stage("associate");
