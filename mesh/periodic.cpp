@@ -213,13 +213,21 @@ void check_periodic(const MeshedModel& meshed, std::span<const PeriodicPair> pai
     static_cast<void>(node_pairs(meshed.mesh, meshed.association, pair, 4 * periodic_tolerance(meshed.mesh)));
 }
 
+std::vector<Index> nodes_on_surfaces(const Mesh& mesh, const Association& association, std::span<const int> surfaces) {
+  std::vector<Index> result;
+  for (const int surface : surfaces) result = union_of(result, side_of(mesh, association, surface).nodes);
+  return result;
+}
+
+std::vector<int> periodic_surfaces(std::span<const PeriodicPair> pairs) {
+  std::vector<int> result;
+  for (const PeriodicPair& pair : pairs) result.insert(result.end(), {pair.of, pair.surface});
+  return sorted_unique(std::move(result));
+}
+
 std::vector<Index> periodic_nodes(const Mesh& mesh, const Association& association,
                                   std::span<const PeriodicPair> pairs) {
-  std::vector<Index> result;
-  for (const PeriodicPair& pair : pairs)
-    for (const int surface : {pair.of, pair.surface})
-      result = union_of(result, side_of(mesh, association, surface).nodes);
-  return result;
+  return nodes_on_surfaces(mesh, association, periodic_surfaces(pairs));
 }
 
 }  // namespace hextwist

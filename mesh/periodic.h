@@ -49,6 +49,12 @@ std::vector<Index> repeat_places(MeshedModel& meshed, std::span<const PeriodicPa
 /// Throws Error when a pair does not hold (any more).
 void check_periodic(const MeshedModel& meshed, std::span<const PeriodicPair> pairs);
 
+/// Nodes of the faces on these surfaces, ascending.
+std::vector<Index> nodes_on_surfaces(const Mesh& mesh, const Association& association, std::span<const int> surfaces);
+
+/// The surfaces of pairs, ascending.
+std::vector<int> periodic_surfaces(std::span<const PeriodicPair> pairs);
+
 /// Nodes on the surfaces of pairs, ascending.
 std::vector<Index> periodic_nodes(const Mesh& mesh, const Association& association,
                                   std::span<const PeriodicPair> pairs);

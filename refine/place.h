@@ -22,15 +22,24 @@ namespace hextwist {
 void place(const Mesh& old_mesh, const Association& old_association, const Split& split, const Model& model, Mesh& mesh,
            Association& association);
 
+/// What repairing is told.
+struct RepairOptions {
+  std::span<const Index> fixed = {};             ///< nodes that do not move
+  std::span<const std::string> keep_jumps = {};  ///< as in SmoothOptions
+  /// Surfaces that repeat each other: their nodes stay as long as something else helps, as what moves on one of them
+  /// alone has no image on the other any more.
+  std::span<const int> repeated_surfaces = {};
+  /// Called after each sweep; once it returns false, repair stops soon, and the caller should drop the mesh.
+  SmoothProgress progress = {};
+};
+
 /// Turns inverted children right again: by untangling around them (smooth.h; new nodes slide along their curves and
 /// surfaces; where need be, old nodes inside volumes that are not `fixed` give way), and where that does not help by
 /// moving new nodes back towards their place in the straight-sided parent, off their curve or surface. Nodes that end
 /// up off their owner come back as rows; hexes that are still inverted are left for the caller to find
-/// (inverted_hexes() of validity.h). keep_jumps as in SmoothOptions. progress is called after each sweep; once it
-/// returns false, repair stops soon, and the caller should drop the mesh. had_to: whether there were any.
+/// (inverted_hexes() of validity.h). had_to: whether there were any.
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                      Association& association, std::span<const Index> fixed = {},
-                                      const SmoothProgress& progress = {}, std::span<const std::string> keep_jumps = {},
+                                      Association& association, const RepairOptions& options = {},
                                       bool* had_to = nullptr);
 
 }  // namespace hextwist

@@ -1,11 +1,13 @@
 // Last resort of placing: what to do about children that came out inverted.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
+#include "hextwist/mesh/periodic.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
@@ -134,11 +136,10 @@ std::vector<Index> return_to_owners(const Model& model, Mesh& mesh, Association&
 }  // namespace
 
 std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, const Model* model, Mesh& mesh,
-                                      Association& association, std::span<const Index> fixed,
-                                      const SmoothProgress& progress, std::span<const std::string> keep_jumps,
-                                      bool* had_to) {
+                                      Association& association, const RepairOptions& options, bool* had_to) {
   std::vector<OffOwner> rows;
-  const Staying stays{fixed, keep_jumps};
+  const Staying stays{options.fixed, options.keep_jumps};
+  const SmoothProgress& progress = options.progress;
   std::vector<Index> bad = inverted_hexes(mesh, split.n_kept());
   if (had_to) *had_to = !bad.empty();
   const Index first_new = split.lineage.n_old_nodes;
@@ -148,17 +149,31 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
   if (bad.empty()) return rows;
   const std::vector<Vec3> placed = mesh.points;
   const std::vector<Parameters> placed_parameters = association.node_parameters;
-  for (const RepairReach reach : reaches) {
-    if (bad.empty()) return rows;
-    if (reach.afresh) {
-      for (const Index n : nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers))) {
-        mesh.points[n] = placed[n];
-        if (!placed_parameters.empty()) association.node_parameters[n] = placed_parameters[n];
-      }
-      bad = inverted_hexes(mesh, split.n_kept());
+  const auto put_back = [&](std::span<const Index> nodes) {
+    for (const Index n : nodes) {
+      mesh.points[n] = placed[n];
+      if (!placed_parameters.empty()) association.node_parameters[n] = placed_parameters[n];
     }
-    bad = untangle(split, model, mesh, association, bad, reach, stays, progress);
+    bad = inverted_hexes(mesh, split.n_kept());
+  };
+  const auto try_all = [&](const Staying& staying) {
+    for (const RepairReach reach : reaches) {
+      if (bad.empty()) return;
+      if (reach.afresh) put_back(nodes_of_hexes(mesh, with_layers(mesh, bad, reach.layers)));
+      bad = untangle(split, model, mesh, association, bad, reach, staying, progress);
+    }
+  };
+  if (!options.repeated_surfaces.empty()) {
+    const std::vector<Index> staying =
+        union_of(sorted_unique(std::vector<Index>(options.fixed.begin(), options.fixed.end())),
+                 nodes_on_surfaces(mesh, association, options.repeated_surfaces));
+    try_all({staying, options.keep_jumps});
+    if (bad.empty()) return rows;
+    std::vector<Index> all(mesh.points.size());
+    std::iota(all.begin(), all.end(), 0);
+    put_back(all);
   }
+  try_all(stays);
   if (bad.empty()) return rows;
 
   // 2. Back off from the CAD.

@@ -72,9 +72,11 @@ std::optional<MeshedModel> State::pass(const Cut& cut) {
       stopped |= !stages.report(stage, fraction());
       return !stopped;
     };
+    const std::vector<Index> fixed = with_inner_nodes(next.mesh, next.association, request.finish.fixed);
+    std::vector<int> repeated;
+    if (request.finish.periodic) repeated = periodic_surfaces(request.finish.periodic->pairs);
     std::ranges::move(repair_children(from.mesh, parts, next.model.get(), next.mesh, next.association,
-                                      with_inner_nodes(next.mesh, next.association, request.finish.fixed), keep_going,
-                                      request.finish.keep_jumps, &had_to),
+                                      {fixed, request.finish.keep_jumps, repeated, keep_going}, &had_to),
                       std::back_inserter(report.off_nodes));
     if (had_to) report.by_whole = repaired_together;
     if (stopped) throw Cancelled();

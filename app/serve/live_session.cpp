@@ -68,6 +68,13 @@ void LiveSession::cancel() {
   cancelled_ = true;
 }
 
+void LiveSession::end() {
+  cancel();
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
 void LiveSession::work(const std::stop_token& stop) {
   const auto say = [this](const char* kind, const std::string& text) {
     tell(text_of({{"kind", kind}, {"text", text}}));
@@ -163,13 +170,26 @@ LiveSession::Clock::time_point LiveSession::last_seen() {
   return seen_;
 }
 
+bool LiveSession::was_left() {
+  const std::lock_guard lock(mutex_);
+  return left_;
+}
+
+void LiveSession::leave() {
+  const std::lock_guard lock(mutex_);
+  left_ = true;
+  changed_.notify_all();
+}
+
 std::string LiveSession::events(std::size_t since, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   seen_ = Clock::now();
+  left_ = false;
   const bool was_running = running_;
   // While something runs, its progress is news.
   if (was_running) patience = std::min<std::chrono::milliseconds>(patience, 250ms);
-  changed_.wait_for(lock, patience, [&] { return n_dropped_ + events_.size() > since || running_ != was_running; });
+  changed_.wait_for(lock, patience,
+                    [&] { return ended_ || left_ || n_dropped_ + events_.size() > since || running_ != was_running; });
   const std::size_t first = std::max(since, n_dropped_);
   std::string list;
   for (std::size_t i = first; i < n_dropped_ + events_.size(); ++i)

@@ -29,6 +29,8 @@ class LiveSession {
   /// False: something is running already.
   bool run(std::string text);
   void cancel();
+  /// Cancels, and lets go of all who wait for events: from now on they get an answer at once.
+  void end();
 
   /// What happened after event number `since`, as JSON {"events": [...], "running", "stage", "share", "version"}. Waits
   /// for something to happen, at most `patience`.
@@ -51,6 +53,9 @@ class LiveSession {
   bool has_written(const std::string& file);
 
   std::chrono::steady_clock::time_point last_seen();
+  /// Its page was closed or is loaded anew, and has not asked for anything since.
+  bool was_left();
+  void leave();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -73,7 +78,7 @@ class LiveSession {
   std::vector<std::string> events_;
   std::size_t n_dropped_ = 0, version_ = 0, n_sent_ = 0;
   std::optional<std::string> wanted_;
-  bool running_ = true;
+  bool running_ = true, ended_ = false, left_ = false;
   std::string stage_;
   double share_ = 0;
   std::vector<std::string> written_;

@@ -30,8 +30,9 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_body = 256 * 1024, most_sessions = 8, most_command = 100000, most_line = 4000,
                       most_patience = 15;
-// Tabs that are there ask at least every 15 s. One that was closed may be opened again, unless there are too many.
-constexpr std::chrono::seconds idle_time = std::chrono::hours(2), left_time = 60s;
+// A tab that was closed may be opened again, unless there are too many. Tabs that are there ask at least every 15 s,
+// those behind others once a minute.
+constexpr std::chrono::seconds idle_time = std::chrono::hours(2), left_time = 90s;
 constexpr int n_threads_of_server = 4 * most_sessions;
 
 std::string random_text() {
@@ -58,6 +59,16 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
   response.set_content(Json{{"error", why}}.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
 }
 
+/// As it is: the library would spend seconds on compressing what goes to a browser on the same machine.
+void send(httplib::Response& response, std::string text, const char* type) {
+  if (text.empty()) return response.set_content("", type);  // there is nothing to provide
+  const auto sent = std::make_shared<const std::string>(std::move(text));
+  response.set_content_provider(sent->size(), type,
+                                [sent](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                                  return sink.write(sent->data() + offset, length);
+                                });
+}
+
 class Server {
  public:
   explicit Server(const Options& options) : options_(options), token_(random_text()) {}
@@ -69,6 +80,7 @@ class Server {
     http_.set_read_timeout(10);
     http_.set_write_timeout(60);
     http_.set_tcp_nodelay(true);
+    http_.set_keep_alive_timeout(1);  // so long the end waits for connections that are open
     // A port that was just left can be had again, but no other program may listen there too (SO_REUSEPORT).
     http_.set_socket_options([](socket_t socket) {
       const int yes = 1;
@@ -97,7 +109,7 @@ class Server {
     }
     {
       const std::lock_guard lock(mutex_);
-      for (const auto& [id, session] : sessions_) session->cancel();
+      for (const auto& [id, session] : sessions_) session->end();
     }
     http_.stop();
     return done;
@@ -130,11 +142,13 @@ class Server {
     return sessions_.size();
   }
 
-  void end_sessions_unseen_for(std::chrono::seconds time) {
+  /// is_full: those of tabs that were closed, too.
+  void end_sessions_unseen_for(std::chrono::seconds time, bool is_full = false) {
     std::vector<std::shared_ptr<LiveSession>> ended;  // outlives the lock: ending one may take a moment
     const std::lock_guard lock(mutex_);
     std::erase_if(sessions_, [&](const auto& each) {
-      if (std::chrono::steady_clock::now() - each.second->last_seen() < time) return false;
+      const bool is_unseen = std::chrono::steady_clock::now() - each.second->last_seen() >= time;
+      if (!is_unseen && !(is_full && each.second->was_left())) return false;
       ended.push_back(each.second);
       return true;
     });
@@ -165,7 +179,7 @@ class Server {
     std::string id = body.contains("id") && body["id"].is_string() ? body["id"].get<std::string>() : "";
     const bool is_known = !id.empty() && session(id);
     if (!is_known) {
-      if (n_sessions() >= most_sessions) end_sessions_unseen_for(left_time);
+      if (n_sessions() >= most_sessions) end_sessions_unseen_for(left_time, true);
       const std::lock_guard lock(mutex_);
       if (sessions_.size() >= most_sessions)
         return refuse(response, 429, "there are " + std::to_string(most_sessions) + " sessions already: close a tab");
@@ -227,7 +241,7 @@ class Server {
       }
     });
     http_.Get("/", [](const httplib::Request&, httplib::Response& response) {
-      response.set_content(std::string(page_text()), "text/html; charset=utf-8");
+      send(response, std::string(page_text()), "text/html; charset=utf-8");
     });
     http_.Post("/session", [this](const auto& request, auto& response) { open_session(request, response); });
     http_.Post("/run", posted([](LiveSession& live, const Json& body, httplib::Response& response) {
@@ -246,6 +260,10 @@ class Server {
                  live.cancel();
                  response.set_content("{}", "application/json");
                }));
+    http_.Post("/leave", posted([](LiveSession& live, const Json&, httplib::Response& response) {
+                 live.leave();
+                 response.set_content("{}", "application/json");
+               }));
     http_.Post("/complete", posted([](LiveSession& live, const Json& body, httplib::Response& response) {
                  if (!body.contains("line") || !body["line"].is_string() ||
                      body["line"].get_ref<const std::string&>().size() > most_line)
@@ -259,7 +277,7 @@ class Server {
       const auto live = session(request.get_param_value("id"));
       if (!live) return refuse(response, 404, "there is no such session");
       const auto patience = std::chrono::seconds(std::min<std::size_t>(number(request, "wait"), most_patience));
-      response.set_content(live->events(number(request, "since"), patience), "application/json");
+      send(response, live->events(number(request, "since"), patience), "application/json");
     });
     http_.Get("/block", [this](const httplib::Request& request, httplib::Response& response) {
       const auto live = session(request.get_param_value("id"));
@@ -269,7 +287,7 @@ class Server {
       if (sent->bytes.empty()) return refuse(response, 404, "there is no such part of the scene");
       response.set_header("X-Hextwist-Number", std::to_string(sent->number));
       response.set_header("X-Hextwist-Difference", sent->is_difference ? "1" : "0");
-      response.set_content(sent->bytes, "application/octet-stream");
+      send(response, std::move(sent->bytes), "application/octet-stream");
     });
     http_.Get("/file", [this](const httplib::Request& request, httplib::Response& response) {
       const auto live = session(request.get_param_value("id"));
@@ -294,7 +312,7 @@ class Server {
     std::ifstream stream(name, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(stream), {}};
     response.set_header("Content-Disposition", "attachment");
-    response.set_content(std::move(content), "application/octet-stream");
+    send(response, std::move(content), "application/octet-stream");
   }
 };
 

@@ -30,9 +30,9 @@ export class Live {
     this.blocks = new Map();  // name -> { number, arrays }
   }
 
-  async ask(path, body) {
+  async ask(path, body, more = {}) {
     const response = await fetch(path, {
-      method: body ? 'POST' : 'GET', body: body ? JSON.stringify(body) : undefined,
+      ...more, method: body ? 'POST' : 'GET', body: body ? JSON.stringify(body) : undefined,
       headers: { 'X-Hextwist-Token': this.token, ...(body ? { 'Content-Type': 'application/json' } : {}) },
     });
     if (!response.ok) {
@@ -44,9 +44,22 @@ export class Live {
 
   async start() {
     this.build();
-    await this.join();
+    while (!(await this.joined())) await new Promise((resolve) => setTimeout(resolve, 1000));
+    // A closed tab makes room for another one.
+    addEventListener('pagehide', () => this.ask('leave', { id: this.id }, { keepalive: true }).catch(() => {}));
     this.follow();
     await new Promise((resolve) => { this.isThere = resolve; });
+  }
+  /** Says why where there can be no session yet. */
+  async joined() {
+    try {
+      await this.join();
+      this.connected(true);
+      return true;
+    } catch (error) {
+      this.connected(false, error.status ? `${error.message} (trying again)` : undefined);
+      return false;
+    }
   }
   /** The session of this tab, or a new one where that is gone. */
   async join() {
@@ -95,7 +108,7 @@ export class Live {
         if (!news.running) this.isThere?.();
         if (!isLookedAt) await untilSeen(4000);
       } catch (error) {
-        if (error.status === 404) await this.join().catch(() => {});
+        if (error.status === 404) await this.joined();
         else if (error.status === 403) {
           this.connected(false, error.message);
           this.isThere?.();

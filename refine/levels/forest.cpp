@@ -112,11 +112,18 @@ LevelMarks with_gradation(Forest& forest) {
   return graded(forest.wished, base.hexes, *forest.base_corners, forest.mirror.get());
 }
 
+/// See RepairOptions.
+std::span<const int> repeated_surfaces(const Forest& forest) {
+  if (!forest.mirror) return {};
+  return forest.mirror->surfaces;
+}
+
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed) {
   const Mesh& base = forest.base->mesh;
   grown = *bare(base);
   grown.marks = with_gradation(forest);
-  LevelledMesh built = build_levels(*forest.base, grown.marks, {}, {.fixed = fixed});
+  LevelledMesh built =
+      build_levels(*forest.base, grown.marks, {}, {.fixed = fixed, .repeated_surfaces = repeated_surfaces(forest)});
   grown.stack = std::move(built.stack);
   grown.pieces = level_pieces(grown.stack, base.n_hexes());
   grown.next_node_id += built.mesh.mesh.n_nodes() - base.n_nodes();
@@ -201,7 +208,11 @@ LevelStep change(const Forest& from, const Mesh& current, LevelMarks wished, con
   grown->has_stack = true;
   for (std::size_t k = 0; k < wishes.size(); ++k) step.n_forced += n_forced(grown->marks[k], wishes[k]);
   LevelledMesh built = build_levels(base, grown->marks, options.reuse.empty() ? before.stack : options.reuse,
-                                    {options.keep_meshes, options.fixed, options.progress, options.keep_jumps});
+                                    {.keep_meshes = options.keep_meshes,
+                                     .fixed = options.fixed,
+                                     .progress = options.progress,
+                                     .keep_jumps = options.keep_jumps,
+                                     .repeated_surfaces = repeated_surfaces(forest)});
   grown->stack = std::move(built.stack);
   grown->pieces = level_pieces(grown->stack, base.mesh.n_hexes());
 

@@ -79,6 +79,7 @@ std::optional<std::pair<CellNumber, std::uint8_t>> cell_at(const OnFeature& feat
 
 std::shared_ptr<const Mirror> mirror_of(const MeshedModel& base, std::span<const PeriodicPair> pairs) {
   auto mirror = std::make_shared<Mirror>();
+  mirror->surfaces = periodic_surfaces(pairs);
   for (const PeriodicPair& pair : pairs) {
     std::vector<NodePair> there = node_pairs(base.mesh, base.association, pair), back;
     for (const auto& [of, image] : there) back.push_back({image, of});

@@ -14,6 +14,7 @@ namespace hextwist {
 /// Nodes of a base mesh and their images: of each pair both ways.
 struct Mirror {
   std::vector<std::vector<NodePair>> images;  ///< each ascending by its first nodes
+  std::vector<int> surfaces;                  ///< of the pairs, ascending
 };
 /// Throws Error where the base does not repeat.
 std::shared_ptr<const Mirror> mirror_of(const MeshedModel& base, std::span<const PeriodicPair> pairs);

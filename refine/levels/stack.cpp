@@ -83,8 +83,9 @@ Made make_pass(const MeshedModel& from, const LevelPass* last, const CellMarks& 
   const std::vector<Index> fixed = with_inner_nodes(made.mesh.mesh, made.mesh.association,
                                                     std::vector<Index>(options.fixed.begin(), options.fixed.end()));
   if (!options.topology_only)
-    pass.off_nodes = repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
-                                     fixed, options.progress, options.keep_jumps, &pass.is_repaired);
+    pass.off_nodes =
+        repair_children(from.mesh, parts, made.mesh.model.get(), made.mesh.mesh, made.mesh.association,
+                        {fixed, options.keep_jumps, options.repeated_surfaces, options.progress}, &pass.is_repaired);
   pass.marks = marks;
   pass.n_kept = parts.n_kept();
   pass.n_hexes = made.mesh.mesh.n_hexes();

@@ -39,7 +39,8 @@ struct StackOptions {
   std::span<const Index> fixed = {};
   SmoothProgress progress = {};  ///< as in repair_children()
   std::span<const std::string> keep_jumps = {};
-  bool topology_only = false;  ///< nothing is placed or repaired
+  std::span<const int> repeated_surfaces = {};  ///< likewise
+  bool topology_only = false;                   ///< nothing is placed or repaired
 };
 
 struct LevelledMesh {

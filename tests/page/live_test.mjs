@@ -304,6 +304,24 @@ test('more tabs than a browser has connections do not wait for each other', asyn
   assert.equal(await end, 0);
 });
 
+test('a closed tab makes room; one too many says so and waits', async () => {
+  const other = await serve(model('bracket')), tabs = [];
+  for (let i = 0; i < 8; ++i) tabs.push(await open(browser, other.address));
+  await tabs.pop().close();
+  tabs.push(await open(browser, other.address));
+  const late = await browser.newPage();
+  await late.goto(other.address);
+  await late.waitForFunction(() => !document.getElementById('connection').hidden);
+  assert.match(await late.textContent('#connection'), /8 sessions already: close a tab/);
+  await tabs.pop().close();
+  await late.waitForFunction(() => window.hextwist?.ready);
+  assert.equal(await hexes(late), 488);
+  const end = ended(other.child);
+  other.child.kill('SIGINT');
+  assert.equal(await end, 0);
+  for (const tab of [...tabs, late]) await tab.close();
+});
+
 test('it ends while a command runs, and leaves no half of a file', async () => {
   const other = await serve([]), page = await open(browser, other.address), files = readdirSync(folder).sort();
   await command(page, 'create brick x 10 interval 30');
