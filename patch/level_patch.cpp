@@ -14,7 +14,10 @@
 #include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/others.h"
+#include "hextwist/patch/adapt.h"
+#include "hextwist/patch/forest_patch_internal.h"
 #include "hextwist/patch/patch_refine.h"
+#include "hextwist/patch/size_patch_internal.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
@@ -23,150 +26,6 @@
 
 namespace hextwist {
 namespace {
-
-/// A base as it is, without what only steps over the whole need.
-Forest bare_forest(Forest forest) {
-  const Mesh& base = forest.base->mesh;
-  auto grown = std::make_shared<GrownForest>();
-  grown->hexes.n_base = base.n_hexes();
-  grown->next_node_id = node_id(base, base.n_nodes() - 1) + 1;
-  grown->next_hex_id = highest_element_id(base) + 1;
-  forest.grown = std::move(grown);
-  return forest;
-}
-
-/// Roots of cells that are marked otherwise in one than in the other.
-std::vector<Index> changed_roots(const LevelMarks& a, const LevelMarks& b) {
-  static const CellMarks none;
-  std::vector<Index> roots;
-  for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
-    const CellMarks &one = k < a.size() ? a[k] : none, &other = k < b.size() ? b[k] : none;
-    const auto add = [&](CellNumber cell) {
-      const Index root = root_of({static_cast<int>(k), cell});
-      if (roots.empty() || roots.back() != root) roots.push_back(root);
-    };
-    std::size_t i = 0, j = 0;
-    while (i < one.size() || j < other.size())
-      if (j == other.size() || (i < one.size() && one.cell[i] < other.cell[j])) {
-        add(one.cell[i++]);
-      } else if (i == one.size() || other.cell[j] < one.cell[i]) {
-        add(other.cell[j++]);
-      } else {
-        if (one.corners[i] != other.corners[j]) add(one.cell[i]);
-        ++i, ++j;
-      }
-  }
-  return sorted_unique(std::move(roots));
-}
-
-/// Cells of some roots (ascending) by numbers in which these are 0, 1, ...
-class LocalCells {
- public:
-  explicit LocalCells(std::span<const Index> roots) : roots_(roots) {}
-
-  /// -1: of another root.
-  CellNumber local(LevelPieces::Leaf leaf) const {
-    const Index root = root_of(leaf), at = position_in(roots_, root);
-    return at < 0 ? -1 : moved(leaf, root, at);
-  }
-  CellNumber whole(LevelPieces::Leaf leaf) const {
-    const Index at = root_of(leaf);
-    return moved(leaf, at, roots_[at]);
-  }
-  LevelMarks local(const LevelMarks& marks) const {
-    LevelMarks result(marks.size());
-    for (std::size_t k = 0; k < marks.size(); ++k)
-      for (std::size_t i = 0; i < marks[k].size(); ++i)
-        if (const CellNumber cell = local({static_cast<int>(k), marks[k].cell[i]}); cell >= 0)
-          result[k].add(cell, marks[k].corners[i]);
-    trim(result);
-    return result;
-  }
-
- private:
-  static CellNumber moved(LevelPieces::Leaf leaf, Index from, Index to) {
-    CellNumber shift = to - from;
-    for (int level = 0; level < leaf.level; ++level) shift *= n_cell_children;
-    return leaf.cell + shift;
-  }
-  std::span<const Index> roots_;
-};
-
-/// Hexes of the mesh that lie in the roots; ascending.
-std::vector<Index> hexes_in(const HandedHexes& hexes, std::span<const Index> roots) {
-  std::vector<std::uint8_t> is_in(static_cast<std::size_t>(hexes.n_base), 0);
-  std::vector<Index> result;
-  for (const Index root : roots) {
-    is_in[root] = 1;
-    if (!std::ranges::binary_search(hexes.cut, root)) result.push_back(after_gaps(hexes.cut, root));
-  }
-  for (std::size_t i = 0; i < hexes.cell.size(); ++i)
-    if (is_in[hexes.root_of_piece(i)]) result.push_back(hexes.n_whole() + static_cast<Index>(i));
-  return result;
-}
-
-/// The patch with its part of the forest.
-struct ForestPatch {
-  Patch patch;
-  LocalCells cells;
-  Levelling levelling;
-
-  /// Marks that cells outside of the patch make on cells of its outermost ring: all that are seen there.
-  LevelMarks border;
-
-  ForestPatch(const MeshedModel& input, const Levelling& whole, const Rings& rings, std::vector<Index> hexes);
-  LevelMarks with_border(const LevelMarks& marks) const { return united(cells.local(marks), border); }
-};
-
-/// The corners at which the edges of a code end.
-std::uint8_t corners_of(std::uint32_t code) {
-  int mask = 0;
-  for (int e = 0; e < n_hex_edges; ++e)
-    if (code >> e & 1) mask |= 1 << edge_corner(e, 0) | 1 << edge_corner(e, 1);
-  return static_cast<std::uint8_t>(mask);
-}
-
-ForestPatch::ForestPatch(const MeshedModel& input, const Levelling& whole, const Rings& rings, std::vector<Index> hexes)
-    : patch(make_patch(input, std::move(hexes))), cells(rings.hexes) {
-  const std::vector<Index>& roots = rings.hexes;
-  set_ids(input.mesh, patch, patch.meshed.mesh);
-  Patch of_base = make_patch(*whole.forest.base, {roots.begin(), roots.end()});
-  set_ids(whole.forest.base->mesh, of_base, of_base.meshed.mesh);
-  const GrownForest& all = *whole.forest.grown;
-  auto grown = std::make_shared<GrownForest>();
-  grown->next_node_id = all.next_node_id;
-  grown->next_hex_id = all.next_hex_id;
-  HandedHexes& local = grown->hexes;
-  local.n_base = static_cast<Index>(roots.size());
-  for (Index i = 0; i < local.n_base; ++i)
-    if (std::ranges::binary_search(all.hexes.cut, roots[i])) local.cut.push_back(i);
-  for (const Index h : patch.hexes) {
-    if (h < all.hexes.n_whole()) continue;
-    const auto piece = static_cast<std::size_t>(h - all.hexes.n_whole());
-    const int level = all.hexes.block(piece) - 1;
-    const CellNumber cell = cells.local({level, all.hexes.cell[piece]});
-    local.cell.push_back(cell);
-    local.origin.push_back(all.hexes.origin[piece]);
-    if (rings.is_all || rings.ring[root_of({level, cell})] < rings.n_rings) continue;
-    if (border.size() <= static_cast<std::size_t>(level)) border.resize(level + std::size_t{1});
-    CellMarks& marks = border[level];
-    if (!marks.empty() && marks.cell.back() == cell) continue;
-    marks.add(cell, corners_of(all.hexes.origin[piece] >> 16 & (n_trisect_codes - 1)));
-  }
-  border = closed(std::move(border));
-  grown->marks = with_border(all.marks);
-  levelling.forest.base = std::make_shared<const MeshedModel>(std::move(of_base.meshed));
-  levelling.forest.wished = cells.local(whole.forest.wished);
-  levelling.forest.grown = std::move(grown);
-  Overlay& overlay = levelling.overlay;
-  for (std::size_t i = 0; i < whole.overlay.nodes.size(); ++i) {
-    const Index n = patch.local_node(whole.overlay.nodes[i]);
-    if (n < 0) continue;
-    overlay.nodes.push_back(n);
-    overlay.points.push_back(whole.overlay.points[i]);
-    if (!whole.overlay.parameters.empty()) overlay.parameters.push_back(whole.overlay.parameters[i]);
-  }
-}
 
 /// The hexes of the base that are cut afterwards.
 std::vector<Index> cut_after(const HandedHexes& before, std::span<const Index> roots, const HandedHexes& local) {
@@ -357,9 +216,13 @@ LevellingPtr planted(const PatchResult& made, const Request& request, const Mesh
   return std::make_shared<const Levelling>(std::move(result));
 }
 
-std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const Measured& known, const Request& request,
-                                               const Progress& progress, const RingsOf& rings_of) {
-  const Levelling& asked = *request.levelling;
+namespace {
+
+/// given: what is wished for, where that is not the request itself.
+std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                        const WishedBySizes* given, const Progress& progress, const RingsOf& rings_of) {
+  const LevellingPtr before = request.levelling ? request.levelling : levelling_of({std::shared_ptr<void>(), &input});
+  const Levelling& asked = *before;
   const bool is_base = asked.forest.is_bare();
   if (!is_base && !asked.forest.grown) return std::nullopt;
   // Nodes of the base keep their numbers; other elements that are pieces have others, which a splice would change.
@@ -372,18 +235,20 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
   const Mesh& base = forest.base->mesh;
   const std::size_t limit = input.mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
 
-  Report report;
+  Report report = given ? given->report : Report{};
   report.scaled_jacobian_before = known.scaled_jacobian;
   Stages stages(report, progress);
   stages.begin("patch", 0);
   Forest next = forest;
-  next.wished = wishes_of(forest, input, request, report.notices);
+  next.wished = given ? given->wished : wishes_of(forest, input, request, report.notices);
   KnownLevels levels;
   LevelMarks marks = with_gradation(next);
   levels.is_bare = next.is_bare();
-  for (std::size_t k = 0; k < next.wished.size(); ++k) levels.n_forced += n_forced(marks[k], next.wished[k]);
+  if (!given || !given->is_gradation_told)
+    for (std::size_t k = 0; k < next.wished.size(); ++k) levels.n_forced += n_forced(marks[k], next.wished[k]);
   const std::vector<Index> changed = changed_roots(grown.marks, marks);
   if (changed.size() > limit) return std::nullopt;
+  if (changed.empty() && given) return std::nullopt;  // there are hexes that ask, and nothing is to be had
   if (changed.empty() && !request.finish.smooth) {
     // Other wishes at most, and the same mesh.
     tell_forced(levels.n_forced, report);
@@ -432,6 +297,8 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
   PatchResult made;
   {
     State run(part.patch.meshed, local, report, progress);
+    std::optional<SizesInPart> sizes;
+    if (given) run.part = &sizes.emplace(given->sizes, part.patch.nodes, part.patch.hexes);
     run_levels(run, levels);
     made.result = finish_passes(run);
     RefineResult& result = made.result;
@@ -449,6 +316,10 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
     for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
     for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
       for (Index& h : *list) h = numbers.hex[h];
+    if (given) {
+      report.sizes = whole_sizes(*report.sizes, sizes->outside, numbers);
+      report.sizes->n_passes = static_cast<int>(next.wished.size());
+    }
     const Index n_whole_after = grown.hexes.n_base - static_cast<Index>(cut.size());
     if (!request.finish.dry_run) {
       made.is_verified = verify_step(input, known, part, numbers, result.refined, report);
@@ -467,14 +338,24 @@ std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const M
                                                  Splice::RenamedFrom{grown.hexes.n_whole(), n_whole_after});
     made.come = numbers.come;
   }
-  report.hexes_before = input.mesh.n_hexes();
-  report.nodes_before = input.mesh.n_nodes();
-  report.hexes_after = made.splice->n_hexes(true);
-  report.nodes_after = made.splice->n_nodes(true);
-  report.peak_memory_bytes = peak_memory();
+  count_patch(made, input, report);
+  if (!request.levelling) made.result.levelling = nullptr;  // nobody asked for more than the mesh
   made.result.report = std::move(report);
   made.patch = std::move(part.patch);
   return made;
+}
+
+}  // namespace
+
+std::optional<PatchResult> refine_levels_patch(const MeshedModel& input, const Measured& known, const Request& request,
+                                               const Progress& progress, const RingsOf& rings_of) {
+  return levels_patch(input, known, request, nullptr, progress, rings_of);
+}
+
+std::optional<PatchResult> refine_wished_levels(const MeshedModel& input, const Measured& known, const Request& request,
+                                                const WishedBySizes& wished, const Progress& progress,
+                                                const RingsOf& rings_of) {
+  return levels_patch(input, known, request, &wished, progress, rings_of);
 }
 
 }  // namespace hextwist

@@ -7,9 +7,9 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/topology.h"
+#include "hextwist/patch/size_patch_internal.h"
 #include "hextwist/patch/verify_internal.h"
 #include "hextwist/sizing/levelling.h"
-#include "hextwist/sizing/sizes_met.h"
 #include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/targets.h"
 
@@ -58,7 +58,8 @@ bool is_complete(const MeshedModel& input, const Request& request) {
          std::ranges::all_of(request.finish.fixed, [&](Index n) { return n >= 0 && n < mesh.n_nodes(); });
 }
 
-/// Of a request that changes nothing: a patch without hexes.
+}  // namespace
+
 PatchResult nothing_done(const MeshedModel& input, const Measured& known, const Request& request, Report report) {
   PatchResult made;
   made.patch = make_patch(input, {});
@@ -75,7 +76,24 @@ PatchResult nothing_done(const MeshedModel& input, const Measured& known, const 
   return made;
 }
 
-}  // namespace
+void finish_patch(PatchResult& made, const MeshedModel& input, const Measured& known, const Request& request,
+                  const PatchNumbers& numbers, Report& report) {
+  for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
+  for (Index& node : made.result.smoothed) node = numbers.node[node];
+  for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
+    for (Index& h : *list) h = numbers.hex[h];
+  if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
+  made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
+  made.come = numbers.come;
+}
+
+void count_patch(const PatchResult& made, const MeshedModel& input, Report& report) {
+  report.hexes_before = input.mesh.n_hexes();
+  report.nodes_before = input.mesh.n_nodes();
+  report.hexes_after = made.splice->n_hexes(true);
+  report.nodes_after = made.splice->n_nodes(true);
+  report.peak_memory_bytes = peak_memory();
+}
 
 Request request_in_part(const Request& request, const Mesh& part, std::span<const Index> nodes,
                         std::span<const Index> hexes, std::span<const Edge> target_edges,
@@ -118,15 +136,8 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
   if (request.finish.dry_run && is_by_places(request)) return std::nullopt;
   const Plan plan = hextwist::plan(input, request);
   if (mesh.n_hexes() < patch_rule.least_mesh || !is_complete(input, request)) return std::nullopt;
-  {
-    Report report;
-    report.scaled_jacobian_before = known.scaled_jacobian;
-    Stages stages(report, progress);
-    stages.begin("sizes", 0);
-    report.sizes = sizes_met(input, request, report.notices);
-    stages.close();
-    if (report.sizes) return nothing_done(input, known, request, std::move(report));
-  }
+  if (std::holds_alternative<Sizes>(request.how))
+    return refine_sizes_patch(input, known, request, plan.approach, progress, rings_of);
   if (is_by_levels(request, plan)) return refine_levels_patch(input, known, request, progress, rings_of);
   if (!plan.reach) return std::nullopt;
   const std::size_t limit = mesh.hexes.size() / static_cast<std::size_t>(patch_rule.part);
@@ -163,19 +174,9 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
                                return rings->ring[h] + enough_rings <= n_rings;
                              });
       if (!is_enough) continue;
-      for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
-      for (Index& node : made.result.smoothed) node = numbers.node[node];
-      for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
-        for (Index& h : *list) h = numbers.hex[h];
-      if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
-      made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
-      made.come = numbers.come;
+      finish_patch(made, input, known, request, numbers, report);
     }
-    report.hexes_before = mesh.n_hexes();
-    report.nodes_before = mesh.n_nodes();
-    report.hexes_after = made.splice->n_hexes(true);
-    report.nodes_after = made.splice->n_nodes(true);
-    report.peak_memory_bytes = peak_memory();
+    count_patch(made, input, report);
     made.result.report = std::move(report);
     return made;
   }

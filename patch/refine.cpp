@@ -22,7 +22,7 @@ RefineResult refine_whole(const MeshedModel& input, const Measured* known, const
     done.finish.dry_run = request.finish.dry_run && !is_by_places(request);
     done.finish.fixed = with_nodes_of_others(input.mesh, std::move(done.finish.fixed));
     State state(input, done, report, progress);
-    result = run_passes(state, approach);
+    result = state.keep_if_met() ? state.take_result() : run_passes(state, approach);
     if (!done.finish.dry_run) {
       std::vector<Index> old_hex;
       OldPlaces old{result.old_node, {}};

@@ -341,6 +341,7 @@ void take_levelling(Transaction& run, std::shared_ptr<const Levelling> levelling
   if (!levelling && run.state.levelling)
     run.note("levels end here: this mesh is the base of what is refined from now on");
   run.state.levelling = std::move(levelling);
+  run.keep_levels();
 }
 
 void forget_members(ModelState& state, bool also_cad) {

@@ -43,6 +43,8 @@ class Transaction {
   void change_sets(Mesh lists);
   /// Makes this, which differs in its fields alone, the mesh of the session: levels go on.
   void replace_fields(MeshedModel meshed);
+  /// The state says how the mesh came out of its base: by the same levels as before, where these are the same.
+  void keep_levels() { levels_go_on_ = true; }
   /// The mesh stays, by a command that would have changed it: a step that can be undone like any other.
   void leave_mesh();
   /// Changes the mesh in place.

@@ -11,6 +11,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
+#include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/level_sizes_internal.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
@@ -142,6 +143,7 @@ void run_levels(State& state, KnownLevels& known) {
   LevelRun run(state);
   run.options.graded = &known.graded;
   LevelStep step = run.change(known.wished);
+  if (state.part) state.report.sizes = level_size_report(step.mesh.mesh, step.origin, state);
   known.is_repaired = step.is_repaired;
   step.n_forced = known.n_forced;
   run.adopt(std::move(step), known.is_bare);
@@ -156,6 +158,16 @@ void run_levels(State& state) {
                                     : wishes_of(run.from.forest, state.input, state.request, state.report.notices));
   if (sizes) state.report.sizes = sizes->report(step);
   run.adopt(std::move(step));
+  if (!state.part) return;
+  const RefineResult& result = state.result();
+  for (std::size_t h = 0; h < result.origin.size(); ++h)
+    if (result.came_from.kind[h] != HexOrigin::same) state.part->note_cut(result.origin[h]);
+}
+
+LevelMarks size_wishes(State& state) {
+  state.begin("levels");
+  LevelRun run(state);
+  return LevelSizes(run.from.forest, state).wishes(run.options);
 }
 
 bool run_combination_by_levels(State& state) {

@@ -36,7 +36,8 @@ LevelMarks wishes_of(const Forest& forest, const MeshedModel& input, const Reque
 /// Says how many cells are cut for the sake of gradation.
 void tell_forced(Index n_forced, Report& report);
 
-/// run_levels() in a part of a mesh, where the cells are known: the part does not show all that gradation needs.
+/// run_levels() in a part of a mesh, where the cells are known: the part does not show all that gradation needs. With
+/// a report on sizes where the state has them.
 struct KnownLevels {
   LevelMarks wished, graded;
   Index n_forced = 0;        ///< in the whole
@@ -44,6 +45,8 @@ struct KnownLevels {
   bool is_repaired = false;  ///< set: inverted children were repaired
 };
 void run_levels(State& state, KnownLevels& known);
+/// What Approach::size_by_levels would have of the levelling of a request, without making it.
+LevelMarks size_wishes(State& state);
 
 /// Approach::combination with numsplit n above 1: the hexes that touch the target are cut by n - 1 levels, those that
 /// touch it then by the combination, so that no piece of a transition is cut either. Returns false where that can't be

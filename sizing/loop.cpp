@@ -21,6 +21,7 @@
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/outcome.h"
+#include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
 
 namespace hextwist {
@@ -82,6 +83,9 @@ std::optional<MeshedModel> State::pass(const Cut& cut) {
     if (stopped) throw Cancelled();
   }
   const std::vector<Index>& parent = parts.lineage.parent;
+  if (part)
+    for (const CutHex& hex : parts.lineage.hexes)
+      part->note_cut(result_.origin.empty() ? hex.hex : result_.origin[hex.hex]);
   std::vector<Index> origin(parent.size());
   parallel_each(parent.size(),
                 [&](std::size_t h) { origin[h] = result_.origin.empty() ? parent[h] : result_.origin[parent[h]]; });
@@ -101,6 +105,19 @@ void State::keep() {
   result_.origin.resize(input.mesh.hexes.size());
   std::iota(result_.origin.begin(), result_.origin.end(), 0);
   current_ = &result_.refined;
+}
+
+bool State::keep_if_met() {
+  const Sizes* wished = std::get_if<Sizes>(&request.how);
+  if (!wished || wished->coarsen || request.finish.level_field) return false;
+  begin("sizes");
+  const SizesOfAll sizes(input, request);
+  if (!sizes.are_met()) return false;
+  report.notices.insert(report.notices.end(), sizes.told.begin(), sizes.told.end());
+  report.sizes = sizes.report(sizes.region);
+  keep();
+  result_.levelling = request.levelling;
+  return true;
 }
 
 void State::adopt(RefineResult result, std::vector<Vec3> straight) {
@@ -165,6 +182,7 @@ void State::smooth_around(std::vector<Index> hexes, bool fix_boundary) {
   // In the end, and perhaps once more around hexes that came out flat.
   const auto moved = indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
   result_.smoothed = union_of(result_.smoothed, moved);
+  if (smoothed.n_nodes == 0) return;
   note("smoothed " + std::to_string(smoothed.n_nodes) + " nodes in " + std::to_string(smoothed.sweeps) + " sweeps");
 }
 
@@ -264,6 +282,11 @@ void State::repeat_periodic() {
 }
 
 RefineResult run_passes(State& state, Approach approach) {
+  make_passes(state, approach);
+  return finish_passes(state);
+}
+
+void make_passes(State& state, Approach approach) {
   state.begin("targets");
   if (approach == Approach::nearest_size)
     run_nearest_size(state);
@@ -274,7 +297,6 @@ RefineResult run_passes(State& state, Approach approach) {
     ;
   else
     state.run(*make_technique(approach, state));
-  return finish_passes(state);
 }
 
 RefineResult finish_passes(State& state) {

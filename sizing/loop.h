@@ -14,6 +14,8 @@
 
 namespace hextwist {
 
+struct SizesInPart;
+
 /// Report::by_whole.
 inline constexpr const char* repaired_together = "inverted hexes are repaired together";
 inline constexpr const char* enclosed_together = "nodes where targets meet are enclosed one after the other";
@@ -51,6 +53,9 @@ class State {
                        double wanted)>
       bounds_of_all;
 
+  /// The mesh is a part of another, whose sizes are wished for. May be null.
+  SizesInPart* part = nullptr;
+
   /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
   bool is_second_try = false;
 
@@ -59,6 +64,9 @@ class State {
   bool run(Technique& technique);
   /// Goes on with a result of the same request that was made apart, and its straight places.
   void adopt(RefineResult result, std::vector<Vec3> straight);
+  /// Where the request is for sizes that the input has already, that is the result, and there is nothing more to do.
+  /// Sizes that become coarser, and levels that are numbered, are not looked at.
+  bool keep_if_met();
   std::vector<Vec3> take_straight() { return std::move(straight_); }
   /// Gives nodal fields their values at the places where nodes are in the end.
   void evaluate_fields();
@@ -71,6 +79,7 @@ class State {
 
   /// Nodes of the input may be gone, so that others have other numbers.
   bool is_renumbered = false;
+  const RefineResult& result() const { return result_; }
   RefineResult take_result() { return std::move(result_); }
 
  private:
@@ -107,7 +116,9 @@ class State {
 
 /// All passes of a request, and smoothing: everything but the last check.
 RefineResult run_passes(State& state, Approach approach);
-/// What comes after the passes.
+/// The passes alone.
+void make_passes(State& state, Approach approach);
+/// What comes after them.
 RefineResult finish_passes(State& state);
 
 }  // namespace hextwist

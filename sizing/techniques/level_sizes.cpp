@@ -7,6 +7,7 @@
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/targets.h"
 
 namespace hextwist {
@@ -27,22 +28,40 @@ std::vector<std::int8_t> regular_levels(const Mesh& mesh, const LevelPieces& pie
   return result;
 }
 
+/// in_zone, in_report: per hex that the mesh came from.
+SizeReport report_on(const Mesh& mesh, const LevelOrigin& origin, const SizeWish& wish,
+                     std::span<const std::uint8_t> in_zone, std::span<const std::uint8_t> in_report) {
+  std::vector<std::uint8_t> zone(mesh.hexes.size()), reported(mesh.hexes.size());
+  parallel_each(zone.size(), [&](std::size_t i) {
+    const auto h = static_cast<Index>(i);
+    const auto any = [&](std::span<const std::uint8_t> of) {
+      return std::ranges::any_of(origin.before(h), [&](Index b) { return of[b] != 0; });
+    };
+    zone[i] = any(in_zone);
+    reported[i] = any(in_report) || (wish.is_everywhere() && origin.kind[h] != HexOrigin::same);
+  });
+  SizeReport report =
+      size_report(mesh, indices_where(mesh.n_hexes(), [&](Index h) { return reported[h] != 0; }), wish.field());
+  report.unmet = wish.too_large(mesh, zone);
+  return report;
+}
+
 }  // namespace
 
 LevelSizes::LevelSizes(const Forest& forest, State& state)
     : forest_(forest),
       state_(state),
       sizes_(std::get<Sizes>(state.request.how)),
-      wish_(state.input, state.request),
+      shared_wish_(size_wish(state)),
+      wish_(*shared_wish_),
       in_zone_(state.input.mesh.hexes.size(), wish_.is_everywhere()),
       in_report_(in_zone_.size(), 0) {
-  for (const Index h : region_target(state.input, state.request.target, state.report.notices))
-    in_zone_[h] = in_report_[h] = 1;
+  for (const Index h : size_region(state)) in_zone_[h] = in_report_[h] = 1;
 }
 
 LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const {
   const std::vector<Index> too_large = wish_.too_large(mesh, in_zone);
-  wish_.check_fits(mesh, too_large, true);
+  wish_.check_fits(mesh, too_large, n_outside(state_), true);
   const std::vector<Index> too_far = wish_.nodes_too_far_apart(mesh, in_zone);
   std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, too_far);
   if (marked.empty()) return {};
@@ -53,7 +72,8 @@ LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::sp
   const std::vector<std::int8_t> level_at = regular_levels(mesh, pieces);
   for (std::size_t n = 0; n < marked.size(); ++n) marked[n] &= static_cast<std::uint8_t>(level_at[n] >= 0);
 
-  const int most = std::min(sizes_.max_passes, max_level(forest_.base->mesh.n_hexes()));
+  const Index n_base_outside = state_.part ? state_.part->n_base_outside : 0;
+  const int most = std::min(sizes_.max_passes, max_level(forest_.base->mesh.n_hexes() + n_base_outside));
   LevelMarks marks(static_cast<std::size_t>(std::min(most, pieces.n_levels())));
   for (int block = 0; block < pieces.n_levels(); ++block)
     for (Index h = pieces.first[block]; h < pieces.first[block + 1]; ++h) {
@@ -76,7 +96,8 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
   options.reuse = forest_.grown->stack;
   for (;;) {
     state_.begin("levels");
-    const LevelMarks marks = with_gradation(forest);
+    LevelMarks marks = with_gradation(forest);
+    if (state_.part) marks = united(marks, forest_.grown->marks);  // and what is wished for outside forces here
     LevelledMesh built = build_levels(
         base, marks, options.reuse,
         {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress, .keep_jumps = options.keep_jumps});
@@ -98,21 +119,16 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
 }
 
 SizeReport LevelSizes::report(const LevelStep& step) const {
-  const Mesh& mesh = step.mesh.mesh;
-  std::vector<std::uint8_t> zone(mesh.hexes.size()), reported(mesh.hexes.size());
-  parallel_each(zone.size(), [&](std::size_t i) {
-    const auto h = static_cast<Index>(i);
-    const auto any = [&](const std::vector<std::uint8_t>& of) {
-      return std::ranges::any_of(step.origin.before(h), [&](Index b) { return of[b] != 0; });
-    };
-    zone[i] = any(in_zone_);
-    reported[i] = any(in_report_) || (wish_.is_everywhere() && step.origin.kind[h] != HexOrigin::same);
-  });
-  SizeReport report =
-      size_report(mesh, indices_where(mesh.n_hexes(), [&](Index h) { return reported[h] != 0; }), wish_.field());
-  report.n_passes = n_levels_;
-  report.unmet = wish_.too_large(mesh, zone);
-  return report;
+  SizeReport result = report_on(step.mesh.mesh, step.origin, wish_, in_zone_, in_report_);
+  result.n_passes = n_levels_;
+  return result;
+}
+
+SizeReport level_size_report(const Mesh& mesh, const LevelOrigin& origin, const State& state) {
+  const std::shared_ptr<const SizeWish> wish = size_wish(state);
+  std::vector<std::uint8_t> in_zone(state.input.mesh.hexes.size(), wish->is_everywhere()), in_report(in_zone.size(), 0);
+  for (const Index h : state.part->region) in_zone[h] = in_report[h] = 1;
+  return report_on(mesh, origin, *wish, in_zone, in_report);
 }
 
 }  // namespace hextwist

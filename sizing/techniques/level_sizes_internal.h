@@ -7,6 +7,10 @@
 
 namespace hextwist {
 
+/// How well sizes are met by a mesh by levels, before nodes are moved for its shapes. origin: in the input of the
+/// state.
+SizeReport level_size_report(const Mesh& mesh, const LevelOrigin& origin, const State& state);
+
 class LevelSizes {
  public:
   /// forest: grown, of the input. Precondition: the request is for sizes.
@@ -26,7 +30,8 @@ class LevelSizes {
   const Forest& forest_;
   State& state_;
   const Sizes& sizes_;
-  SizeWish wish_;
+  const std::shared_ptr<const SizeWish> shared_wish_;
+  const SizeWish& wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;  // per hex of the input
   int n_levels_ = 0;
 };

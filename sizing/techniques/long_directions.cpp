@@ -9,6 +9,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/targets.h"
 
 namespace hextwist {
 namespace {
@@ -97,14 +98,22 @@ class EdgesToCut {
   std::vector<Direction> open_;
 };
 
-/// So many cuts each direction of each hex of the zone needs.
+/// So many cuts each direction of each hex of the zone needs; hexes that need none may be left out.
 struct Needs {
   std::vector<Index> hexes;
   std::vector<std::array<int, 3>> n;  ///< per hex
 };
 
 Needs needs(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish) {
-  Needs result{indices_where(mesh.n_hexes(), [&](Index h) { return in_zone[h] != 0; }), {}};
+  // No edge is longer than the box around its hex from corner to corner: most hexes need nothing, said at once.
+  Needs result{indices_where(mesh.n_hexes(),
+                             [&](Index h) {
+                               if (!in_zone[h]) return false;
+                               Box around;
+                               for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
+                               return around.diagonal() > std::numbers::sqrt3 * wish.least_at(centroid(mesh, h));
+                             }),
+               {}};
   const std::vector<double> wished = wished_sizes(mesh, result.hexes, wish);
   result.n.resize(result.hexes.size());
   parallel_each(result.n.size(), [&](std::size_t i) {

@@ -9,6 +9,7 @@
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/long_directions_internal.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
@@ -35,6 +36,8 @@ struct Candidate {
   std::vector<Vec3> straight;
   Report report;
   double distance = 0;  ///< average of |log(actual / wished size)| at the target
+  double met = 0;       ///< part of the hexes there within a factor sqrt(3)
+  Index n_hexes = 0;
   double worst_shape = 0;
   bool sound = true;
   bool has_done = false;  ///< more than threes alone would have
@@ -47,6 +50,7 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
   candidate.report = start;
   State state(from.input, from.request, candidate.report, from.progress);
   state.is_second_try = is_second_try;
+  state.part = from.part;
   if (approach == Approach::size_by_levels) {
     run_levels(state);
   } else {
@@ -59,12 +63,24 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
   return candidate;
 }
 
-void judge(Candidate& candidate) {
-  candidate.distance = 0;
-  const std::vector<double>& ratio = candidate.report.sizes->ratio;
-  for (const double r : ratio) candidate.distance += std::abs(std::log(r)) / static_cast<double>(ratio.size());
+/// Sum of |log(ratio)|, in units so small that the order does not matter: a part adds up to what the whole does.
+std::int64_t distances(const SizeReport& sizes, double unit) {
+  constexpr double most = 1000;
+  std::int64_t sum = 0;
+  for (const double ratio : sizes.ratio) sum += std::llround(std::min(std::abs(std::log(ratio)), most) / unit);
+  return sum;
+}
+
+void judge(Candidate& candidate, const State& state) {
+  constexpr double unit = 1e-8;
+  const SizeReport none, &here = *candidate.report.sizes, &outside = state.part ? state.part->outside : none;
+  const auto n = static_cast<double>(here.ratio.size() + outside.ratio.size());
+  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(distances(here, unit) + distances(outside, unit)) / n;
+  candidate.met = n == 0 ? 1 : 1 - (here.n_coarser + here.n_finer + outside.n_coarser + outside.n_finer) / n;
   const Mesh& mesh = candidate.result.refined.mesh;
+  candidate.n_hexes = mesh.n_hexes() + n_outside(state);
   candidate.worst_shape = summarize(quality(Metric::shape, mesh)).min;
+  if (state.part) candidate.worst_shape = std::min(candidate.worst_shape, state.part->worst_shape_outside);
   candidate.sound =
       candidate.report.off_nodes.empty() && candidate.report.sizes->unmet.empty() && inverted_hexes(mesh).empty();
 }
@@ -75,7 +91,7 @@ bool is_good(const Candidate& candidate) {
 }
 /// So that nothing nearer needs to be looked for.
 bool is_well_met(const Candidate& candidate) {
-  return is_good(candidate) && candidate.report.sizes->met() >= well_met;
+  return is_good(candidate) && candidate.met >= well_met;
 }
 
 bool is_better(const Candidate& a, const Candidate& b) {
@@ -83,8 +99,7 @@ bool is_better(const Candidate& a, const Candidate& b) {
   const double shape = std::max(a.worst_shape, b.worst_shape);
   const auto is_poor = [&](const Candidate& c) { return c.worst_shape < poor_shape && c.worst_shape < shape / 2; };
   if (is_poor(a) != is_poor(b)) return is_poor(b);
-  if (std::abs(a.report.sizes->met() - b.report.sizes->met()) > near_tie)
-    return a.report.sizes->met() > b.report.sizes->met();
+  if (std::abs(a.met - b.met) > near_tie) return a.met > b.met;
   if (std::abs(a.distance - b.distance) > near_tie * std::max(a.distance, b.distance)) return a.distance < b.distance;
   return a.worst_shape > b.worst_shape;
 }
@@ -112,29 +127,42 @@ Candidate better_of(Candidate a, Candidate b, const char* says_a, const char* sa
 }
 
 /// Part of the directions of the hexes that were asked for that are within a factor sqrt(3) of the wish.
-double part_of_directions(const Candidate& candidate, const SizeWish& wish) {
+double part_of_directions(const Candidate& candidate, const State& state, const SizeWish& wish) {
   const std::vector<Index>& hexes = candidate.report.sizes->hexes;
-  const DirectionSizes off = direction_sizes(candidate.result.refined.mesh, hexes, wish.field());
-  return 1 - (off.n_longer + off.n_shorter) / (3.0 * static_cast<double>(std::max<std::size_t>(hexes.size(), 1)));
+  DirectionSizes off = direction_sizes(candidate.result.refined.mesh, hexes, wish.field());
+  std::size_t n = hexes.size();
+  if (state.part) {
+    const std::vector<Index>& others = state.part->outside.hexes;
+    const DirectionSizes outside = direction_sizes(state.part->all.input.mesh, others, wish.field());
+    off.n_longer += outside.n_longer;
+    off.n_shorter += outside.n_shorter;
+    n += others.size();
+  }
+  return 1 - (off.n_longer + off.n_shorter) / (3.0 * static_cast<double>(std::max<std::size_t>(n, 1)));
+}
+
+bool are_uneven(const State& state, const SizeWish& wish, int by) {
+  if (state.part) return are_uneven(state.part->all.input.mesh, state.part->all.zone(), wish.field(), by);
+  const Mesh& mesh = state.input.mesh;
+  std::vector<std::string> told;
+  std::vector<std::uint8_t> in_zone(mesh.hexes.size(), wish.is_everywhere());
+  for (const Index h : region_target(state.input, state.request.target, told)) in_zone[h] = 1;
+  return are_uneven(mesh, in_zone, wish.field(), by);
 }
 
 /// What is too long in some directions only may be cut in these first: where hexes are that uneven, and sizes and
 /// shapes come out better, or directions do and sizes well.
 Candidate or_by_directions(Candidate taken, const State& state, const Report& start) {
-  const Request& request = state.request;
-  const Mesh& mesh = state.input.mesh;
-  if (request.method != Method::automatic || !is_regular(request)) return taken;
-  const SizeWish wish(state.input, request);
-  std::vector<std::string> told;
-  std::vector<std::uint8_t> in_zone(mesh.hexes.size(), wish.is_everywhere());
-  for (const Index h : region_target(state.input, request.target, told)) in_zone[h] = 1;
-  if (!are_uneven(mesh, in_zone, wish.field(), is_well_met(taken) ? 2 : 1)) return taken;
+  if (state.request.method != Method::automatic || !is_regular(state.request)) return taken;
+  const std::shared_ptr<const SizeWish> wish = size_wish(state);
+  if (!are_uneven(state, *wish, is_well_met(taken) ? 2 : 1)) return taken;
   std::optional<Candidate> tried = attempt(state, start, Approach::size_by_directions, is_good(taken));
   if (!tried) return taken;
   Candidate& directions = *tried;
-  judge(directions);
-  if (directions.result.refined.mesh.n_hexes() > most_times_more * taken.result.refined.mesh.n_hexes()) return taken;
-  const bool are_nearer = part_of_directions(directions, wish) > part_of_directions(taken, wish) + near_tie;
+  judge(directions, state);
+  if (directions.n_hexes > std::int64_t{most_times_more} * taken.n_hexes) return taken;
+  const bool are_nearer =
+      part_of_directions(directions, state, *wish) > part_of_directions(taken, state, *wish) + near_tie;
   if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions))) return taken;
   return preferred(std::move(directions), taken, "directions that are too long by themselves first, then whole hexes",
                    start);
@@ -144,7 +172,7 @@ Candidate or_by_directions(Candidate taken, const State& state, const Report& st
 Candidate by_threes(const State& state, const Report& start) {
   if (!is_regular(state.request)) return *attempt(state, start, Approach::size_by_threes);
   Candidate levels = *attempt(state, start, Approach::size_by_levels);
-  judge(levels);
+  judge(levels, state);
   if (is_well_met(levels)) return levels;
   std::optional<Candidate> nested = attempt(state, start, Approach::size_by_threes, is_good(levels));
   if (!nested) {
@@ -152,7 +180,7 @@ Candidate by_threes(const State& state, const Report& start) {
         "by levels, no piece of a transition is cut again: cut again, they would come out inverted");
     return levels;
   }
-  judge(*nested);
+  judge(*nested, state);
   if (levels.result.refined.mesh.hexes == nested->result.refined.mesh.hexes) return levels;
   return better_of(std::move(levels), std::move(*nested), "by levels, no piece of a transition is cut again",
                    "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
@@ -171,11 +199,11 @@ void run_nearest_size(State& state) {
   Candidate taken = by_threes(state, start);
   std::optional<Candidate> mixed;
   const bool cuts_anything = taken.result.refined.mesh.n_hexes() > state.input.mesh.n_hexes();
-  judge(taken);
+  judge(taken, state);
   if (may_mix && cuts_anything)
     mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, is_good(taken));
   if (mixed && mixed->has_done) {
-    judge(*mixed);
+    judge(*mixed, state);
     taken = better_of(std::move(*mixed), std::move(taken),
                       varies ? "the combination for the last passes at the target, else whole hexes"
                              : "one into eight where that comes nearer, else one into 27",

@@ -80,8 +80,8 @@ std::vector<std::uint8_t> touching(const CombinationTarget& target, const Mesh& 
 /// Trisects what is too large; the other two do something else first.
 class ByThrees : public SizeTechnique {
  public:
-  explicit ByThrees(State& state) : wish_(state.input, state.request) {
-    const std::vector<Index> targets = region_target(state.input, state.request.target, state.report.notices);
+  explicit ByThrees(State& state) : shared_wish_(size_wish(state)), wish_(*shared_wish_) {
+    const std::vector<Index> targets = size_region(state);
     in_zone_.assign(state.input.mesh.hexes.size(), wish_.is_everywhere());
     in_report_.assign(state.input.mesh.hexes.size(), 0);
     for (const Index h : targets) in_zone_[h] = in_report_[h] = 1;
@@ -96,7 +96,7 @@ class ByThrees : public SizeTechnique {
       state.begin("sizes");
       const Mesh& mesh = state.mesh();
       std::vector<Index> too_large = wish_.too_large(mesh, in_zone_);
-      wish_.check_fits(mesh, too_large);
+      wish_.check_fits(mesh, too_large, n_outside(state));
       if (n_passes_ < max_passes && begin_round(mesh, too_large)) {
         ++n_passes_;
         has_done_ = true;
@@ -142,7 +142,8 @@ class ByThrees : public SizeTechnique {
   /// Marks what is to be trisected for the sake of later passes.
   virtual void mark_more(const Mesh&, const std::vector<Index>& /*too_large*/, std::vector<std::uint8_t>&) {}
 
-  const SizeWish wish_;
+  const std::shared_ptr<const SizeWish> shared_wish_;
+  const SizeWish& wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;
   int n_passes_ = 0;
   bool cuts_transitions_ = true;  // those of earlier passes
@@ -228,8 +229,7 @@ class ByDirections : public ByThrees {
 /// At the target, once all that are too large touch it: they are refined towards it only.
 class ByCombination : public ByThrees {
  public:
-  explicit ByCombination(State& state)
-      : ByThrees(state), at_(sub_element_target(state.input, state.request.target, state.report.notices)) {}
+  explicit ByCombination(State& state) : ByThrees(state), at_(size_target(state)) {}
 
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
     ByThrees::follow(lineage, before, after);

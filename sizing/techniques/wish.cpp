@@ -11,6 +11,7 @@
 #include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/size_report.h"
+#include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/targets.h"
 #include "hextwist/sizing/techniques/wish_internal.h"
 
@@ -70,14 +71,23 @@ std::vector<std::uint8_t> SizeWish::at_target(std::span<const Vec3> points) cons
 }
 
 std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::uint8_t> in_zone) const {
-  // Most hexes are small enough, by the boxes around them, for the smallest wish that there could be near them.
+  // Most hexes are small enough, by the boxes around them, for the smallest wish that there could be at all, or near
+  // them.
+  constexpr double rounding = 1e-12;
+  const auto is_above = [](double volume, double wished) {
+    const double most = most_too_long * wished;
+    return volume * (1 + rounding) > most * most * most;
+  };
+  const double least = field_->least();
   const std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) {
     if (!in_zone[h]) return false;
-    const double most = most_too_long * (is_point_ ? field_->least() : field_->least_at(centroid(mesh, h)));
     Box around;
     for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
-    constexpr double rounding = 1e-12;
-    return (around.max - around.min).prod() * (1 + rounding) > most * most * most;
+    const double volume = (around.max - around.min).prod();
+    if (!is_above(volume, least)) return false;
+    const Vec3 centre = centroid(mesh, h);
+    const bool may_touch_point = is_point_ && distance_->at_least(centre) <= around.diagonal();
+    return may_touch_point || is_above(volume, field_->least_at(centre));
   });
   const std::vector<double> size = actual_sizes(mesh, asked);
   std::vector<double> wished = wished_sizes(mesh, asked, *field_);
@@ -135,11 +145,11 @@ std::vector<Index> SizeWish::at_points(const Mesh& mesh, std::span<const Index> 
   return result;
 }
 
-void SizeWish::check_fits(const Mesh& mesh, std::span<const Index> too_large, bool by_threes) const {
+double SizeWish::least_more(const Mesh& mesh, std::span<const Index> too_large, bool by_threes) const {
   // A hex becomes at least as many as stand along (a curve), on (a surface) or in the target; all of them have one wish
   // that is the same everywhere.
   const std::vector<double> size = actual_sizes(mesh, too_large), wished = wished_sizes(mesh, too_large, *field_);
-  double n = mesh.n_hexes();
+  double n = 0;
   for (std::size_t i = 0; i < size.size(); ++i) {
     double along = std::clamp(size[i] / (most_too_long * wished[i]), 1.0, most_pieces_);
     if (by_threes && is_constant_) {
@@ -148,6 +158,11 @@ void SizeWish::check_fits(const Mesh& mesh, std::span<const Index> too_large, bo
     }
     n += std::pow(along, is_constant_ ? 3 : dimension_) - 1;
   }
+  return n;
+}
+
+void SizeWish::check_fits(const Mesh& mesh, std::span<const Index> too_large, Index n_outside, bool by_threes) const {
+  const double n = static_cast<double>(mesh.n_hexes()) + n_outside + least_more(mesh, too_large, by_threes);
   check_memory(n, n, "at least ");
 }
 
@@ -183,6 +198,28 @@ std::vector<std::uint8_t> SizeWish::marks(const Mesh& mesh, std::span<const Inde
   mark_wishing_nodes(mesh, missed(), marked);
   mark_nodes(mesh.hexes, missed(), marked);
   return marked;
+}
+
+std::shared_ptr<const SizeWish> size_wish(const State& state) {
+  return state.part ? state.part->all.wish : std::make_shared<const SizeWish>(state.input, state.request);
+}
+
+std::vector<Index> size_region(State& state) {
+  std::vector<std::string>& notices = state.report.notices;
+  if (!state.part) return region_target(state.input, state.request.target, notices);
+  notices.insert(notices.end(), state.part->all.told.begin(), state.part->all.told.end());
+  return state.part->region;
+}
+
+CombinationTarget size_target(State& state) {
+  std::vector<std::string>& notices = state.report.notices;
+  if (!state.part) return sub_element_target(state.input, state.request.target, notices);
+  notices.insert(notices.end(), state.part->told_of_target.begin(), state.part->told_of_target.end());
+  return state.part->target;
+}
+
+Index n_outside(const State& state) {
+  return state.part ? state.part->n_outside : 0;
 }
 
 }  // namespace hextwist

@@ -1,10 +1,12 @@
 // What a request for sizes wishes for, and what of a mesh is to be cut for it.
 #pragma once
 
+#include <memory>
 #include <optional>
 
+#include "hextwist/refine/plans/combine.h"
 #include "hextwist/sizing/fields/size_field.h"
-#include "hextwist/sizing/request.h"
+#include "hextwist/sizing/loop.h"
 #include "hextwist/sizing/target_distance.h"
 
 namespace hextwist {
@@ -28,9 +30,11 @@ class SizeWish {
   /// Per node: marked, so that all edges between marked nodes are to be cut in three. Empty: nothing is.
   std::vector<std::uint8_t> marks(const Mesh& mesh, std::span<const Index> too_large,
                                   std::span<const Index> too_far_apart) const;
+  /// So many more hexes the wish takes at the very least. by_threes: nothing else cuts them.
+  double least_more(const Mesh& mesh, std::span<const Index> too_large, bool by_threes = false) const;
   /// Throws Error when the hexes that the wish takes at the very least cannot fit into memory: sooner than the pass
-  /// that would find out. by_threes: nothing else cuts them.
-  void check_fits(const Mesh& mesh, std::span<const Index> too_large, bool by_threes = false) const;
+  /// that would find out. n_outside: hexes that the mesh is without.
+  void check_fits(const Mesh& mesh, std::span<const Index> too_large, Index n_outside, bool by_threes = false) const;
 
  private:
   std::vector<std::uint8_t> at_target(std::span<const Vec3> points) const;
@@ -45,5 +49,13 @@ class SizeWish {
   double close_;
   std::optional<TargetDistance> distance_;
 };
+
+/// Of a state whose request is for sizes: the wish, the hexes of the target (what is to be said of it goes to the
+/// report), and the target of the combination; in a part those of the whole.
+std::shared_ptr<const SizeWish> size_wish(const State& state);
+std::vector<Index> size_region(State& state);
+CombinationTarget size_target(State& state);
+/// Hexes that the mesh of a state is without.
+Index n_outside(const State& state);
 
 }  // namespace hextwist

@@ -11,6 +11,7 @@
 #include "support/checkers.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
@@ -61,10 +62,9 @@ TEST(SessionLevels, nested_transitions_are_cut_again) {
 }
 
 TEST(SessionLevels, commands_one_after_the_other_keep_the_quality_of_one) {
-  std::mt19937 random(std::random_device{}());
-  const auto seed = static_cast<unsigned>(random());
-  random.seed(seed);
+  const unsigned seed = test::random_seed();
   SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
   for (int round = 0; round < 6; ++round) {
     Fixture f;
     f.session.run("create brick x 4 y 4 z 3 interval 4 4 3");

@@ -9,6 +9,7 @@
 #include "session/session_fixture.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
+#include "support/seed.h"
 
 namespace hextwist::test {
 namespace {
@@ -75,6 +76,18 @@ struct Pair {
   }
 };
 
+/// Smaller than what is there, here and there.
+std::string random_sizes(const Mesh& mesh, std::mt19937& random) {
+  const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
+  const std::string targets[] = {"vertex " + std::to_string(1 + below(8)), "curve " + std::to_string(1 + below(12)),
+                                 "hex " + std::to_string(hex_id(mesh, below(mesh.n_hexes()))),
+                                 "node " + std::to_string(node_id(mesh, below(mesh.n_nodes())))};
+  return "refine " + targets[below(4)] + " size " +
+         std::to_string(box(mesh).diagonal() / (35 + below(mesh.n_hexes() < 20000 ? 60 : 1))) +
+         (below(2) ? "" : " bias " + std::to_string(1.5 + 0.5 * below(3))) + (below(4) ? "" : " transition regular") +
+         (below(4) ? "" : " smooth");
+}
+
 std::string random_command(const Mesh& mesh, std::mt19937& random) {
   if (mesh.n_hexes() == 0) return "redo";  // the taking of the mesh was undone
   const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
@@ -84,7 +97,9 @@ std::string random_command(const Mesh& mesh, std::mt19937& random) {
     return std::string(below(4) ? "" : " numsplit 2") + (below(4) ? "" : " depth 1") + (below(4) ? "" : " smooth") +
            (below(4) ? "" : " concave fill") + (below(12) ? "" : " dry_run");
   };
-  switch (below(16)) {
+  switch (below(18)) {
+    case 17:
+      return random_sizes(mesh, random);
     case 0:
       return "undo";
     case 1:
@@ -117,7 +132,7 @@ std::string random_command(const Mesh& mesh, std::mt19937& random) {
 }
 
 TEST(PatchedSession, does_what_one_without_patches_does) {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = random_seed();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   for (MeshedModel meshed : {brick(13, 12, 12), shipped("inclusion")}) {
@@ -172,7 +187,7 @@ std::string random_level_command(const Mesh& mesh, std::mt19937& random) {
   }
 }
 
-void check_levels(unsigned seed) {
+void check_levels(unsigned seed, bool with_sizes) {
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   int n_in_place = 0;  // in small models much changes each time, and then all is verified
@@ -184,7 +199,8 @@ void check_levels(unsigned seed) {
     meshed.mesh.node_sets.push_back({7, "some", {0, 5, 9}});
     Pair pair(meshed);
     for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i)
-      pair.run(random_level_command(pair.plain.session.meshed().mesh, random));
+      pair.run(with_sizes && i % 7 == 3 ? random_sizes(pair.plain.session.meshed().mesh, random)
+                                        : random_level_command(pair.plain.session.meshed().mesh, random));
     n_in_place += pair.n_in_place;
     pair.run("coarsen hex all levels 9");
     pair.run("undo");
@@ -193,13 +209,12 @@ void check_levels(unsigned seed) {
 }
 
 TEST(PatchedSession, makes_levels_that_one_without_patches_makes) {
-  const char* given = std::getenv("HEXTWIST_SEED");
-  check_levels(given ? static_cast<unsigned>(std::strtoul(given, nullptr, 10)) : std::random_device{}());
+  check_levels(random_seed(), true);
 }
 
 /// A cell that others need stays cut when it is given up, and is wished for no longer.
 TEST(PatchedSession, forgets_wishes_that_change_nothing) {
-  check_levels(2223630803);
+  check_levels(2223630803, false);
 }
 
 TEST(PatchedSession, is_as_it_was_after_a_command_that_is_cancelled_or_fails) {

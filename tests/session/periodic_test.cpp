@@ -16,6 +16,7 @@
 #include "session_fixture.h"
 #include "support/checkers.h"
 #include "support/same_meshed.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
@@ -110,8 +111,7 @@ std::string any_hex(const Mesh& mesh, Chance& chance) {
 }
 
 void random_boxes(int n_rounds, int n_steps, Index most) {
-  const char* wished = std::getenv("HEXTWIST_SEED");
-  const unsigned seed = wished ? static_cast<unsigned>(std::stoul(wished)) : std::random_device{}();
+  const unsigned seed = test::random_seed();
   SCOPED_TRACE("seed " + std::to_string(seed));
   Chance chance(seed);
   int n_done = 0, n_refused = 0;
@@ -243,8 +243,7 @@ Mesh sector(double degrees, int around, int outwards, int up) {
 }
 
 TEST(Periodic, a_sector_repeats_by_turning) {
-  const char* wished = std::getenv("HEXTWIST_SEED");
-  const unsigned seed = wished ? static_cast<unsigned>(std::stoul(wished)) : std::random_device{}();
+  const unsigned seed = test::random_seed();
   SCOPED_TRACE("seed " + std::to_string(seed));
   Chance chance(seed);
   for (const double degrees : {60.0, 90.0}) {

@@ -17,12 +17,13 @@
 #include "session/session_fixture.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
 
 unsigned new_seed() {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::random_seed();
   testing::Test::RecordProperty("seed", static_cast<int>(seed));
   return seed;
 }

@@ -6,6 +6,7 @@
 #include "hextwist/session/history.h"
 #include "session/session_fixture.h"
 #include "support/checkers.h"
+#include "support/seed.h"
 
 namespace hextwist {
 
@@ -74,7 +75,9 @@ TEST(Undo, takes_back_every_kind_of_command_in_any_number_of_steps) {
   }
   EXPECT_EQ(f.error("redo"), "there is nothing to redo");
 
-  std::mt19937 random(std::random_device{}());
+  const unsigned seed = test::random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
   int at = last;
   for (int i = 0; i < 40; ++i) {
     const int to = static_cast<int>(random() % (commands.size() + 1));
@@ -158,7 +161,7 @@ TEST(Undo, commands_of_a_journal_are_undone_one_by_one) {
 }
 
 TEST(ArrayDelta, makes_one_array_from_another) {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::random_seed();
   std::mt19937 random(seed);
   for (int run = 0; run < 3000; ++run) {
     std::vector<Index> from(random() % 40), to;

@@ -11,6 +11,7 @@
 #include "support/analytic_model.h"
 #include "support/checkers.h"
 #include "support/grids.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
@@ -84,7 +85,7 @@ TEST(long_directions, hexes_as_long_as_wide_are_cut_as_before) {
 /// that were cut no shorter, but for those at its rim that were moved for better corners of the transition: at least
 /// four fifths.
 TEST(long_directions, no_direction_is_too_long_and_none_is_cut_without_need) {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = test::random_seed();
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> proportion(0, 1), share(0.06, 0.2);
