@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/refine/templates/trisect.h"
 
@@ -62,6 +63,16 @@ std::vector<Index> hexes_in(const HandedHexes& hexes, std::span<const Index> roo
   for (std::size_t i = 0; i < hexes.cell.size(); ++i)
     if (is_in[hexes.root_of_piece(i)]) result.push_back(hexes.n_whole() + static_cast<Index>(i));
   return result;
+}
+
+std::optional<Rings> rings_in_base(Forest& forest, std::span<const Index> nodes, int n_rings, std::size_t limit) {
+  const Mesh& base = forest.base->mesh;
+  if (!forest.base_corners) forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
+  return rings_around(base, nodes, n_rings, limit, [&](std::span<const Index> at, std::vector<Index>& hexes) {
+    for (const Index n : at)
+      for (const Index corner : (*forest.base_corners)[n]) hexes.push_back(corner >> 3);
+    return true;
+  });
 }
 
 ForestPatch::ForestPatch(const MeshedModel& input, const Levelling& whole, const Rings& rings, std::vector<Index> hexes)

@@ -1,6 +1,7 @@
 // A patch of a base with all that has become of its hexes: a small forest of its own.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,9 @@ class LocalCells {
 
 /// Hexes of the mesh that lie in the roots; ascending.
 std::vector<Index> hexes_in(const HandedHexes& hexes, std::span<const Index> roots);
+
+/// Rings of hexes of the base, whose corners at each node the forest knows afterwards.
+std::optional<Rings> rings_in_base(Forest& forest, std::span<const Index> nodes, int n_rings, std::size_t limit);
 
 /// The patch with its part of the forest.
 struct ForestPatch {

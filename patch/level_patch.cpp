@@ -273,12 +273,7 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
   if (is_base) {
     rings = rings_of(base, nodes, changed, n_rings, limit);
   } else {
-    if (!next.base_corners) next.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
-    rings = rings_around(base, nodes, n_rings, limit, [&](std::span<const Index> at, std::vector<Index>& hexes) {
-      for (const Index n : at)
-        for (const Index corner : (*next.base_corners)[n]) hexes.push_back(corner >> 3);
-      return true;
-    });
+    rings = rings_in_base(next, nodes, n_rings, limit);
   }
   if (!rings) return std::nullopt;
   std::vector<Index> hexes = hexes_in(grown.hexes, rings->hexes);

@@ -113,19 +113,13 @@ std::optional<PatchResult> in_forest_patch(const SizesOfAll& sizes, const Measur
   const std::vector<Index> nodes = nodes_of_hexes(base, roots);
   if (!whole.forest.base_corners)
     whole.forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
-  const CompressedRows& corners = *whole.forest.base_corners;
   Request request = sizes.request;  // that knows them as well
   request.levelling = std::make_shared<const Levelling>(whole);
   for (int n_rings = rings_cut_at_first + enough_rings; n_rings <= most_rings; n_rings *= 2) {
     Report report = before;
     Stages stages(report, progress);
     stages.begin("patch", 0);
-    const std::optional<Rings> rings =
-        rings_around(base, nodes, n_rings, limit, [&](std::span<const Index> at, std::vector<Index>& hexes) {
-          for (const Index n : at)
-            for (const Index corner : corners[n]) hexes.push_back(corner >> 3);
-          return true;
-        });
+    const std::optional<Rings> rings = rings_in_base(whole.forest, nodes, n_rings, limit);
     if (!rings) return std::nullopt;
     std::vector<Index> hexes = hexes_in(handed, rings->hexes);
     if (hexes.size() > limit || touch_others(input.mesh, hexes)) return std::nullopt;
