@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -62,21 +63,16 @@ double reach(const Facts& facts, const Axis& axis, const AxisEnd& end) {
   return most;
 }
 
-}  // namespace
-
-std::optional<Axis> find_axis(const Facts& facts, int volume, std::string& why) {
-  const Model& model = facts.model;
+/// Its ends and rims, not yet where they are; no ends where the volume has surfaces of another kind.
+Axis ends_and_rims(const Facts& facts, int volume) {
   Axis axis;
-  std::vector<int> seams;
-  for (const int id : model.adjacent({3, volume}, 2)) {
+  for (const int id : facts.model.adjacent({3, volume}, 2)) {
     const SurfaceFacts& surface = facts.surfaces[id - 1];
     const bool is_round = surface.odd.empty() && surface.seams.size() < 2 &&
                           std::ranges::all_of(surface.loops, [](const Chain& loop) { return loop.size() == 1; });
-    if (!is_round || (surface.loops.empty() && surface.seams.empty())) return std::nullopt;
     const bool is_dome = surface.has_poles && surface.seams.size() == 1 && surface.loops.size() < 2;
-    if (!is_dome && !surface.is_disc && !surface.is_annulus && !surface.is_tube) return std::nullopt;
+    if (!is_round || !(is_dome || surface.is_disc || surface.is_annulus || surface.is_tube)) return {};
     for (const Chain& loop : surface.loops) axis.rims.push_back(loop[0].curve);
-    seams.insert(seams.end(), surface.seams.begin(), surface.seams.end());
     if (surface.is_disc) axis.ends.push_back({.surface = id});
     if (!is_dome) continue;
     const CurveFacts& seam = facts.curves[surface.seams[0] - 1];
@@ -85,65 +81,88 @@ std::optional<Axis> find_axis(const Facts& facts, int volume, std::string& why) 
         axis.ends.push_back({.surface = id, .seam = surface.seams[0], .pole = vertex});
   }
   sort_unique(axis.rims, [](int rim) { return rim; });
-  if (axis.ends.empty() || axis.ends.size() % 2) return std::nullopt;
+  return axis;
+}
 
-  // The axis, and a half plane in which a part of it begins.
+/// The axis itself, and a half plane in which a part of it begins.
+void place(const Facts& facts, Axis& axis) {
+  const auto dome = std::ranges::find_if(axis.ends, [](const AxisEnd& end) { return end.seam > 0; });
   Vec3 begin = Vec3::Zero();
+  if (dome != axis.ends.end()) begin = facts.point_at(dome->seam, 0.5);
   if (!axis.rims.empty()) {
     const std::vector<Vec3> points = facts.samples({{axis.rims[0], true}}, 12);
-    axis.origin = Vec3::Zero();
     for (const Vec3& p : points) axis.origin += p / static_cast<double>(points.size());
     axis.z = (points[0] - axis.origin).cross(points[3] - axis.origin).normalized();
-    begin = axis.ends[0].seam ? facts.point_at(axis.ends[0].seam, 0.5) : points[0];
+    if (dome == axis.ends.end()) begin = points[0];
   } else {
-    const Vec3 a = model.point({0, axis.ends[0].pole}, {});
-    axis.origin = a;
-    axis.z = (model.point({0, axis.ends[1].pole}, {}) - a).normalized();
-    begin = facts.point_at(axis.ends[0].seam, 0.5);
+    axis.origin = facts.model.point({0, axis.ends[0].pole}, {});
+    axis.z = (facts.model.point({0, axis.ends[1].pole}, {}) - axis.origin).normalized();
   }
   axis.x = (begin - axis.origin - axis.along(begin) * axis.z).normalized();
   axis.y = axis.z.cross(axis.x);
-  const double near_enough = 1e-5 * model.box({3, volume}).diagonal();
-  double narrowest = std::numeric_limits<double>::infinity();
-  // Other parts may begin where nodes are in any case: at eighths, or at quarters where the core meets them.
+}
+
+/// Do all rims and seams, and the surfaces between them, lie round the axis? Sets how wide it is, and how narrow
+/// (core). is_aligned: whether parts begin only where there are nodes: at eighths, or at quarters where the core meets
+/// them.
+bool is_round(const Facts& facts, int volume, double near_enough, Axis& axis, bool& is_aligned) {
+  is_aligned = true;
+  axis.core = std::numeric_limits<double>::infinity();
   const auto begins_at = [&](const Vec3& p, int parts) {
     const double step = full_turn / parts, angle = axis.angle(p);
     return axis.radius(p) * std::abs(angle - step * std::round(angle / step)) < near_enough;
   };
-  bool is_aligned = true;
   for (const int rim : axis.rims) {
     const std::vector<Vec3> points = facts.samples({{rim, true}}, 12);
+    const double height = axis.along(points[0]), radius = axis.radius(points[0]);
     for (const Vec3& p : points)
-      if (std::abs(axis.along(p) - axis.along(points[0])) > near_enough ||
-          std::abs(axis.radius(p) - axis.radius(points[0])) > near_enough)
-        return std::nullopt;
+      if (std::abs(axis.along(p) - height) > near_enough || std::abs(axis.radius(p) - radius) > near_enough)
+        return false;
     is_aligned = is_aligned && begins_at(points[0], 8);
-    narrowest = std::min(narrowest, axis.radius(points[0]));
-    axis.widest = std::max(axis.widest, axis.radius(points[0]));
+    axis.core = std::min(axis.core, radius);
+    axis.widest = std::max(axis.widest, radius);
   }
-  for (const int id : model.adjacent({3, volume}, 2))
-    for (const int seam : facts.surfaces[id - 1].seams)
+  for (const int id : facts.model.adjacent({3, volume}, 2)) {
+    const SurfaceFacts& surface = facts.surfaces[id - 1];
+    for (const int seam : surface.seams)
       for (const Vec3& p : facts.samples({{seam, true}}, 16)) {
-        is_aligned = is_aligned && begins_at(p, facts.surfaces[id - 1].is_tube ? 8 : 4);
+        is_aligned = is_aligned && begins_at(p, surface.is_tube ? 8 : 4);
         axis.widest = std::max(axis.widest, axis.radius(p));
-        if (facts.surfaces[id - 1].is_tube) narrowest = std::min(narrowest, axis.radius(p));
+        if (surface.is_tube) axis.core = std::min(axis.core, axis.radius(p));
         for (const double by : {1.1, 2.7, 4.4}) {
           const Vec3 turned = axis.point(axis.radius(p), axis.angle(p) + by, axis.along(p));
-          if (model.project({2, id}, turned).distance > near_enough) return std::nullopt;
+          if (facts.model.project({2, id}, turned).distance > near_enough) return false;
         }
       }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Axis> find_axis(const Facts& facts, int volume, std::string& why) {
+  const Model& model = facts.model;
+  Axis axis = ends_and_rims(facts, volume);
+  if (axis.ends.empty() || axis.ends.size() % 2) return std::nullopt;
+  place(facts, axis);
+  const double near_enough = 1e-5 * model.box({3, volume}).diagonal();
+  bool is_aligned = true;
+  if (!is_round(facts, volume, near_enough, axis, is_aligned)) return std::nullopt;
   if (!is_aligned) {
     why = "it is turned about an axis that it touches, but its surfaces begin at different angles around that";
     return std::nullopt;
   }
   for (AxisEnd& end : axis.ends) {
-    end.at = end.seam ? axis.along(model.point({0, end.pole}, {}))
-                      : axis.along(facts.point_at(facts.surfaces[end.surface - 1].loops[0][0].curve, 0));
-    if (end.seam) end.angle = axis.angle(facts.point_at(end.seam, 0.5));
-    if (end.seam) narrowest = std::min(narrowest, reach(facts, axis, end));
+    if (end.seam == 0) {
+      end.at = axis.along(facts.point_at(facts.surfaces[end.surface - 1].loops[0][0].curve, 0));
+      continue;
+    }
+    end.at = axis.along(model.point({0, end.pole}, {}));
+    end.angle = axis.angle(facts.point_at(end.seam, 0.5));
+    axis.core = std::min(axis.core, reach(facts, axis, end));
   }
   std::ranges::sort(axis.ends, {}, &AxisEnd::at);
-  axis.core = core_part * narrowest;
+  axis.core *= core_part;
   // From end to end there must be nothing but this volume.
   for (std::size_t i = 0; i < axis.ends.size(); i += 2)
     for (const double part : {0.02, 0.3, 0.5, 0.7, 0.98})
