@@ -57,13 +57,10 @@ inside "apt-get -qq remove hextwist >/dev/null; ! command -v hextwist"
 echo "pip, in a virtual environment, from the sources"
 fresh pip
 (cd "$source" && git ls-files -z | tar --null --no-recursion -T - -cf -) | tar -xf - -C "$root/hextwist"
-certificates=/etc/ssl/certs/ca-certificates.crt  # of this machine, which may go through a proxy
-[ ! -f "$certificates" ] || cp "$certificates" "$root/tmp/certificates.crt"
 inside "apt-get -qq update
-  apt-get -qq install --no-install-recommends \$(bash dev packages) python3-venv ca-certificates >/dev/null
-  python3 -m venv /environment
-  [ ! -f /tmp/certificates.crt ] || export PIP_CERT=/tmp/certificates.crt
-  /environment/bin/pip --quiet install .
+  apt-get -qq install --no-install-recommends \$(bash dev packages) >/dev/null
+  python3 -m venv --system-site-packages /environment
+  /environment/bin/pip --quiet install --no-build-isolation --no-index .
   cd /tmp && /environment/bin/python /hextwist/examples/python/convergence.py /hextwist/models/bracket.brep /hextwist/models/bracket.msh /tmp/python.vtu
   /environment/bin/python -c \"import hextwist; s = hextwist.Session(); s.cmd('set reading fenced on'); s.import_cad('/hextwist/models/bracket.step')\""
 rm -rf "$folder"/root-*
