@@ -123,7 +123,6 @@ const std::vector<Shape> swept = {
      0.1, 0.3, true},
     {"a hollow ball", [] { return OccShape::hollow_ball(2, 1.2); }, 0.1, 0.3, true},
     {"a dome", [] { return OccShape::dome(2); }, 0.1, 0.1, true},
-    {"a vase", [] { return OccShape::vase(); }, 0.1, 0.1, true},
     // Its parts begin at different angles.
     {"a shaft made of two", [] { return OccShape::fused_shaft(); }, 0.1, 0.3, true},
     {"a bent rod", [] { return OccShape::turned_disc(3, 1, 1.6); }, 0.1, 0.5, false},
@@ -148,6 +147,19 @@ TEST(SlowMeshVolume, fills_solids_that_can_be_swept) {
         const bool is_uneven = shape.needs_gmsh && std::string(how).starts_with(" interval");
         EXPECT_GE(worst(f), is_uneven ? std::min(0.2, shape.least_jacobian) : shape.least_jacobian);
       }
+  }
+}
+
+// The chords at a waist cut into what is no part of the solid: at a coarse size nodes inside of the mesh lie there.
+TEST(SlowMeshVolume, fills_a_vase_at_a_size_that_its_waist_needs) {
+  if (!has_gmsh()) GTEST_SKIP() << "gmsh is not installed";
+  for (const char* format : {"brep", "step"}) {
+    Fixture f;
+    const auto file = test::folder() / (std::string("vase.") + format);
+    OccShape::vase().moved({1, -2, 0.5}, 0.4).write(file);
+    f.session.run("import " + std::string(format) + " '" + file.string() + "'; mesh volume all size 0.4");
+    expect_filled(f, 0.02);
+    EXPECT_GE(worst(f), 0.1);
   }
 }
 
