@@ -252,7 +252,7 @@ void write_in(const Format& format, const std::filesystem::path& file, const Mes
   const int n = nodes_per_hex_in(format, mesh, options, notices);
   if (n == 8) return format.write(file, mesh, association, options, notices);
   if (mesh.others)
-    notices.push_back(
+    notices.emplace_back(
         "other elements have the nodes that they had: those that hexes share with them have no middle "
         "nodes there");
   const SecondOrder second = second_order(mesh, association, options.model ? options.model : options.skin, n);

@@ -357,6 +357,11 @@ void forget_members(ModelState& state, bool also_cad) {
   state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
 }
 
+void note_replaced(Transaction& run) {
+  if (const Index n = run.meshed->mesh.n_hexes())
+    run.note("this takes the place of the mesh of " + counted(n, EntityKind::hex) + " that was here");
+}
+
 void say_mesh(const Transaction& run, const std::string& what) {
   const Mesh& mesh = run.meshed->mesh;
   std::string line =

@@ -44,6 +44,8 @@ void take_fixed(Transaction& run, std::vector<Index> still);
 /// Takes members out of all groups that mean nothing for a new mesh, or drops the groups where the CAD is new too.
 void forget_members(ModelState& state, bool also_cad);
 
+/// Notes that a mesh which is read or made takes the place of the one that is there, if one is.
+void note_replaced(Transaction& run);
 /// The line that tells of a mesh that came in.
 void say_mesh(const Transaction& run, const std::string& what);
 

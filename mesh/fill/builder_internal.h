@@ -47,6 +47,11 @@ struct Builder {
   void sweep(const Sweep& sweep, int from);
   /// The same of a volume that was turned all the way round: its section is filled first.
   void turn(const Sweep& sweep);
+  /// Of a volume that touches its axis: hexes around that, from end to end, and quads on the ends. What the section
+  /// around the core has there are these lines of nodes, and quads all the way round.
+  void fill_core(const Sweep& sweep, std::vector<std::vector<Index>>& pieces, std::vector<Quad>& sides);
+  /// The nodes of a surface around the axis from rim to rim, where the section is.
+  std::vector<Index> meridian(const Axis& axis, int surface) const;
   /// Circles between the two rims of a flat ring. even: so many layers.
   void ring(int surface, bool even = false);
   /// Throws Error where hexes between so many quads and layers cannot fit into memory.
@@ -59,6 +64,8 @@ struct Builder {
   void fill_ball(int volume, int intervals_said);
   /// Takes out what no hex has: nodes on seams and poles that the hexes pass by.
   void drop_unused();
+
+  Index at_vertex(int vertex);
 
  private:
   std::vector<Index> vertex_nodes_;

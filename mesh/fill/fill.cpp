@@ -22,11 +22,6 @@ Builder::Builder(const Facts& of, std::vector<int> intervals_of_curves, double s
       curve_nodes(of.curves.size()),
       surface_quads(of.surfaces.size()),
       vertex_nodes_(static_cast<std::size_t>(of.model.count(0)), -1) {
-  const auto at_vertex = [&](int vertex) {
-    Index& node = vertex_nodes_[vertex - 1];
-    if (node < 0) node = add(facts.model.point({0, vertex}, {}), {0, vertex});
-    return node;
-  };
   const double n_on_curves = std::accumulate(intervals.begin(), intervals.end(), 0.0);
   check_memory(n_on_curves / 12, n_on_curves, "at least ");  // each interval is an edge of a hex
   for (std::size_t c = 0; c < intervals.size(); ++c) {
@@ -37,6 +32,12 @@ Builder::Builder(const Facts& of, std::vector<int> intervals_of_curves, double s
       curve_nodes[c].push_back(add(facts.point_at(curve, static_cast<double>(i) / intervals[c]), {1, curve}));
     curve_nodes[c].push_back(at_vertex(facts.curves[c].last));
   }
+}
+
+Index Builder::at_vertex(int vertex) {
+  Index& node = vertex_nodes_[vertex - 1];
+  if (node < 0) node = add(facts.model.point({0, vertex}, {}), {0, vertex});
+  return node;
 }
 
 Index Builder::add(const Vec3& point, Owner owner) {
@@ -100,7 +101,7 @@ void sweep_all(Builder& builder, std::vector<Sweep> sweeps) {
   // Sides first: nothing else decides about them.
   for (const Sweep& sweep : sweeps)
     for (const int surface : sweep.sides)
-      if (!builder.is_meshed(surface)) {
+      if (!builder.is_meshed(surface) && !(sweep.axis && sweep.axis->has_end(surface))) {
         if (sweep.is_turned && facts.surfaces[surface - 1].is_annulus)
           builder.ring(surface, true);
         else

@@ -1,9 +1,10 @@
-// Hex meshes of volumes of the CAD that nobody has meshed yet: what can be swept, and balls.
+// Hex meshes of volumes of the CAD that nobody has meshed yet: what can be swept or was turned, and balls.
 //
 // A volume is swept from the surfaces at its one end (its caps) to those at the other, along side surfaces with four
 // sides (or tubes, which have two rims and a seam). Caps with four corners get a grid, discs an O-grid, narrow rings
 // circles; all others are paved with quads by somebody else (QuadMesher). Boxes, extruded and turned solids, pipes and
-// cylinders are all of that kind. Balls get the seven blocks of mesh/primitives.h.
+// cylinders are all of that kind. What was turned about an axis that it touches (shafts with steps, cones, domes) has a
+// core around that axis, and its section turned around the core. Balls get the seven blocks of mesh/primitives.h.
 //
 // Guarantees:
 //  1. volumes that share a surface have the same quads there;

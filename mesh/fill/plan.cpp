@@ -320,6 +320,24 @@ bool is_turned(const Facts& facts, const std::vector<int>& surfaces) {
   });
 }
 
+bool has_pole(const Facts& facts, const Sweep& sweep) {
+  return std::ranges::any_of(sweep.caps, [&](const std::vector<int>& caps) {
+    return std::ranges::any_of(caps, [&](int cap) { return facts.surfaces[cap - 1].has_poles; });
+  });
+}
+
+/// What is on the ends of an axis is decided by the volume around it alone.
+bool owns_ends(const Model& model, const Axis& axis, int volume, const std::vector<int>& filled, std::string& why) {
+  for (const AxisEnd& end : axis.ends)
+    for (const int other : model.adjacent({2, end.surface}, 3))
+      if (other != volume && std::ranges::find(filled, other) != filled.end()) {
+        why = "it is turned about an axis that it touches, and shares surface " + std::to_string(end.surface) +
+              " there with volume " + std::to_string(other);
+        return false;
+      }
+  return true;
+}
+
 }  // namespace
 
 bool is_regular(const SurfaceFacts& surface) {
@@ -352,6 +370,15 @@ std::vector<Sweep> find_sweeps(const Facts& facts, const std::vector<int>& volum
       sweeps.clear();
     }
     const std::vector<int> around = facts.model.adjacent({3, volume}, 2);
+    // No quads of a cap would lie well around a pole.
+    if (std::ranges::all_of(sweeps, [&](const Sweep& sweep) { return has_pole(facts, sweep); })) {
+      std::optional<Axis> axis = find_axis(facts, volume, why);
+      if (axis && !can_pave) why = "its section is to be paved with quads, by the program gmsh, which is not installed";
+      if (axis && can_pave && owns_ends(facts.model, *axis, volume, volumes, why)) {
+        result.push_back({.volume = volume, .is_turned = true, .axis = std::move(axis), .sides = around});
+        continue;
+      }
+    }
     if (sweeps.empty() && is_turned(facts, around)) {
       if (can_pave || around.size() == 1) {
         result.push_back({.volume = volume, .is_turned = true, .sides = around});
@@ -391,18 +418,23 @@ std::vector<int> find_intervals(const Facts& facts, const std::vector<Sweep>& sw
     Chain a, b;
   };
   std::vector<Balance> balances;
-  std::vector<Chain> fours;
+  std::vector<std::pair<Chain, int>> multiples;
   std::vector<int> even;
   std::set<int> seen;
   for (const Sweep& sweep : sweeps) {
     for (const int id : sweep.is_turned ? sweep.sides : std::vector<int>()) {
       const SurfaceFacts& surface = facts.surfaces[id - 1];
-      if (surface.is_torus) fours.push_back((*surface.sides)[0]);
+      if (surface.is_torus) multiples.emplace_back((*surface.sides)[0], 4);
       // Its section is paved.
       for (const int seam : surface.seams)
         if (!surface.is_torus) even.push_back(seam);
       if (surface.is_annulus) balances.push_back({surface.loops[0], surface.loops[1]});
     }
+    if (sweep.axis)
+      for (const int rim : sweep.axis->rims) {
+        balances.push_back({{{rim, true}}, {{sweep.axis->rims[0], true}}});
+        multiples.emplace_back(Chain{{rim, true}}, 8);
+      }
     for (std::size_t i = 1; i < sweep.along.size(); ++i) balances.push_back({sweep.along[0], sweep.along[i]});
     for (const Partner& partner : sweep.partners) balances.push_back({{{partner.curve}}, {{partner.other}}});
     for (const auto* surfaces : {&sweep.sides, &sweep.caps[0], &sweep.caps[1]})
@@ -414,7 +446,7 @@ std::vector<int> find_intervals(const Facts& facts, const std::vector<Sweep>& sw
           balances.push_back({sides[0], sides[2]});
           if (!surface.is_tube) balances.push_back({sides[1], sides[3]});
         } else if (surface.is_disc) {
-          fours.push_back(surface.loops[0]);
+          multiples.emplace_back(surface.loops[0], 4);
         } else if (surface.is_ring) {
           balances.push_back({surface.loops[0], surface.loops[1]});
         } else {
@@ -453,7 +485,7 @@ std::vector<int> find_intervals(const Facts& facts, const std::vector<Sweep>& sw
         ++n[curve - 1];
         changed = true;
       }
-    for (const Chain& loop : fours) raise(loop, (4 - sum(loop) % 4) % 4);
+    for (const auto& [loop, of] : multiples) raise(loop, (of - sum(loop) % of) % of);
   }
   return n;
 }

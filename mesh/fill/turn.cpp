@@ -1,5 +1,6 @@
-// Volumes that were turned all the way round an axis which they do not touch: rings of any section, tori. There is no
-// surface where they begin, so the section is filled where seams and the beginnings of circles lie, and carried round.
+// Volumes that were turned all the way round an axis which they do not touch (rings of any section, tori), or what lies
+// around the core of those that do (axis.cpp). There is no surface where they begin, so the section is filled where
+// seams and the beginnings of circles lie, and carried round.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -43,16 +44,20 @@ void Builder::turn(const Sweep& sweep) {
   double edges = 0, n_edges = 0;
   for (const int id : sweep.sides) {
     const SurfaceFacts& surface = facts.surfaces[id - 1];
-    if (surface.is_torus)
+    if (sweep.axis && sweep.axis->has_end(id)) continue;
+    if (sweep.axis)
+      pieces.push_back(meridian(*sweep.axis, id));
+    else if (surface.is_torus)
       pieces.push_back(nodes((*surface.sides)[0]));
     else if (surface.sides)
       pieces.push_back(nodes((*surface.sides)[1]));
     else
       pieces.push_back(ring_columns_.at(id));
-    for (std::size_t i = 1; i < pieces.back().size(); ++i, ++n_edges)
-      edges += (points[pieces.back()[i]] - points[pieces.back()[i - 1]]).norm();
     sides.insert(sides.end(), surface_quads[id - 1].begin(), surface_quads[id - 1].end());
   }
+  if (sweep.axis) fill_core(sweep, pieces, sides);
+  for (const std::vector<Index>& piece : pieces)
+    for (std::size_t i = 1; i < piece.size(); ++i, ++n_edges) edges += (points[piece[i]] - points[piece[i - 1]]).norm();
   std::vector<std::vector<Index>> loops = closed_lines(std::move(pieces), volume);
   std::ranges::stable_sort(loops, std::greater<>(), [&](const auto& loop) { return vector_area(loop).norm(); });
   const Vec3 area = vector_area(loops[0]), normal = area.normalized(), x = normal.unitOrthogonal(), y = normal.cross(x);

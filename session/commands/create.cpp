@@ -50,8 +50,7 @@ Solid sphere(const Command& command) {
 void do_create(Execution& run) {
   const Item& what = run.command.items.at(run.command.has("create") ? 1 : 0);
   if (what.name == "group" || what.name == "block") return do_create_empty(run);
-  if (const Index n = run.meshed->mesh.n_hexes())
-    run.note("this takes the place of the mesh of " + counted(n, EntityKind::hex) + " that was here");
+  note_replaced(run);
   forget_members(run.state, true);
   SessionState& state = run.state;
   run.stage("create");

@@ -93,6 +93,7 @@ void import_mesh(Execution& run, const std::filesystem::path& file, std::string_
   run.stage("read mesh");
   MeshFile read = read_mesh(file, format_of(word), fence_of(run));
   for (const std::string& line : read.notices) run.note(line);
+  note_replaced(run);
   if (const Item* factor = run.command.find("factor")) scale(read.mesh, factor->number);
   if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string(),

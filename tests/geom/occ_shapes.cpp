@@ -2,6 +2,7 @@
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -43,6 +44,7 @@
 #include <gp_Circ.hxx>
 #include <gp_Elips.hxx>
 #include <gp_Pln.hxx>
+#include <numbers>
 
 namespace hextwist::test {
 
@@ -131,6 +133,23 @@ OccShape OccShape::brick_with_hole(double x, double y, double z, double r) {
   const gp_Ax2 axes(gp_Pnt(x / 2, y / 2, -1), gp_Dir(0, 0, 1));
   const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(axes, r, z + 2).Shape();
   return OccShape(std::make_shared<Impl>(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(x, y, z).Shape(), hole).Shape()));
+}
+
+OccShape OccShape::hollow_ball(double outer, double inner) {
+  return OccShape(std::make_shared<Impl>(
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(outer).Shape(), BRepPrimAPI_MakeSphere(inner).Shape()).Shape()));
+}
+
+OccShape OccShape::dome(double r) {
+  return OccShape(std::make_shared<Impl>(BRepPrimAPI_MakeSphere(r, 0, std::numbers::pi / 2).Shape()));
+}
+
+OccShape OccShape::fused_shaft() {
+  const gp_Ax2 up(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)),
+      down(gp_Pnt(0, 0, 0), gp_Dir(0, 0, -1), gp_Dir(0, 1, 0));
+  return OccShape(std::make_shared<Impl>(
+      BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(up, 1, 3).Shape(), BRepPrimAPI_MakeCylinder(down, 1.5, 2).Shape())
+          .Shape()));
 }
 
 OccShape OccShape::loft() {

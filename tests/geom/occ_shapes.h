@@ -29,6 +29,11 @@ class OccShape {
   static OccShape brick_with_hole(double x, double y, double z, double r);
   /// Brick with a face inside, across the middle of x and from y = 0 to depth, that bounds nothing.
   static OccShape brick_with_face_inside(double x, double y, double z, double depth);
+  /// A ball with a smaller one taken out of its middle; the upper half of a ball.
+  static OccShape hollow_ball(double outer, double inner);
+  static OccShape dome(double r);
+  /// Cylinders one behind the other, fused, whose seams lie at different angles.
+  static OccShape fused_shaft();
   /// Smooth loft through circles and ellipses: a closed B-spline side.
   static OccShape loft();
   /// Surface of revolution of a spline that starts on the axis: a pole on a general surface.

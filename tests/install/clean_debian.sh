@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # clean_debian.sh FOLDER: do the packages and the tarball in FOLDER work in a Debian that has nothing else? Makes one with debootstrap,
-# keeps it as FOLDER/clean, and works in copies. The examples are built there against the packages. Needs root and a network.
+# keeps it as FOLDER/clean, and works in copies. The examples are built there against the packages, and pip installs the Python
+# package from the sources, in a virtual environment. Needs root and a network.
 set -euo pipefail
 folder=$(realpath "${1:?usage: clean_debian.sh FOLDER}")
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -52,5 +53,15 @@ inside "apt-get -qq install --no-install-recommends /packages/libhextwist[0-9]*.
   g++ examples/minimal/main.cpp -o /tmp/by_pkg_config \$(pkg-config --cflags --libs hextwist)
   /tmp/by_pkg_config models/bracket.brep models/bracket.msh /tmp/minimal.msh 1 2"
 inside "apt-get -qq remove hextwist >/dev/null; ! command -v hextwist"
+
+echo "pip, in a virtual environment, from the sources"
+fresh pip
+(cd "$source" && git ls-files -z | tar --null --no-recursion -T - -cf -) | tar -xf - -C "$root/hextwist"
+inside "apt-get -qq update
+  apt-get -qq install --no-install-recommends \$(bash dev packages) >/dev/null
+  python3 -m venv --system-site-packages /environment
+  /environment/bin/pip --quiet install --no-build-isolation --no-index .
+  cd /tmp && /environment/bin/python /hextwist/examples/python/convergence.py /hextwist/models/bracket.brep /hextwist/models/bracket.msh /tmp/python.vtu
+  /environment/bin/python -c \"import hextwist; s = hextwist.Session(); s.cmd('set reading fenced on'); s.import_cad('/hextwist/models/bracket.step')\""
 rm -rf "$folder"/root-*
 echo "all of them work"
