@@ -135,20 +135,20 @@ export class Live {
     this.received = (this.received ?? 0) + bytes.length;
     let arrays = await unpack(bytes);
     if (response.headers.get('X-Hextwist-Difference') === '1') arrays = completed(arrays, have.arrays);
-    if (!/^c\d+$/.test(name)) this.blocks.set(name, { number: Number(response.headers.get('X-Hextwist-Number')), arrays });
+    if (!/^(before-)?c\d+$/.test(name)) this.blocks.set(name, { number: Number(response.headers.get('X-Hextwist-Number')), arrays });
     return arrays;
   }
   async reload(version) {
-    const { app } = this, before = app.panes.length ? app.scene : null, isTwo = app.panes.length > 1;
+    const { app } = this, isFirst = app.panes.length === 0, isTwo = app.panes.length > 1;
     const scene = await Scene.open((name) => this.load(name));
     this.version = version;
     if (!scene) {
       app.say('there is no mesh yet: import one, or create a brick');
       return;
     }
-    // What is not loaded of the mesh before is not to be had any more.
-    if (before) before.load = async () => null;
-    await app.open(scene, before, before !== null);
+    let before = null;
+    const openBefore = () => (before ??= Scene.open((name) => this.load(`before-${name}`)));
+    await app.open(scene, { before: scene.meta.has_before ? openBefore : null, keep: !isFirst });
     if (isTwo) await app.showBefore(true);
   }
 
@@ -158,7 +158,7 @@ export class Live {
       this.files.add(text);
       const link = make('button', { textContent: `save ${text}`, title: `Download ${text}` });
       link.addEventListener('click', () => this.save(text).catch((error) => this.log('error', `error: ${error.message}`)));
-      element('log').append(link, '\n');
+      this.append(link, '\n');
       return;
     }
     if (kind === 'command') {
@@ -168,10 +168,14 @@ export class Live {
     this.log(kind, kind === 'command' ? `> ${text}` : text);
   }
   log(kind, text) {
+    this.append(make('span', { className: kind === 'command' ? 'said' : kind, textContent: `${text}\n` }));
+    if (kind === 'command') element('log').scrollTop = element('log').scrollHeight;
+  }
+  append(...nodes) {
     const log = element('log'), atEnd = log.scrollTop + log.clientHeight > log.scrollHeight - 40;
-    log.append(make('span', { className: kind === 'command' ? 'said' : kind, textContent: `${text}\n` }));
+    log.append(...nodes);
     while (log.childNodes.length > 3000) log.firstChild.remove();
-    if (atEnd || kind === 'command') log.scrollTop = log.scrollHeight;
+    if (atEnd) log.scrollTop = log.scrollHeight;
   }
   report(record) {
     const box = element('report'), row = (name, value) => make('tr', {}, make('th', { scope: 'row', textContent: name }), make('td', { textContent: value }));
