@@ -27,25 +27,30 @@ async function clickAt(page, { box }, [x, y]) {
 
 for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
   test(`a click finds the entity of every kind that is there: ${name}`, async () => {
-    const mesh = truth(name), page = await open(browser, drawn(`picks_${name}`, name)), next = random(7);
-    const blocks = listed(run([...model(name), '-c', 'list block all']), 'block');
+    const mesh = truth(name), next = random(7), [x, y] = mesh.middle.map((v) => v + 0.01);
+    // Parts of it are in sets; of those that overlap the first counts.
+    const halves = (kind) => [`${kind} with x_coord < ${x}`, `${kind} with ${kind === 'node' ? '' : `x_coord >= ${x} and `}y_coord < ${y}`], kindIn = { block: 'hex', sideset: 'face', nodeset: 'node' }, ids = { block: [7, 8], sideset: [5, 6], nodeset: [6, 9] };
+    const sets = Object.entries(kindIn).flatMap(([set, kind]) => [`reset ${set}`, ...halves(kind === 'face' ? 'face in surface all' : kind).map((what, i) => `${set} ${ids[set][i]} ${what}`)]).join('; ');
+    const members = Object.fromEntries(Object.entries(kindIn).map(([set, kind]) => [set, ids[set].map((id) => new Set(listed(run([...model(name), '-c', `${sets}; list ${kind} in ${set} ${id}`]), kind)))]));
+    const setOf = (set, member) => { const i = members[set].findIndex((all) => all.has(member)); return i < 0 ? '' : `${set} ${ids[set][i]}`; }, met = new Set();
+    const page = await open(browser, drawn(`picks_${name}`, name, sets));
     for (const direction of ['1 -1 0.7', '0 -1 0']) {
       const frame = await lookFrom(page, mesh, direction), { view, box } = frame;
       const seen = (p, slack) => { const at = mesh.pixel(view, p), hit = mesh.meet(view, ...at); return !hit || mesh.depth(view, p) > hit.depth - slack; };
-      for (const kind of ['hex', 'face', 'surface', 'volume', 'node', 'edge', 'block']) {
+      for (const kind of ['hex', 'face', 'surface', 'volume', 'node', 'edge', 'block', 'sideset', 'nodeset', 'sheet']) {
         await kindOf(page, kind);
-        for (let tries = 0, done = 0; done < 3 && tries < 400; ++tries) {
+        for (let tries = 0, done = 0; done < (kind in kindIn ? 5 : 3) && tries < 400; ++tries) {
           const at = [next() * box.width, next() * box.height], hit = mesh.meet(view, ...at);
           if (!hit || hit.margin < 2) continue;
           const { face, corners } = hit, to = corners.map((c) => Math.hypot(c[0] - at[0], c[1] - at[1]));
           const sides = corners.map((c, i) => toLine(...at, c, corners[(i + 1) % 4])), nearest = (d) => d.indexOf(Math.min(...d)), isClear = (d) => { const s = [...d].sort((a, b) => a - b); return s[1] - s[0] > 2; };
-          if ((kind === 'node' && !isClear(to)) || (kind === 'edge' && !isClear(sides))) continue;
+          if ((kind.startsWith('node') && !isClear(to)) || (['edge', 'sheet'].includes(kind) && !isClear(sides))) continue;
           const k = nearest(sides), ends = [face.cycle[k], face.cycle[(k + 1) % 4]].sort((a, b) => a - b);
-          const id = { hex: face.hexes[0].id, face: face.id, surface: face.surface, volume: face.hexes[0].volume, node: face.cycle[nearest(to)], edge: mesh.edgeIds.get(ends.join()), block: null }[kind];
-          const range = await clickAt(page, frame, at);
-          if (kind === 'block') assert.ok(blocks.length === 0 ? range === '' : blocks.includes(idsOf(range)[0]), `${range} of ${blocks}`);
-          else assert.equal(range, `${kind} ${id}`, `${name} from ${direction} at ${at}`);
-          ++done;
+          const id = { hex: face.hexes[0].id, face: face.id, surface: face.surface, volume: face.hexes[0].volume, node: face.cycle[nearest(to)], edge: mesh.edgeIds.get(ends.join()) };
+          const expected = kind in kindIn ? setOf(kind, id[kindIn[kind]]) : `${kind} ${kind === 'sheet' ? listed(run([...model(name), '-c', `list sheet in edge ${id.edge}`]), 'sheet') : id[kind]}`;
+          assert.equal(await clickAt(page, frame, at), expected, `${name} from ${direction} at ${at}`);
+          met.add(expected);
+          done += kind === 'sheet' ? 3 : 1;  // the program is asked for each
         }
       }
       // Curves at the middles of their edges, vertices at their places; kind "auto" finds the same.
@@ -69,6 +74,7 @@ for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
         assert.equal(await clickAt(page, frame, at), `vertex ${id}`);
       }
     }
+    for (const set of Object.keys(kindIn)) for (const id of ids[set]) assert.ok(met.has(`${set} ${id}`), `${set} ${id} was never met`);
     await shot(page, `picks_${name}`);
     assert.deepEqual(page.problems, []);
     await page.close();
