@@ -240,7 +240,7 @@ PackedBlock LiveSession::made(const std::string& whole_name) {
 std::optional<LiveSession::Sent> LiveSession::block(const std::string& name, std::size_t have) {
   const std::unique_lock lock(session_mutex_, std::try_to_lock);
   if (!lock) return std::nullopt;
-  if (session_.meshed().mesh.n_hexes() == 0 && !session_.meshed().model) return Sent{};
+  if (session_.meshed().mesh.n_hexes() == 0 && !session_.meshed().model) return Sent{.is_empty = true};
   PackedBlock now = made(name);
   if (now.arrays.empty() && now.name.empty()) return Sent{};
   auto& [number, before] = sent_[name];

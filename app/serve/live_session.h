@@ -42,11 +42,12 @@ class LiveSession {
 
   /// A block of the scene, deflated: "skin" (with "meta"), "cad", "inside", "sets", "c0", ..., and with "before-" in
   /// front those of the mesh before the last change; as a difference from the one that was sent last, where `have` is
-  /// its number. Nothing while something is running. "" where there is no such block.
+  /// its number. Nothing while something is running. Of no bytes where there is no such block.
   struct Sent {
-    std::string bytes;
+    std::string bytes = {};
     std::size_t number = 0;
     bool is_difference = false;
+    bool is_empty = false;  ///< there is no scene at all yet
   };
   std::optional<Sent> block(const std::string& name, std::size_t have);
 
