@@ -46,7 +46,7 @@ export class Pane {
     this.theme = theme;
     this.root = new THREE.Scene();
     this.faces = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial());
-    this.section = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial({ lines: 0, offset: 0 }));
+    this.section = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial({ lines: 0, offset: 0.5 }));
     this.sectionLines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
     this.cad = new THREE.Mesh(new THREE.BufferGeometry(), cadMaterial());
     this.curves = new THREE.Group();
