@@ -21,14 +21,15 @@ void write_view(const Options& options, Session& session, const std::function<vo
     if (!options.cad.empty()) before.import_cad(options.cad);
     before.import_mesh(options.before);
   }
-  const SceneSource source = source_of(session, !options.mesh.empty()     ? options.mesh
-                                                : !options.levels.empty() ? options.levels
-                                                                          : options.cad);
+  SceneSource source = source_of(session, !options.mesh.empty()     ? options.mesh
+                                          : !options.levels.empty() ? options.levels
+                                                                    : options.cad);
   Page made;
   if (options.before.empty()) {
     made = page(source, {.shows_cad = session.meshed().mesh.n_hexes() == 0});
   } else {
     const SceneSource other = source_of(before, options.before);
+    source.before = [&]() -> const Mesh& { return other.selector.meshed.mesh; };
     made = page(source, {}, &other);
   }
   io::Output out(options.output, true);

@@ -116,7 +116,7 @@ const std::vector<CommandSpec> table = {
      "shown alone. All others are pictures, .svg is made of lines, and a .gif gets one more with 'append': hexes (of volumes, blocks, sheets) are seen from outside, faces (of surfaces, side "
      "sets) alone; edges and nodes (of curves, vertices, node sets) stand out from the mesh. Colours tell blocks, volumes or "
      "sheets apart, with 'quality' good from bad, or say what 'color' names: block, volume, surface, sheet, owner (of nodes), nodeset, "
-     "sideset, group, level, template, a metric or a field. 'clip' takes away what is before a plane, with 'crinkle' whole hexes. 'label' "
+     "sideset, group, level, template, changed (by the last change), a metric or a field. 'clip' takes away what is before a plane, with 'crinkle' whole hexes. 'label' "
      "writes ids. 'geometry' is the CAD itself, as is the whole where there is no mesh. 'from' is the direction to look from.",
      {{"range", Kind::range, 0, 0, false, range_help},
       {"what", Kind::string, 0, 0, false, "what gives the colours, in quotes"},

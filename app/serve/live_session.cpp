@@ -15,6 +15,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t most_events = 4000;
+constexpr std::string_view before_prefix = "before-";
+
+/// The name of a block in its scene.
+std::string_view without_prefix(std::string_view name) {
+  return name.starts_with(before_prefix) ? name.substr(before_prefix.size()) : name;
+}
 
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -116,6 +122,7 @@ void LiveSession::carry_out(const std::string& text) {
     }
     if (!text.empty()) tell(text_of({{"kind", "command"}, {"text", text}}));
     const std::size_t before = session_.records().size();
+    before_.reset();
     try {
       if (text.empty())
         begin_(session_);
@@ -205,15 +212,23 @@ std::optional<std::vector<std::string>> LiveSession::completions(const std::stri
   return session_.completions(line);
 }
 
-PackedBlock LiveSession::made(const std::string& name) {
+PackedBlock LiveSession::made(const std::string& whole_name) {
   Session::Core& core = session_.core();
-  const SceneSource source{core.selector(), core.state, title_};
+  const bool is_before = whole_name.starts_with(before_prefix), has_before = has_mesh_before(core);
+  if (is_before && !has_before) return {};
+  const auto before = [&]() -> MeshBefore& {
+    if (!before_) before_ = mesh_before(core);
+    return *before_;
+  };
+  const std::string name(without_prefix(whole_name));
+  SceneSource source = is_before ? before().source(title_) : SceneSource{core.selector(), core.state, title_};
+  if (!is_before && has_before) source.before = [&]() -> const Mesh& { return before().mesh(); };
   if (name == "cad") return cad_block(source);
   if (name == "inside") return inside_block(source);
   if (name == "sets") return sets_block(source);
   const std::vector<Channel> all = channels(source);
   if (name == "skin")
-    return skin_block(source, scene_meta(source, all, {.shows_cad = session_.meshed().mesh.n_hexes() == 0}, {}));
+    return skin_block(source, scene_meta(source, all, {.shows_cad = source.selector.meshed.mesh.n_hexes() == 0}, {}));
   if (name.starts_with('c') && name.size() < 9 && name.find_first_not_of("0123456789", 1) == std::string::npos &&
       name.size() > 1) {
     const auto i = static_cast<std::size_t>(std::stol(name.substr(1)));
@@ -225,7 +240,7 @@ PackedBlock LiveSession::made(const std::string& name) {
 std::optional<LiveSession::Sent> LiveSession::block(const std::string& name, std::size_t have) {
   const std::unique_lock lock(session_mutex_, std::try_to_lock);
   if (!lock) return std::nullopt;
-  if (session_.meshed().mesh.n_hexes() == 0 && !session_.meshed().model) return Sent{};
+  if (session_.meshed().mesh.n_hexes() == 0 && !session_.meshed().model) return Sent{.is_empty = true};
   PackedBlock now = made(name);
   if (now.arrays.empty() && now.name.empty()) return Sent{};
   auto& [number, before] = sent_[name];
@@ -234,7 +249,8 @@ std::optional<LiveSession::Sent> LiveSession::block(const std::string& name, std
   result.bytes = deflated(result.is_difference ? difference(before, now) : now);
   result.number = number = ++n_sent_;
   // Values are asked for one by one: they are not kept.
-  if (name.starts_with('c') && name != "cad")
+  const std::string_view kind = without_prefix(name);
+  if (kind.starts_with('c') && kind != "cad")
     sent_.erase(name);
   else
     before = std::move(now);

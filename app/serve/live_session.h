@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hextwist/session/session.h"
+#include "hextwist/session/view/before.h"
 #include "hextwist/session/view/pack.h"
 
 namespace hextwist::app {
@@ -39,13 +40,14 @@ class LiveSession {
   /// Words for the end of a line; nothing while something is running.
   std::optional<std::vector<std::string>> completions(const std::string& line);
 
-  /// A block of the scene, deflated: "skin" (with "meta"), "cad", "inside", "sets", "c0", ...; as a difference from the
-  /// one that was sent last, where `have` is its number. Nothing while something is running. "" where there is no such
-  /// block.
+  /// A block of the scene, deflated: "skin" (with "meta"), "cad", "inside", "sets", "c0", ..., and with "before-" in
+  /// front those of the mesh before the last change; as a difference from the one that was sent last, where `have` is
+  /// its number. Nothing while something is running. Of no bytes where there is no such block.
   struct Sent {
-    std::string bytes;
+    std::string bytes = {};
     std::size_t number = 0;
     bool is_difference = false;
+    bool is_empty = false;  ///< there is no scene at all yet
   };
   std::optional<Sent> block(const std::string& name, std::size_t have);
 
@@ -63,7 +65,7 @@ class LiveSession {
   void carry_out(const std::string& text);
   void tell(std::string event);
   void note_files(std::size_t first_record);
-  PackedBlock made(const std::string& name);
+  PackedBlock made(const std::string& whole_name);
 
   const std::string title_;
   std::function<void(Session&)> begin_;
@@ -72,6 +74,7 @@ class LiveSession {
   std::mutex session_mutex_;  // held while a command runs
   Session session_;
   std::map<std::string, std::pair<std::size_t, PackedBlock>> sent_;
+  std::unique_ptr<MeshBefore> before_;  // null: not asked for since the last command
 
   std::mutex mutex_;  // of what follows
   std::condition_variable_any changed_;

@@ -284,6 +284,10 @@ class Server {
       if (!live) return refuse(response, 404, "there is no such session");
       auto sent = live->block(request.get_param_value("name"), number(request, "have"));
       if (!sent) return refuse(response, 409, "a command is running");
+      if (sent->is_empty) {
+        response.status = 204;
+        return;
+      }
       if (sent->bytes.empty()) return refuse(response, 404, "there is no such part of the scene");
       response.set_header("X-Hextwist-Number", std::to_string(sent->number));
       response.set_header("X-Hextwist-Difference", sent->is_difference ? "1" : "0");

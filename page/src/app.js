@@ -44,16 +44,18 @@ export class App {
   draw() { this.stage.draw(); }
   say(text) { element('status').value = text; }
 
-  /** Shows a scene, and what was before beside it. keep: the eye stays. */
-  async open(scene, before = null, keep = false) {
+  /** Shows a scene. before: loads what was before, which can be shown beside it; null: nothing. keep: the eye stays. */
+  async open(scene, { before = null, keep = false } = {}) {
+    if (this.panes.length && this.scene.isCad !== scene.isCad) keep = false;  // a mesh has come, or has gone
     for (const pane of this.panes) pane.dispose();
-    if (before?.isCad !== scene.isCad) keep = false;  // a mesh has come, or has gone
     this.before = before;
     this.panes = [new Pane(scene, this.theme)];
     element('title').textContent = scene.meta.title;
     document.title = `${scene.meta.title} – hextwist`;
     element('counts').textContent = scene.isCad ? `${scene.count('surface').toLocaleString('en')} surfaces, no mesh` : `${scene.meta.n_hexes.toLocaleString('en')} hexes, ${scene.meta.n_nodes.toLocaleString('en')} nodes`;
-    document.querySelector('[data-toggle="before"]').hidden = !before;
+    const beforeButton = document.querySelector('[data-toggle="before"]');
+    beforeButton.hidden = !before;
+    if (!before) beforeButton.setAttribute('aria-pressed', false);
     const { start } = scene.meta;
     if (!keep) {
       this.stage.eye.look(...start.view);
@@ -72,6 +74,7 @@ export class App {
       await this.rebuild();
       await this.repick();
     } else {
+      element('explode').value = 0;
       if (start.kind) {
         await this.pickIds(start.kind, start.ids);
         if (['hex', 'volume', 'block', 'sheet', 'face', 'surface', 'sideset'].includes(start.kind) && scene.hasInside && !scene.isCad) await this.showOnly();
@@ -90,7 +93,9 @@ export class App {
   async showBefore(on) {
     const narrowBefore = this.stage.narrowness;
     if (on && this.before && this.panes.length === 1) {
-      const pane = new Pane(this.before, this.theme);
+      const { before } = this, scene = await this.busy('loading the mesh before', before);
+      if (!scene || this.before !== before) return;  // there is another mesh by now
+      const pane = new Pane(scene, this.theme);
       await pane.loadCad();
       this.panes.unshift(pane);
     } else if (!on && this.panes.length > 1) this.panes.shift().dispose();
@@ -162,7 +167,7 @@ export class App {
     this.picks.pick(found.kind, found.id, found.position, add);
     this.say(this.describe(found));
     this.lastHit = found.hit;
-    if (this.list.kind !== found.kind && [...this.list.select.options].some((o) => o.value === found.kind)) this.list.show(found.kind);
+    this.list.reveal(found.kind, found.position);
   }
   async pickHexes(hexes, add = false) {
     if (this.scene.skin.quad_hex_id && this.scene.hasInside) await this.busy('loading ids', () => this.scene.inside());
@@ -315,17 +320,20 @@ export class App {
     if (!pairs.length) return this.say('nothing is picked');
     element('planes').checked = true;
     this.picks.set('sheet', pairs);
-    this.list.show('sheet');
+    this.list.reveal('sheet', pairs[0][1]);
   }
-  /** Sheets that run through hexes which were cut, and through no other. */
+  /** Sheets that run through hexes which were cut, and through no other: by levels, or by the last change. */
   async planesOfRefinement() {
-    const inside = await this.scene.inside(), i = this.scene.meta.channels.findIndex((c) => c.name === 'template');
-    if (i < 0) return this.say('this mesh has not been refined by levels');
+    if (this.scene.isCad) return this.say('there is no mesh');
+    const { channels } = this.scene.meta, i = ['template', 'changed'].map((name) => channels.findIndex((c) => c.name === name && c.is_class)).find((at) => at >= 0) ?? -1;
+    if (i < 0) return this.say('how this mesh was refined is not in this page: it is where the commands are run, and with --before or --levels');
+    const inside = await this.scene.inside();
     const cut = await this.scene.channel(i), outside = new Uint8Array(inside.sheets.n);
     for (let h = 0; h < inside.nHexes; ++h) if (!cut[h]) for (const s of inside.sheetsOfHex(h)) outside[s] = 1;
     const sheets = Array.from(outside.keys()).filter((s) => !outside[s]);
     element('planes').checked = true;
     this.picks.set('sheet', sheets.slice(0, 60).map((s) => [s + 1, s]));
+    if (sheets.length) this.list.reveal('sheet', sheets[0]);
     this.say(`${sheets.length} sheets lie within what was refined${sheets.length > 60 ? ', 60 of them shown' : ''}`);
     this.draw();
   }
@@ -347,6 +355,9 @@ export class App {
       await this.label();
     }).catch((error) => this.say(error.message));
     return this.queue;
+  }
+  sayParts() {
+    if (this.explode && this.pane.parts_?.n === 1) this.say('this mesh is one block and one volume: there is nothing to move apart');
   }
   cutChanged(turned = false) {
     const mode = document.querySelector('input[name="cut"]:checked').value, axis = element('cut-axis').value, flip = element('cut-flip').checked ? -1 : 1;
@@ -421,6 +432,7 @@ export class App {
       // Lines of the mesh lie on the CAD where that is shown; inside there is none.
       pane.faces.visible = what === 'mesh' || (what === 'both' && pane.shown !== null);
       pane.cad.visible = pane.scene.isCad || (what !== 'mesh' && pane.quads.offset === null);
+      pane.curves.visible = pane.quads.offset === null;  // they stay where the CAD is
       ofFaces.lines.value = edges ? 0.55 : 0;
       ofCad.lines.value = what === 'both' ? 0.75 : 0;
       for (const uniforms of [ofFaces, ofCad]) uniforms.ink.value.set(...this.theme.edge);
@@ -437,7 +449,7 @@ export class App {
     if (name === 'parallel') this.stage.eye.isParallel = pressed;
     if (name === 'edges') this.applyLook();
     if (name === 'labels') { this.labels = pressed; this.label(); }
-    if (name === 'before') this.showBefore(pressed);
+    if (name === 'before') this.showBefore(pressed).catch(() => button.setAttribute('aria-pressed', false));
     if (name === 'box' || name === 'lasso') {
       const other = name === 'box' ? 'lasso' : 'box';
       if (pressed) document.querySelector(`[data-toggle="${other}"]`).setAttribute('aria-pressed', false);
@@ -496,7 +508,7 @@ export class App {
     element('cut-axis').addEventListener('change', () => this.cutChanged(true));
     element('cut-flip').addEventListener('change', () => this.cutChanged());
     element('cut-at').addEventListener('input', () => { if (this.clip.mode !== 'off') this.cutChanged(); });
-    element('explode').addEventListener('input', () => { this.explode = Number(element('explode').value); this.rebuild(); });
+    element('explode').addEventListener('input', () => { this.explode = Number(element('explode').value); this.rebuild().then(() => this.sayParts()); });
     element('through').addEventListener('change', () => { this.stage.through = element('through').checked; });
     element('planes').addEventListener('change', () => this.picked());
     fillHelp(element('help'));

@@ -61,7 +61,7 @@ export class Colouring {
     this.worstAt = -1;
     this.auto();
     const [before] = this.app.panes;
-    if (this.values && !this.valuesOf.get(before)) this.app.say(`of the mesh before the values of ${key} are not known: they are of those colours that it was seen in`);
+    if (this.values && !this.valuesOf.get(before)) this.app.say(`the mesh before has no ${key}`);
   }
   async load(scene, key) {
     if (key === 'none' || key === 'surface' || key in setKeys || scene.isCad) return null;

@@ -6,25 +6,25 @@ const reach = 9;  // pixels to vertices and curves
 
 const barycentre = new THREE.Vector3();
 
+/** Is a point on the side of the plane that is taken away? */
+export const isCutOff = (p, clip) => clip.x * p.x + clip.y * p.y + clip.z * p.z > clip.w;
+/** The first of the triangles of a tree that a ray meets where they are not cut off. */
+export function firstMet(tree, ray, clip) {
+  if (!tree) return null;
+  if (!clip.x && !clip.y && !clip.z) return tree.raycastFirst(ray, THREE.DoubleSide);
+  let first = null;
+  for (const each of tree.raycast(ray, THREE.DoubleSide)) if (!isCutOff(each.point, clip) && (!first || each.distance < first.distance)) first = each;
+  return first;
+}
+
 /** The first thing that a ray meets: { quad } or { cut } with its hex, and the point. */
 function meet(pane, ray) {
   let best = null;
-  const clip = pane.faces.material.uniforms.clip.value, clipped = clip.x || clip.y || clip.z;
-  if (pane.tree()) {
-    const above = (p) => clip.x * p.x + clip.y * p.y + clip.z * p.z > clip.w;
-    let hit = null;
-    if (clipped) {
-      for (const each of pane.bvh.raycast(ray, THREE.DoubleSide)) if (!above(each.point) && (!hit || each.distance < hit.distance)) hit = each;
-    } else hit = pane.bvh.raycastFirst(ray, THREE.DoubleSide);
-    if (hit) {
-      const q = hit.faceIndex >> 1;
-      best = { quad: q, hex: pane.quads.hex[q], point: hit.point, distance: hit.distance };
-    }
-  }
+  const clip = pane.faces.material.uniforms.clip.value, hit = firstMet(pane.tree(), ray, clip);
+  if (hit) best = { quad: hit.faceIndex >> 1, hex: pane.quads.hex[hit.faceIndex >> 1], point: hit.point, distance: hit.distance };
   if (pane.scene.isCad) {
-    const above = (p) => clip.x * p.x + clip.y * p.y + clip.z * p.z > clip.w;
-    for (const hit of pane.cadTree()?.raycast(ray, THREE.DoubleSide) ?? [])
-      if (!above(hit.point) && (!best || hit.distance < best.distance)) best = { quad: -1, hex: -1, surface: pane.cadArrays.quad_surface[hit.faceIndex >> 1], point: hit.point, distance: hit.distance };
+    const onCad = firstMet(pane.cadTree(), ray, clip);
+    if (onCad) best = { quad: -1, hex: -1, surface: pane.cadArrays.quad_surface[onCad.faceIndex >> 1], point: onCad.point, distance: onCad.distance };
   }
   if (pane.cut) {
     const { triangles, hexOf } = pane.cut, a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
@@ -64,8 +64,9 @@ export async function find(pane, camera, width, height, x, y, kind) {
   const slack = hit ? Math.abs(screen(...hit.point.clone().addScaledVector(ray.ray.direction, 0.02 * scene.radius).toArray()).z - depth) : 0;
   const isSeen = (z) => z > -1 && z < 1 && z <= depth + slack;
   const found = (which, position, id = position + 1) => ({ kind: which, position, id, hit });
-  const { cadArrays } = pane;
+  const cadArrays = quads.offset ? null : pane.cadArrays;  // of what is taken apart the CAD stays behind
 
+  if (kind === 'vertex' && !cadArrays) return null;
   if ((kind === 'geometry' || kind === 'vertex') && cadArrays) {
     let best = kind === 'vertex' ? 25 : reach, which = -1;
     for (let i = 0; 3 * i < cadArrays.vertex.length; ++i) {
@@ -76,6 +77,7 @@ export async function find(pane, camera, width, height, x, y, kind) {
     if (which >= 0) return found('vertex', which);
     if (kind === 'vertex') return null;
   }
+  if (kind === 'curve' && !cadArrays) return null;
   if ((kind === 'geometry' || kind === 'curve') && cadArrays) {
     let best = kind === 'curve' ? 16 : reach - 2, which = -1;
     const { segment, segment_curve } = cadArrays;
@@ -194,12 +196,12 @@ export function hexesWithin(pane, camera, width, height, polygon, through) {
       middle.x += quads.points[at] / 4; middle.y += quads.points[at + 1] / 4; middle.z += quads.points[at + 2] / 4;
     }
     if (quads.offset) middle.add(p.fromArray(quads.offset, 3 * q));
-    if (clip.x * middle.x + clip.y * middle.y + clip.z * middle.z > clip.w) continue;
+    if (isCutOff(middle, clip)) continue;
     if (!project(middle.x, middle.y, middle.z)) continue;
     if (!through) {
       // Seen: nothing is met before it.
       ray.setFromCamera(new THREE.Vector2(p.x, p.y), camera);
-      const first = tree.raycastFirst(ray.ray, THREE.DoubleSide);
+      const first = firstMet(tree, ray.ray, clip);
       if (first && first.faceIndex >> 1 !== q && first.distance < ray.ray.origin.distanceTo(middle) - 1e-3 * scene.radius) continue;
     }
     hexes.add(quads.hex[q]);

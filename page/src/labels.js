@@ -2,9 +2,10 @@
 
 const most = 60000, places = 24;
 
-/** { texts, places: per text an array of points, three numbers each }. */
+/** { texts, places: per text an array of points, three numbers each, textOf(q): what a drawn face has, where it is faces that have them }. */
 export async function labelPlaces(pane, kind) {
   const { scene, quads } = pane, of = new Map();
+  let keyOf = null;
   const add = (key, x, y, z) => {
     if (!key || (of.size >= most && !of.has(key))) return;
     if (!of.has(key)) of.set(key, []);
@@ -27,6 +28,7 @@ export async function labelPlaces(pane, kind) {
     });
   } else {
     const volume = kind === 'volume' ? (scene.insideNow?.volume ?? (await scene.channel(0))) : null;
+    keyOf = { surface: (q) => quads.surface[q], face: (q) => quads.face[q] + 1, volume: (q) => volume[quads.hex[q]], hex: (q) => scene.hexId(quads.hex[q]) }[kind] ?? null;
     for (let q = 0; q < quads.n; ++q) {
       const c = [0, 0, 0], moved = quads.offset?.subarray(3 * q, 3 * q + 3) ?? [0, 0, 0];
       for (let k = 0; k < 4; ++k) {
@@ -36,10 +38,7 @@ export async function labelPlaces(pane, kind) {
           if (!of.has(id)) add(id, p[0] + moved[0], p[1] + moved[1], p[2] + moved[2]);
         } else for (let j = 0; j < 3; ++j) c[j] += (p[j] + moved[j]) / 4;
       }
-      if (kind === 'surface') add(quads.surface[q], ...c);
-      else if (kind === 'face') add(quads.face[q] + 1, ...c);
-      else if (kind === 'volume') add(volume[quads.hex[q]], ...c);
-      else if (kind === 'hex') add(scene.hexId(quads.hex[q]), ...c);
+      if (keyOf) add(keyOf(q), ...c);
     }
   }
   // The middle ones first, then others all over it.
@@ -54,5 +53,5 @@ export async function labelPlaces(pane, kind) {
     }
     return [String(key), chosen];
   });
-  return { texts: sorted.map(([text]) => text), places: sorted.map(([, chosen]) => chosen) };
+  return { texts: sorted.map(([text]) => text), places: sorted.map(([, chosen]) => chosen), textOf: keyOf && ((q) => String(keyOf(q))) };
 }

@@ -22,11 +22,11 @@ export class EntityList {
     this.select.addEventListener('change', () => this.show(this.select.value));
     this.box.addEventListener('click', (e) => {
       const item = e.target.closest('.item');
-      if (item) this.choose(Number(item.dataset.at), e.ctrlKey || e.metaKey || e.shiftKey, false);
-    });
-    this.box.addEventListener('dblclick', (e) => {
-      const item = e.target.closest('.item');
-      if (item) this.on.fit(this.kind, this.rows.at(Number(item.dataset.at)));
+      if (!item) return;
+      const i = Number(item.dataset.at);
+      // The second click of a double one comes to a row that was made anew by the first: it fits, and leaves what is picked.
+      if (e.detail >= 2) this.on.fit(this.kind, this.rows.at(i));
+      else this.choose(i, e.ctrlKey || e.metaKey || e.shiftKey, false);
     });
     this.box.addEventListener('keydown', (e) => {
       const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10, Home: -1e9, End: 1e9 }[e.key];
@@ -64,6 +64,23 @@ export class EntityList {
     this.at = 0;
     this.filter();
   }
+  /** Makes an entity seen in the list, whatever was searched for. */
+  async reveal(kind, position) {
+    if (![...this.select.options].some((o) => o.value === kind)) return;
+    const isHidden = this.search.value !== '' && (this.kind !== kind || this.placeOf(position) < 0);
+    if (isHidden) this.search.value = '';
+    if (this.kind !== kind) await this.show(kind);
+    else if (isHidden) this.filter();
+    const i = this.placeOf(position), first = this.box.scrollTop / rowHeight, n = this.box.clientHeight / rowHeight;
+    // Lists that are scrolled in larger steps go by shares.
+    const whole = this.rows.length * rowHeight;
+    if (whole > mostHeight) this.box.scrollTop = (i / this.rows.length) * (mostHeight - this.box.clientHeight);
+    else if (i < first || i + 1 > first + n) this.box.scrollTop = (i - n / 2) * rowHeight;
+    this.at = i;
+    this.render();
+  }
+  /** Where in the list a position is, -1 where it is not. */
+  placeOf(position) { return this.found ? this.found.indexOf(position) : position; }
   /** Positions of those of a kind that the words say, null for all. */
   matches(kind, words) {
     if (!words.length) return null;
@@ -82,6 +99,7 @@ export class EntityList {
   }
   filter() {
     const words = this.search.value.trim().toLowerCase().split(/\s+/).filter(Boolean), list = this.matches(this.kind, words);
+    this.found = list;
     this.rows = list ? { length: list.length, at: (i) => list[i] } : { length: this.scene.count(this.kind) ?? 0, at: (i) => i };
     const named = kindNamed(words[0] ?? ''), offered = [...this.select.options].map((o) => o.value);
     // "curve 5" is one whatever is listed now.

@@ -46,7 +46,12 @@ export class Live {
     this.build();
     while (!(await this.joined())) await new Promise((resolve) => setTimeout(resolve, 1000));
     // A closed tab makes room for another one.
-    addEventListener('pagehide', () => this.ask('leave', { id: this.id }, { keepalive: true }).catch(() => {}));
+    addEventListener('pagehide', () => {
+      this.isGone = true;  // who asks for news once more would be back
+      this.waiting?.abort();
+      this.ask('leave', { id: this.id }, { keepalive: true }).catch(() => {});
+    });
+    addEventListener('pageshow', (e) => { if (e.persisted) location.reload(); });
     this.follow();
     await new Promise((resolve) => { this.isThere = resolve; });
   }
@@ -94,10 +99,14 @@ export class Live {
     return false;
   }
   async follow() {
-    for (;;) {
+    // A machine that has lost its network, or has it back, is told so: no use to wait for an answer to what was asked before.
+    for (const kind of ['offline', 'online']) addEventListener(kind, () => this.waiting?.abort());
+    while (!this.isGone) {
       try {
+        this.waiting = new AbortController();
         // A browser has six connections to a server at most: tabs that nobody looks at do not hold one.
-        const isLookedAt = !document.hidden, news = await (await this.ask(`events?id=${this.id}&since=${this.next}&wait=${isLookedAt ? 15 : 0}`)).json();
+        // Nor does one wait whose connection was lost: it is to know when it is back.
+        const isLookedAt = !document.hidden, news = await (await this.ask(`events?id=${this.id}&since=${this.next}&wait=${isLookedAt && this.isConnected ? 15 : 0}`, null, { signal: this.waiting.signal })).json();
         this.connected(true);
         this.next = news.next;
         this.isShown = false;
@@ -108,6 +117,7 @@ export class Live {
         if (!news.running) this.isThere?.();
         if (!isLookedAt) await untilSeen(4000);
       } catch (error) {
+        if (this.isGone) return;
         if (error.status === 404) await this.joined();
         else if (error.status === 403) {
           this.connected(false, error.message);
@@ -119,6 +129,7 @@ export class Live {
     }
   }
   connected(yes, why = 'connection lost, trying again') {
+    this.isConnected = yes;
     element('connection').textContent = yes ? '' : why;
     element('connection').hidden = yes;
   }
@@ -130,25 +141,25 @@ export class Live {
       if (error.status === 404) return null;
       throw error;
     });
-    if (!response) return null;
+    if (!response || response.status === 204) return null;
     const bytes = new Uint8Array(await response.arrayBuffer());
     this.received = (this.received ?? 0) + bytes.length;
     let arrays = await unpack(bytes);
     if (response.headers.get('X-Hextwist-Difference') === '1') arrays = completed(arrays, have.arrays);
-    if (!/^c\d+$/.test(name)) this.blocks.set(name, { number: Number(response.headers.get('X-Hextwist-Number')), arrays });
+    if (!/^(before-)?c\d+$/.test(name)) this.blocks.set(name, { number: Number(response.headers.get('X-Hextwist-Number')), arrays });
     return arrays;
   }
   async reload(version) {
-    const { app } = this, before = app.panes.length ? app.scene : null, isTwo = app.panes.length > 1;
+    const { app } = this, isFirst = app.panes.length === 0, isTwo = app.panes.length > 1;
     const scene = await Scene.open((name) => this.load(name));
     this.version = version;
     if (!scene) {
       app.say('there is no mesh yet: import one, or create a brick');
       return;
     }
-    // What is not loaded of the mesh before is not to be had any more.
-    if (before) before.load = async () => null;
-    await app.open(scene, before, before !== null);
+    let before = null;
+    const openBefore = () => (before ??= Scene.open((name) => this.load(`before-${name}`)));
+    await app.open(scene, { before: scene.meta.has_before ? openBefore : null, keep: !isFirst });
     if (isTwo) await app.showBefore(true);
   }
 
@@ -158,7 +169,7 @@ export class Live {
       this.files.add(text);
       const link = make('button', { textContent: `save ${text}`, title: `Download ${text}` });
       link.addEventListener('click', () => this.save(text).catch((error) => this.log('error', `error: ${error.message}`)));
-      element('log').append(link, '\n');
+      this.append(link, '\n');
       return;
     }
     if (kind === 'command') {
@@ -168,10 +179,14 @@ export class Live {
     this.log(kind, kind === 'command' ? `> ${text}` : text);
   }
   log(kind, text) {
+    this.append(make('span', { className: kind === 'command' ? 'said' : kind, textContent: `${text}\n` }));
+    if (kind === 'command') element('log').scrollTop = element('log').scrollHeight;
+  }
+  append(...nodes) {
     const log = element('log'), atEnd = log.scrollTop + log.clientHeight > log.scrollHeight - 40;
-    log.append(make('span', { className: kind === 'command' ? 'said' : kind, textContent: `${text}\n` }));
+    log.append(...nodes);
     while (log.childNodes.length > 3000) log.firstChild.remove();
-    if (atEnd || kind === 'command') log.scrollTop = log.scrollHeight;
+    if (atEnd) log.scrollTop = log.scrollHeight;
   }
   report(record) {
     const box = element('report'), row = (name, value) => make('tr', {}, make('th', { scope: 'row', textContent: name }), make('td', { textContent: value }));

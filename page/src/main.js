@@ -18,7 +18,9 @@ async function start() {
   window.hextwist = app;  // for tests and for who looks
   if (document.getElementById('skin')) {
     const scene = await Scene.open(fromPage(''));
-    await app.open(scene, await Scene.open(fromPage('before-')));
+    const before = document.getElementById('before-skin') ? fromPage('before-') : null;
+    let opened = null;
+    await app.open(scene, { before: before && (() => (opened ??= Scene.open(before))) });
   } else if (location.protocol.startsWith('http')) {
     await new Live(app).start();
   } else {

@@ -42,7 +42,7 @@ void main() {
   vec2 near = min(at, 1.0 - at) / max(wide, vec2(1e-6));
   float edge = 1.0 - smoothstep(0.4, 1.25, min(near.x, near.y));
   // Edges of small quads fade: they would cover everything.
-  edge *= lines * clamp(1.35 - 4.5 * max(wide.x, wide.y), 0.0, 1.0);
+  edge *= lines * clamp(1.25 - 2.5 * max(wide.x, wide.y), 0.0, 1.0);
 #endif
   vec3 base = colour.rgb * mix(1.0, shade, lit);
   result = vec4(mix(base, ink, edge), opacity * colour.a);
@@ -97,7 +97,7 @@ void main() {
   vec3 n = normalize(turned);
   float shade = 0.70 + 0.32 * max(0.0, dot(n.z < 0.0 ? -n : n, normalize(vec3(-0.25, 0.45, 0.9))));
   vec2 wide = fwidth(at), near = min(at, 1.0 - at) / max(wide, vec2(1e-6));
-  float edge = (1.0 - smoothstep(0.4, 1.25, min(near.x, near.y))) * lines * clamp(1.35 - 4.5 * max(wide.x, wide.y), 0.0, 1.0);
+  float edge = (1.0 - smoothstep(0.4, 1.25, min(near.x, near.y))) * lines * clamp(1.25 - 2.5 * max(wide.x, wide.y), 0.0, 1.0);
   result = vec4(mix(mix(colour, own, tinted) * shade, ink, edge), 1.0);
 }`,
     uniforms: { clip: { value: noClip() }, colour: { value: new THREE.Vector3() }, ink: { value: new THREE.Vector3() }, lines: { value: 0 }, tinted: { value: 0 } },

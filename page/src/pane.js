@@ -46,7 +46,7 @@ export class Pane {
     this.theme = theme;
     this.root = new THREE.Scene();
     this.faces = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial());
-    this.section = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial({ lines: 0, offset: 0 }));
+    this.section = new THREE.Mesh(new THREE.BufferGeometry(), quadMaterial({ lines: 0, offset: 0.5 }));
     this.sectionLines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
     this.cad = new THREE.Mesh(new THREE.BufferGeometry(), cadMaterial());
     this.curves = new THREE.Group();
@@ -146,7 +146,7 @@ export class Pane {
         visible[h] = (!shown || shown[h]) && a * centres[3 * h] + b * centres[3 * h + 1] + c * centres[3 * h + 2] <= d ? 1 : 0;
     }
     this.shown = visible;
-    const part = explode ? await this.parts(inside) : null;
+    const parts = explode ? await this.parts(inside) : null, part = parts?.n > 1 ? parts : null;
     if (!visible && !part) this.setQuads(skinQuads(scene));
     else {
       const quads = subsetQuads(inside, visible ?? new Uint8Array(inside.nHexes).fill(1), part?.of ?? null);

@@ -1,7 +1,7 @@
 // The picture: panes side by side under one camera, mouse and keys on it, labels over it.
 import * as THREE from 'three';
 import { Eye } from './camera.js';
-import { find, hexesWithin } from './find.js';
+import { find, firstMet, hexesWithin, isCutOff } from './find.js';
 
 const most = { labels: 400, tried: 4000 };
 
@@ -147,8 +147,8 @@ export class Stage {
     pen.lineWidth = 1;
   }
   drawLabels(pen, camera) {
-    const { places, texts } = this.labelPoints, pane = this.panes[this.panes.length - 1], w = this.paneWidth, shift = this.width - w;
-    const p = new THREE.Vector3(), place = new THREE.Vector3(), ray = new THREE.Raycaster(), taken = [], slack = 0.02 * pane.scene.radius;
+    const { places, texts, textOf } = this.labelPoints, pane = this.panes[this.panes.length - 1], w = this.paneWidth, shift = this.width - w;
+    const p = new THREE.Vector3(), place = new THREE.Vector3(), ray = new THREE.Raycaster(), taken = [], slack = 0.02 * pane.scene.radius, clip = pane.faces.material.uniforms.clip.value;
     pen.font = '600 11px system-ui, sans-serif';
     pen.textAlign = 'center';
     pen.textBaseline = 'middle';
@@ -162,8 +162,10 @@ export class Stage {
         if (taken.some(([a, b, c]) => Math.abs(a - x) < half + c && Math.abs(b - y) < 15)) continue;
         ++tried;
         ray.setFromCamera(new THREE.Vector2(p.x, p.y), camera);
-        const hit = (pane.scene.isCad ? pane.cadTree() : pane.tree())?.raycastFirst(ray.ray, THREE.DoubleSide);
-        if (hit && hit.distance < ray.ray.origin.distanceTo(place) - slack) continue;
+        const hit = firstMet(pane.scene.isCad ? pane.cadTree() : pane.tree(), ray.ray, clip);
+        if (isCutOff(place, clip) || (hit && hit.distance < ray.ray.origin.distanceTo(place) - slack)) continue;
+        // Of a face it is the face itself that is met, from without: from within what the plane cuts covers it.
+        if (textOf && (!hit || textOf(hit.faceIndex >> 1) !== texts[i] || hit.face.normal.dot(ray.ray.direction) > 0)) continue;
         taken.push([x, y, half]);
         pen.fillStyle = this.theme.label;
         pen.beginPath();

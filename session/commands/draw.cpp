@@ -8,6 +8,7 @@
 #include "hextwist/io/file.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/session/view/before.h"
 #include "hextwist/session/view/page.h"
 #include "hextwist/session/view/paint.h"
 #include "hextwist/session/view/render_internal.h"
@@ -17,6 +18,7 @@ namespace hextwist {
 namespace {
 
 constexpr std::size_t most_drawn = 20000;
+constexpr Index most_before = 200000;  // hexes: with more a page would be twice as large for them
 
 Vec3 view_of(const Command& command) {
   if (!command.has("from")) return {1, -1, 0.7};
@@ -138,11 +140,14 @@ void draw_picture(Execution& run, io::Output& out, const SceneSource& source, co
 }
 
 /// The page always has the whole mesh; what the command is about is picked there, and hexes are shown alone.
-void draw_page(Execution& run, io::Output& out, SceneSource source, const SceneStart& start) {
+void draw_page(Execution& run, io::Output& out, SceneSource source, const SceneStart& start,
+               const std::unique_ptr<MeshBefore>& before) {
   const std::string& file = run.command.find("file")->text;
   source.title =
       run.command.find("title") ? run.command.find("title")->text : std::filesystem::path(file).stem().string();
-  const Page made = page(source, start, nullptr);
+  std::optional<SceneSource> other;
+  if (source.before && source.before().n_hexes() <= most_before) other.emplace(before->source(source.title));
+  const Page made = page(source, start, other ? &*other : nullptr);
   out << made.text;
   for (const std::string& name : made.left_out)
     run.note(name + " is left out of " + file + ", which would be too large");
@@ -168,11 +173,17 @@ void do_draw(Execution& run) {
     throw error_at(command.statement, file.token, "only a .gif takes further pictures");
   if (is_page) page_text();  // better said before the work
   run.stage("draw");
-  const SceneSource source{run.core.selector(), run.state, {}};
+  std::unique_ptr<MeshBefore> before;
+  SceneSource source{run.core.selector(), run.state, {}};
+  if (has_mesh_before(run.core))
+    source.before = [&]() -> const Mesh& {
+      if (!before) before = mesh_before(run.core);
+      return before->mesh();
+    };
   const SceneStart start = start_of(run, source);
   io::Output out(file.text, command.has("overwrite") || command.has("append"));
   if (is_page)
-    draw_page(run, out, source, start);
+    draw_page(run, out, source, start, before);
   else
     draw_picture(run, out, source, start);
   out.commit();

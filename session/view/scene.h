@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,11 +50,12 @@ struct SceneSource {
   Selector selector;
   const SessionState& state;
   std::string title;
+  std::function<const Mesh&()> before = {};  ///< as it was before the last change; empty: that is not known
 };
 
 /// Values that can give the colours.
 struct Channel {
-  enum class What { volume, block, level, cut, size, metric, field };
+  enum class What { volume, block, level, cut, changed, size, metric, field };
   What what = What::metric;
   std::string name;       ///< as users know it: "shape", "error", "error z"
   std::string group;      ///< "mesh", "quality", "fields"

@@ -51,6 +51,37 @@ std::vector<std::uint32_t> cuts(const HandedHexes& hexes) {
   return result;
 }
 
+/// The same for hexes with the same corners, wherever these stand in the arrays.
+std::uint64_t key_of_corners(const Mesh& mesh, const Hex& hex) {
+  const auto mixed = [](std::uint64_t v) {
+    v ^= v >> 33;
+    v *= 0xff51afd7ed558ccdULL;
+    v ^= v >> 33;
+    v *= 0xc4ceb9fe1a85ec53ULL;
+    return v ^ v >> 33;
+  };
+  std::uint64_t sum = 0;
+  for (const Index node : hex) {
+    std::uint64_t of_node = 0;
+    for (const double x : mesh.points[static_cast<std::size_t>(node)])
+      of_node = mixed(of_node + std::bit_cast<std::uint64_t>(x + 0.0));
+    sum += of_node;
+  }
+  return sum;
+}
+
+/// Hexes that are not in the mesh before, or had corners elsewhere there.
+std::vector<std::uint32_t> changes(const Mesh& mesh, const Mesh& before) {
+  std::vector<std::uint64_t> known(before.hexes.size());
+  parallel_each(known.size(), [&](std::size_t h) { known[h] = key_of_corners(before, before.hexes[h]); });
+  std::ranges::sort(known);
+  std::vector<std::uint32_t> result(mesh.hexes.size());
+  parallel_each(result.size(), [&](std::size_t h) {
+    result[h] = std::ranges::binary_search(known, key_of_corners(mesh, mesh.hexes[h])) ? 0 : 1;
+  });
+  return result;
+}
+
 /// Levels that came with a file, as 'refine ... graded' writes them.
 bool is_level_field(const Field& field) {
   constexpr double highest = 60;
@@ -102,6 +133,8 @@ std::vector<std::uint32_t> classes_of(const SceneSource& source, const Channel& 
       for (std::size_t h = 0; h < n; ++h)
         result[h] = static_cast<std::uint32_t>(meshed.mesh.fields[static_cast<std::size_t>(channel.field)].values[h]);
       break;
+    case Channel::What::changed:
+      return changes(meshed.mesh, source.before());
     default:
       result = cuts(*channel.pieces);
   }
@@ -174,6 +207,12 @@ std::vector<Channel> channels(const SceneSource& source) {
                       .is_class = true,
                       .field = static_cast<Index>(field - mesh.fields.begin())});
   }
+  if (source.before)
+    result.push_back({.what = Channel::What::changed,
+                      .name = "changed",
+                      .group = "mesh",
+                      .is_class = true,
+                      .classes = {{0, "as before"}, {1, "changed"}}});
   if (last_wish(source.state))
     result.push_back({.what = Channel::What::size, .name = "actual / wished size", .group = "mesh"});
   for (const Metric metric : metrics())

@@ -70,7 +70,8 @@ std::string scene_meta(const SceneSource& source, const std::vector<Channel>& ch
     }
     text += ",\"volumes_of_surface\":" + list(volumes);
   }
-  text += std::string(",\"has_cad\":") + (source.state.has_cad ? "true" : "false");
+  text += std::string(",\"has_cad\":") + (source.state.has_cad ? "true" : "false") +
+          ",\"has_before\":" + (source.before ? "true" : "false");
   text += ",\"origin\":" + point(scene_origin(source)) + ",\"size\":" + json_number(all.diagonal());
   constexpr const char* names[] = {"vertex", "curve", "surface", "volume"};
   for (int dim = 0; dim < 4; ++dim)

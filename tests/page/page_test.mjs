@@ -27,25 +27,31 @@ async function clickAt(page, { box }, [x, y]) {
 
 for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
   test(`a click finds the entity of every kind that is there: ${name}`, async () => {
-    const mesh = truth(name), page = await open(browser, drawn(`picks_${name}`, name)), next = random(7);
-    const blocks = listed(run([...model(name), '-c', 'list block all']), 'block');
+    const mesh = truth(name), next = random(7), [x, y] = mesh.middle.map((v) => v + 0.01);
+    // Parts of it are in sets; of those that overlap the first counts.
+    const halves = (kind) => [`${kind} with x_coord < ${x}`, `${kind} with ${kind === 'node' ? '' : `x_coord >= ${x} and `}y_coord < ${y}`], kindIn = { block: 'hex', sideset: 'face', nodeset: 'node' }, ids = { block: [7, 8], sideset: [5, 6], nodeset: [6, 9] };
+    const sets = Object.entries(kindIn).flatMap(([set, kind]) => [`reset ${set}`, ...halves(kind === 'face' ? 'face in surface all' : kind).map((what, i) => `${set} ${ids[set][i]} ${what}`)]).join('; ');
+    const said = [0, 1].map((i) => run([...model(name), '-c', [sets, ...Object.entries(kindIn).map(([set, kind]) => `list ${kind} in ${set} ${ids[set][i]}`)].join('; ')]));
+    const members = Object.fromEntries(Object.entries(kindIn).map(([set, kind]) => [set, said.map((text) => new Set(listed(text, kind)))]));
+    const setOf = (set, member) => { const i = members[set].findIndex((all) => all.has(member)); return i < 0 ? '' : `${set} ${ids[set][i]}`; }, met = new Set();
+    const page = await open(browser, drawn(`picks_${name}`, name, sets));
     for (const direction of ['1 -1 0.7', '0 -1 0']) {
       const frame = await lookFrom(page, mesh, direction), { view, box } = frame;
       const seen = (p, slack) => { const at = mesh.pixel(view, p), hit = mesh.meet(view, ...at); return !hit || mesh.depth(view, p) > hit.depth - slack; };
-      for (const kind of ['hex', 'face', 'surface', 'volume', 'node', 'edge', 'block']) {
+      for (const kind of ['hex', 'face', 'surface', 'volume', 'node', 'edge', 'block', 'sideset', 'nodeset', 'sheet']) {
         await kindOf(page, kind);
-        for (let tries = 0, done = 0; done < 3 && tries < 400; ++tries) {
+        for (let tries = 0, done = 0; done < (kind in kindIn ? 5 : 3) && tries < 400; ++tries) {
           const at = [next() * box.width, next() * box.height], hit = mesh.meet(view, ...at);
           if (!hit || hit.margin < 2) continue;
           const { face, corners } = hit, to = corners.map((c) => Math.hypot(c[0] - at[0], c[1] - at[1]));
           const sides = corners.map((c, i) => toLine(...at, c, corners[(i + 1) % 4])), nearest = (d) => d.indexOf(Math.min(...d)), isClear = (d) => { const s = [...d].sort((a, b) => a - b); return s[1] - s[0] > 2; };
-          if ((kind === 'node' && !isClear(to)) || (kind === 'edge' && !isClear(sides))) continue;
+          if ((kind.startsWith('node') && !isClear(to)) || (['edge', 'sheet'].includes(kind) && !isClear(sides))) continue;
           const k = nearest(sides), ends = [face.cycle[k], face.cycle[(k + 1) % 4]].sort((a, b) => a - b);
-          const id = { hex: face.hexes[0].id, face: face.id, surface: face.surface, volume: face.hexes[0].volume, node: face.cycle[nearest(to)], edge: mesh.edgeIds.get(ends.join()), block: null }[kind];
-          const range = await clickAt(page, frame, at);
-          if (kind === 'block') assert.ok(blocks.length === 0 ? range === '' : blocks.includes(idsOf(range)[0]), `${range} of ${blocks}`);
-          else assert.equal(range, `${kind} ${id}`, `${name} from ${direction} at ${at}`);
-          ++done;
+          const id = { hex: face.hexes[0].id, face: face.id, surface: face.surface, volume: face.hexes[0].volume, node: face.cycle[nearest(to)], edge: mesh.edgeIds.get(ends.join()) };
+          const expected = kind in kindIn ? setOf(kind, id[kindIn[kind]]) : `${kind} ${kind === 'sheet' ? listed(run([...model(name), '-c', `list sheet in edge ${id.edge}`]), 'sheet') : id[kind]}`;
+          assert.equal(await clickAt(page, frame, at), expected, `${name} from ${direction} at ${at}`);
+          met.add(expected);
+          done += kind === 'sheet' ? 3 : 1;  // the program is asked for each
         }
       }
       // Curves at the middles of their edges, vertices at their places; kind "auto" finds the same.
@@ -69,6 +75,7 @@ for (const name of ['bracket', 'pipe_tee', 'sphere', 'inclusion'])
         assert.equal(await clickAt(page, frame, at), `vertex ${id}`);
       }
     }
+    for (const set of Object.keys(kindIn)) for (const id of ids[set]) assert.ok(met.has(`${set} ${id}`), `${set} ${id} was never met`);
     await shot(page, `picks_${name}`);
     assert.deepEqual(page.problems, []);
     await page.close();
@@ -121,6 +128,25 @@ test('several picks make one range, and commands that the program takes', async 
       assert.doesNotMatch(said, /expected|unexpected|does not exist|ambiguous/, texts.join('; '));
     }
   }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+test('a double click in the list fits; what is picked elsewhere is seen in it', async () => {
+  const page = await open(browser, drawn('list', 'bracket')), eye = () => page.evaluate(() => hextwist.stage.eye.height), whole = await eye();
+  await page.selectOption('#list-kind', 'curve');
+  await page.dblclick('#list .item:has-text("curve 5")');
+  assert.equal(await value(page, 'range'), 'curve 5');
+  await page.waitForFunction((whole) => hextwist.stage.eye.height < 0.8 * whole, whole);
+  // Whatever is searched for, and however long the list is.
+  await page.fill('#search', 'line');
+  await page.selectOption('#list-kind', 'hex');
+  await page.fill('#search', '7');
+  await page.evaluate(() => hextwist.clicked({ kind: 'hex', id: 400, position: 399, pane: hextwist.pane, hit: null }));
+  await page.waitForSelector('#list .item[aria-selected="true"]:has-text("hex 400")');
+  const [item, list] = await Promise.all(['#list .item[aria-selected="true"]', '#list'].map(async (s) => (await page.$(s)).boundingBox()));
+  assert.ok(item.y >= list.y && item.y + item.height <= list.y + list.height, 'the row is seen');
+  assert.equal(await value(page, 'search'), '');
   assert.deepEqual(page.problems, []);
   await page.close();
 });
@@ -644,6 +670,48 @@ test('a column of hexes, and the planes of a refinement', async () => {
   await shot(page, 'planes');
   assert.deepEqual(page.problems, []);
   await page.close();
+});
+
+test('what a refinement has put in is shown however it was made, beside the mesh before', async () => {
+  // By single and parallel sheets, as the paper has it: no levels.
+  const commands = 'create brick x 4 interval 4; refine curve 1', page = await open(browser, drawn('put_in', null, commands));
+  const mesh = truth(null, commands), old = truth(null, 'create brick x 4 interval 4');
+  const corners = (mesh, hex) => hex.nodes.map((n) => mesh.points.get(n).join(' ')).sort().join(), known = new Set(old.hexes.map((hex) => corners(old, hex)));
+  const isNew = new Set(mesh.hexes.filter((hex) => !known.has(corners(mesh, hex))).map((hex) => hex.id));
+  assert.ok(isNew.size > 0 && isNew.size < mesh.hexes.length);
+  await page.selectOption('#colour', 'changed');
+  await settled(page);
+  await page.click('#histogram button:has-text("changed")');
+  await page.waitForFunction(() => document.getElementById('range').value !== '');
+  assert.deepEqual(idsOf(await value(page, 'range')), [...isNew].sort((a, b) => a - b));
+  // Sheets all of whose hexes are new.
+  const n = listed(run(['-c', `${commands}; list sheet all`]), 'sheet').length, within = [];
+  for (let sheet = 1; sheet <= n; ++sheet) if (listed(run(['-c', `${commands}; list hex in sheet ${sheet}`]), 'hex').every((id) => isNew.has(id))) within.push(sheet);
+  await page.click('[data-do="refined-planes"]');
+  await page.waitForFunction(() => document.getElementById('range').value.startsWith('sheet ') && hextwist.pane.planes.children.length > 0);
+  assert.ok(within.length > 0);
+  assert.deepEqual(idsOf(await value(page, 'range')), within);
+  assert.equal(await page.evaluate(() => hextwist.pane.planes.children.length), within.length);
+  await page.click('[data-toggle="before"]');
+  await page.waitForFunction(() => hextwist.panes.length === 2);
+  assert.deepEqual(await page.evaluate(() => hextwist.panes.map((pane) => pane.scene.meta.n_hexes)), [old.hexes.length, mesh.hexes.length]);
+  // One block and one volume can't be moved apart, and are not moved at all.
+  await page.click('[data-toggle="before"]');
+  const place = () => page.evaluate(() => Array.from(hextwist.pane.faces.geometry.getAttribute('position').array.slice(0, 30))), there = await place();
+  await page.$eval('#explode', (e) => { e.value = 0.5; e.dispatchEvent(new Event('input')); });
+  await page.waitForFunction(() => /nothing to move apart/.test(document.getElementById('status').value));
+  assert.deepEqual(await place(), there);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  // A mesh from a file without its history: it is said.
+  const file = join(output, 'put_in.msh');
+  run(['-c', `${commands}; export mesh '${file}' overwrite`]);
+  run(['view', file, '-o', join(output, 'put_in.html')]);
+  const bare = await open(browser, `file://${join(output, 'put_in.html')}`);
+  await bare.click('[data-do="refined-planes"]');
+  await bare.waitForFunction(() => /how this mesh was refined is not in this page/.test(document.getElementById('status').value));
+  assert.equal(await bare.isHidden('[data-toggle="before"]'), true);
+  await bare.close();
 });
 
 test('controls have names and roles, and nothing sticks out', async () => {
