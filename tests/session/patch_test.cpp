@@ -78,6 +78,7 @@ struct Pair {
 
 /// Smaller than what is there, here and there.
 std::string random_sizes(const Mesh& mesh, std::mt19937& random) {
+  if (mesh.n_hexes() == 0) return "redo";  // the taking of the mesh was undone
   const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
   const std::string targets[] = {"vertex " + std::to_string(1 + below(8)), "curve " + std::to_string(1 + below(12)),
                                  "hex " + std::to_string(hex_id(mesh, below(mesh.n_hexes()))),
