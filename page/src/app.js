@@ -437,7 +437,7 @@ export class App {
       ofCad.lines.value = what === 'both' ? 0.75 : 0;
       for (const uniforms of [ofFaces, ofCad]) uniforms.ink.value.set(...this.theme.edge);
       ofCad.colour.value.set(...this.theme.cad);
-      pane.sectionLines.material.color.set(this.theme.ink);
+      pane.sectionLines.material.color.setRGB(...this.theme.edge, 'srgb');
     }
     this.draw();
   }
