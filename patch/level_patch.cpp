@@ -314,6 +314,11 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
     if (given) {
       report.sizes = whole_sizes(*report.sizes, sizes->outside, numbers);
       report.sizes->n_passes = static_cast<int>(next.wished.size());
+      // What asks and is not near what changes: it can't be had.
+      std::vector<Index>& unmet = report.sizes->unmet;
+      for (const Index h : difference(given->sizes.too_large, part.patch.hexes))
+        unmet.push_back(numbers.hexes.after(h));
+      sort_unique(unmet);
     }
     const Index n_whole_after = grown.hexes.n_base - static_cast<Index>(cut.size());
     if (!request.finish.dry_run) {

@@ -69,6 +69,7 @@ std::optional<PatchResult> in_plain_patch(const SizesOfAll& sizes, const Measure
     run.part = &part;
     make_passes(run, approach);
     run.stages.close();
+    if (part.is_too_small) return std::nullopt;
     if (!rings->is_all && part.farthest + enough_rings > n_rings) continue;
     if (const LevellingPtr& levelling = run.result().levelling; levelling && !levelling->forest.is_bare()) {
       report.off_nodes.clear();  // they come again
@@ -191,6 +192,7 @@ std::optional<PatchResult> refine_sizes_patch(const MeshedModel& input, const Me
   // A mesh that becomes much larger is made as a whole, and seen to be large before anything is tried.
   if (sizes.too_large.size() > limit || sizes.least_more() > static_cast<double>(limit)) return std::nullopt;
   if (known.scaled_jacobian.min <= 0) return std::nullopt;
+  if (has_levels(request) && approach != Approach::size_by_levels) return std::nullopt;  // levels end
   if (has_levels(request)) return in_forest_patch(sizes, known, report, progress, rings_of, limit);
   return in_plain_patch(sizes, known, report, approach, progress, rings_of, limit);
 }

@@ -1,7 +1,7 @@
 // Last resort of placing: what to do about children that came out inverted.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -169,9 +169,7 @@ std::vector<OffOwner> repair_children(const Mesh& old_mesh, const Split& split, 
                  nodes_on_surfaces(mesh, association, options.repeated_surfaces));
     try_all({staying, options.keep_jumps});
     if (bad.empty()) return rows;
-    std::vector<Index> all(mesh.points.size());
-    std::iota(all.begin(), all.end(), 0);
-    put_back(all);
+    put_back(nodes_of_hexes(mesh, with_layers(mesh, bad, reaches[std::size(reaches) - 1].layers)));
   }
   try_all(stays);
   if (bad.empty()) return rows;

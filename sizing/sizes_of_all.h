@@ -53,6 +53,8 @@ struct SizesInPart {
   std::span<const std::uint8_t> ring;  ///< per hex of the part: how far it is from what asks
   int farthest = 0;                    ///< ring in which anything was cut, by whatever was tried
 
+  bool is_too_small = false;  ///< something begins outside: only the whole will do
+
   void note_cut(Index hex) { farthest = std::max(farthest, int{ring[hex]}); }
   /// nodes, hexes: those of the part, ascending.
   SizesInPart(const SizesOfAll& of, std::span<const Index> nodes, std::span<const Index> hexes);

@@ -15,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t most_events = 4000;
+constexpr auto reload_time = 10s;
 constexpr std::string_view before_prefix = "before-";
 
 /// The name of a block in its scene.
@@ -179,19 +180,24 @@ LiveSession::Clock::time_point LiveSession::last_seen() {
 
 bool LiveSession::was_left() {
   const std::lock_guard lock(mutex_);
-  return left_;
+  return left_ && Clock::now() - *left_ > reload_time;
 }
 
 void LiveSession::leave() {
   const std::lock_guard lock(mutex_);
-  left_ = true;
+  left_ = Clock::now();
   changed_.notify_all();
+}
+
+void LiveSession::come_back() {
+  const std::lock_guard lock(mutex_);
+  left_ = std::nullopt;
 }
 
 std::string LiveSession::events(std::size_t since, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   seen_ = Clock::now();
-  left_ = false;
+  left_ = std::nullopt;
   const bool was_running = running_;
   // While something runs, its progress is news.
   if (was_running) patience = std::min<std::chrono::milliseconds>(patience, 250ms);

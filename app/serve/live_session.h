@@ -55,9 +55,12 @@ class LiveSession {
   bool has_written(const std::string& file);
 
   std::chrono::steady_clock::time_point last_seen();
-  /// Its page was closed or is loaded anew, and has not asked for anything since.
-  bool was_left();
+  /// Its page was closed, or is being loaded anew.
   void leave();
+  /// It is there again.
+  void come_back();
+  /// It left so long ago that it would be back by now.
+  bool was_left();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -81,7 +84,8 @@ class LiveSession {
   std::vector<std::string> events_;
   std::size_t n_dropped_ = 0, version_ = 0, n_sent_ = 0;
   std::optional<std::string> wanted_;
-  bool running_ = true, ended_ = false, left_ = false;
+  bool running_ = true, ended_ = false;
+  std::optional<Clock::time_point> left_;
   std::string stage_;
   double share_ = 0;
   std::vector<std::string> written_;

@@ -177,7 +177,9 @@ class Server {
     const Json body = Json::parse(request.body, nullptr, false);
     if (!body.is_object()) return refuse(response, 400, "this is not a JSON object");
     std::string id = body.contains("id") && body["id"].is_string() ? body["id"].get<std::string>() : "";
-    const bool is_known = !id.empty() && session(id);
+    const std::shared_ptr<LiveSession> before = id.empty() ? nullptr : session(id);
+    const bool is_known = before != nullptr;
+    if (is_known) before->come_back();
     if (!is_known) {
       if (n_sessions() >= most_sessions) end_sessions_unseen_for(left_time, true);
       const std::lock_guard lock(mutex_);

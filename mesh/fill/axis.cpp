@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "hextwist/base/interrupt.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/fill/layers_internal.h"
 
@@ -285,6 +286,7 @@ class Core {
       }
     }
     for (std::size_t k = 1; k + 1 < level.size(); ++k) {
+      check_interrupt();
       const double t = static_cast<double>(k) / static_cast<double>(n_layers);
       for (const auto& [node, first] : level.front())
         level[k][node] =
@@ -334,6 +336,7 @@ class Core {
     const Index seam = (static_cast<Index>(std::lround(end.angle / angle_of(1))) + n_) % n_;
     std::vector<Index> last = caps_.at(&end).ring, piece{last[0]}, line = caps_.at(&end).line;
     for (Index row = 1; row <= n_rows; ++row) {
+      check_interrupt();
       const double part = static_cast<double>(row) / static_cast<double>(n_rows);
       std::vector<Index> next = outer;
       if (row < n_rows) {

@@ -158,7 +158,7 @@ export class Live {
       return;
     }
     let before = null;
-    const openBefore = () => (before ??= Scene.open((name) => this.load(`before-${name}`)));
+    const openBefore = () => (before ??= Scene.open((name) => this.load(`before-${name}`)).catch((error) => { before = null; throw error; }));
     await app.open(scene, { before: scene.meta.has_before ? openBefore : null, keep: !isFirst });
     if (isTwo) await app.showBefore(true);
   }

@@ -112,7 +112,6 @@ LevelMarks with_gradation(Forest& forest) {
   return graded(forest.wished, base.hexes, *forest.base_corners, forest.mirror.get());
 }
 
-/// See RepairOptions.
 std::span<const int> repeated_surfaces(const Forest& forest) {
   if (!forest.mirror) return {};
   return forest.mirror->surfaces;

@@ -53,6 +53,8 @@ Forest with_stack(Forest forest, const Mesh& mesh);
 MeshedModel grown_mesh(Forest& forest, GrownForest& grown, const std::vector<Index>& fixed = {});
 /// The forest's wishes and what gradation needs besides; keeps base_corners.
 LevelMarks with_gradation(Forest& forest);
+/// As for StackOptions.
+std::span<const int> repeated_surfaces(const Forest& forest);
 /// How often the cell that each hex of the mesh is, or is a piece of, has been cut out of others.
 std::vector<std::uint8_t> levels_of(const Forest& forest);
 

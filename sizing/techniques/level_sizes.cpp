@@ -98,9 +98,12 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
     state_.begin("levels");
     LevelMarks marks = with_gradation(forest);
     if (state_.part) marks = united(marks, forest_.grown->marks);  // and what is wished for outside forces here
-    LevelledMesh built = build_levels(
-        base, marks, options.reuse,
-        {.keep_meshes = true, .fixed = options.fixed, .progress = options.progress, .keep_jumps = options.keep_jumps});
+    LevelledMesh built = build_levels(base, marks, options.reuse,
+                                      {.keep_meshes = true,
+                                       .fixed = options.fixed,
+                                       .progress = options.progress,
+                                       .keep_jumps = options.keep_jumps,
+                                       .repeated_surfaces = repeated_surfaces(forest_)});
     options.reuse = std::move(built.stack);
     const LevelPieces pieces = level_pieces(options.reuse, base.mesh.n_hexes());
     const LevelOrigin origin = level_origin(pieces, forest_.grown->pieces);

@@ -135,6 +135,12 @@ bool are_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const S
   return n_uneven > 0 && 10 * n_uneven >= n_cut;
 }
 
+Index count_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish) {
+  const Needs zone = needs(mesh, in_zone, wish);
+  return static_cast<Index>(
+      std::ranges::count_if(zone.n, [](const auto& n) { return std::ranges::max(n) > std::ranges::min(n); }));
+}
+
 std::vector<std::uint16_t> cuts_of_long_directions(const Mesh& mesh, std::span<const std::uint8_t> in_zone,
                                                    const SizeField& wish) {
   const Needs zone = needs(mesh, in_zone, wish);

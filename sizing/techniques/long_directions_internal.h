@@ -13,6 +13,9 @@ namespace hextwist {
 /// in one direction than in another to come within a factor sqrt(3) of the wish.
 bool are_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish, int by);
 
+/// So many hexes of the zone need more cuts in one direction than in another: where the cuts of these begin.
+Index count_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish);
+
 /// Masks for trisect_table(), one per hex of the mesh; empty: no hex of the zone (a byte per hex) needs more cuts in
 /// one direction than in another to come within a factor sqrt(3) of the wish.
 std::vector<std::uint16_t> cuts_of_long_directions(const Mesh& mesh, std::span<const std::uint8_t> in_zone,

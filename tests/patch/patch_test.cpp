@@ -150,7 +150,8 @@ Request random_request(const MeshedModel& meshed, std::mt19937& random) {
   if (one_of(4) == 0) request.method = static_cast<Method>(one_of(4));
   if (!is_large && one_of(3) == 0) {
     // Sizes that cut what they are wished for once or twice, and grow fast, so that it stays small.
-    Sizes sizes{.size = mean_edge(mesh) / (1.5 + one_of(4))};
+    const bool is_wide = request.target.radius || request.target.depth.value_or(0) > 1;
+    Sizes sizes{.size = mean_edge(mesh) / (1.5 + one_of(is_wide ? 2 : 4))};
     if (one_of(2) == 0) sizes.bias = 1.5 + 0.5 * one_of(4);
     if (one_of(4) == 0) sizes.max_passes = 1 + one_of(2);
     request.how = sizes;
@@ -179,6 +180,8 @@ std::string text_of(const Request& r) {
          (r.finish.smooth ? " smooth" : "") + (r.finish.dry_run ? " dry_run" : "");
 }
 
+int n_sizes_in_patches = 0;  // requests for sizes that cut something
+
 /// Whether a patch was used, after checking that it makes no difference.
 bool expect_same_both_ways(const MeshedModel& meshed, const Measured& known, const Request& request) {
   SCOPED_TRACE(text_of(request));
@@ -198,6 +201,10 @@ bool expect_same_both_ways(const MeshedModel& meshed, const Measured& known, con
   EXPECT_TRUE(same_bits(whole->refined, patch->refined));
   EXPECT_EQ(whole->origin, patch->origin);
   expect_same(whole->report, patch->report);
+  if (patch->report.sizes && !patch->report.sizes->hexes.empty()) {
+    const auto& seconds = patch->report.seconds;
+    n_sizes_in_patches += std::ranges::find(seconds, "patch", &StageTime::stage) != seconds.end();
+  }
   return std::ranges::find(patch->report.seconds, "splice", &StageTime::stage) != patch->report.seconds.end();
 }
 
@@ -221,6 +228,14 @@ TEST(patch, requests_by_chance_on_grids_give_what_they_give_over_the_whole_mesh)
   mixed.mesh = shuffled(mixed.mesh, random);
   mixed.association = associate(mixed.mesh, *mixed.model).association;
   expect_same_for(mixed, 12, random);
+  // Hexes that are long in one direction, here and there in others: what is cut for that may begin far away.
+  MeshedModel graded = brick(16, 6, 6);
+  for (Vec3& p : graded.mesh.points) p.y() *= p.y() > 0 ? 0.2 : 1;
+  FacetResult skin = associate_with_own_skin(graded.mesh);
+  graded.model = skin.model;
+  graded.association = std::move(skin.association);
+  expect_same_for(graded, 8, random);
+  EXPECT_GT(n_sizes_in_patches, 0);
 }
 
 TEST(patch, requests_by_chance_on_shipped_models_give_what_they_give_over_the_whole_mesh) {

@@ -83,10 +83,16 @@ std::string random_sizes(const Mesh& mesh, std::mt19937& random) {
   const std::string targets[] = {"vertex " + std::to_string(1 + below(8)), "curve " + std::to_string(1 + below(12)),
                                  "hex " + std::to_string(hex_id(mesh, below(mesh.n_hexes()))),
                                  "node " + std::to_string(node_id(mesh, below(mesh.n_nodes())))};
-  return "refine " + targets[below(4)] + " size " +
-         std::to_string(box(mesh).diagonal() / (35 + below(mesh.n_hexes() < 20000 ? 60 : 1))) +
-         (below(2) ? "" : " bias " + std::to_string(1.5 + 0.5 * below(3))) + (below(4) ? "" : " transition regular") +
-         (below(4) ? "" : " smooth");
+  const std::string words[] = {" method parallel", " method single", " transition nested", " concave fill",
+                               " depth 0",         " depth 1",       " max_passes 2"};
+  const std::string target = targets[below(4)];
+  const bool is_hex = target.starts_with("hex");
+  std::string word = below(3) ? "" : words[below(7)];
+  if (is_hex && word == " depth 0") word.clear();
+  return "refine " + target + (is_hex && !below(2) ? " " + std::to_string(hex_id(mesh, below(mesh.n_hexes()))) : "") +
+         word + " size " + std::to_string(box(mesh).diagonal() / (35 + below(mesh.n_hexes() < 20000 ? 60 : 1))) +
+         (below(2) ? "" : " bias " + std::to_string(1.5 + 0.5 * below(3))) +
+         (word.empty() && !below(4) ? " transition regular" : "") + (below(4) ? "" : " smooth");
 }
 
 std::string random_command(const Mesh& mesh, std::mt19937& random) {
