@@ -11,7 +11,6 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/patch/adapt.h"
@@ -308,9 +307,7 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
     if (levels.is_repaired || !is_wide_enough(*rings, grown.hexes, part, numbers, result.refined.mesh) ||
         !keeps_levels(part.patch.meshed.mesh, result.refined.mesh, numbers))
       return std::nullopt;
-    for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
-    for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
-      for (Index& h : *list) h = numbers.hex[h];
+    name_as_whole(report, numbers);
     if (given) {
       report.sizes = whole_sizes(*report.sizes, sizes->outside, numbers);
       report.sizes->n_passes = static_cast<int>(next.wished.size());

@@ -76,12 +76,16 @@ PatchResult nothing_done(const MeshedModel& input, const Measured& known, const 
   return made;
 }
 
-void finish_patch(PatchResult& made, const MeshedModel& input, const Measured& known, const Request& request,
-                  const PatchNumbers& numbers, Report& report) {
+void name_as_whole(Report& report, const PatchNumbers& numbers) {
   for (OffOwner& row : report.off_nodes) row.node = numbers.node[row.node];
-  for (Index& node : made.result.smoothed) node = numbers.node[node];
   for (std::vector<Index>* list : {&report.flat_hexes, &report.poor.worst})
     for (Index& h : *list) h = numbers.hex[h];
+}
+
+void finish_patch(PatchResult& made, const MeshedModel& input, const Measured& known, const Request& request,
+                  const PatchNumbers& numbers, Report& report) {
+  name_as_whole(report, numbers);
+  for (Index& node : made.result.smoothed) node = numbers.node[node];
   if (!request.finish.dry_run) made.is_verified = verify_patch(input, known, made, numbers, report);
   made.splice = std::make_unique<const Splice>(input, numbers, made.result.refined);
   made.come = numbers.come;

@@ -4,10 +4,7 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
-#include "hextwist/mesh/corners.h"
-#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
-#include "hextwist/mesh/topology.h"
 #include "hextwist/patch/extremes.h"
 #include "hextwist/patch/forest_patch_internal.h"
 #include "hextwist/sizing/stages.h"
@@ -24,9 +21,8 @@ std::vector<Index> asking_hexes(const SizesOfAll& sizes) {
   if (sizes.too_far.empty()) return sizes.too_large;
   std::vector<std::uint8_t> is_far(mesh.points.size(), 0);
   for (const Index n : sizes.too_far) is_far[n] = 1;
-  const std::vector<std::uint8_t> in_zone = sizes.zone();
   return union_of(sizes.too_large, indices_where(mesh.n_hexes(), [&](Index h) {
-                    return in_zone[h] &&
+                    return sizes.in_zone[h] &&
                            std::ranges::count_if(mesh.hexes[h], [&](Index n) { return is_far[n] != 0; }) > 1;
                   }));
 }
@@ -102,20 +98,16 @@ std::optional<PatchResult> in_forest_patch(const SizesOfAll& sizes, const Measur
   const HandedHexes& handed = whole.forest.grown->hexes;
   const Mesh& base = whole.forest.base->mesh;
   // Sizes are asked of the mesh as the levels make it: where nodes were moved since, other hexes may ask.
-  const std::vector<std::uint8_t> in_zone = sizes.zone();
   std::vector<std::uint8_t> has_moved(input.mesh.points.size(), 0);
   for (const Index n : whole.overlay.nodes) has_moved[n] = 1;
   std::vector<Index> roots;
   for (const Index h : asking_hexes(sizes)) roots.push_back(handed.root(h));
   if (!whole.overlay.nodes.empty())
     for (const Index h : touching_hexes(input.mesh.hexes, has_moved))
-      if (in_zone[h]) roots.push_back(handed.root(h));
+      if (sizes.in_zone[h]) roots.push_back(handed.root(h));
   sort_unique(roots);
   const std::vector<Index> nodes = nodes_of_hexes(base, roots);
-  if (!whole.forest.base_corners)
-    whole.forest.base_corners = std::make_shared<const CompressedRows>(node_corners(base));
-  Request request = sizes.request;  // that knows them as well
-  request.levelling = std::make_shared<const Levelling>(whole);
+  Request request = sizes.request;
   for (int n_rings = rings_cut_at_first + enough_rings; n_rings <= most_rings; n_rings *= 2) {
     Report report = before;
     Stages stages(report, progress);
@@ -138,6 +130,7 @@ std::optional<PatchResult> in_forest_patch(const SizesOfAll& sizes, const Measur
         rings->is_all || std::ranges::all_of(changed_roots(local.levelling->forest.wished, wished),
                                              [&](Index root) { return rings->ring[root] + enough_rings <= n_rings; });
     if (!is_enough) continue;
+    request.levelling = std::make_shared<const Levelling>(whole);  // which knows corners of the base by now
     return refine_wished_levels(input, known, request,
                                 {united(whole.forest.wished, patch.cells.whole(wished)), sizes, report, false},
                                 progress, rings_of);

@@ -30,6 +30,8 @@ std::optional<PatchResult> refine_wished_levels(const MeshedModel& input, const 
 /// The report on sizes in a patch and outside of it, in numbers of the whole.
 SizeReport whole_sizes(const SizeReport& in_patch, const SizeReport& outside, const PatchNumbers& numbers);
 
+/// Nodes and hexes in a report by their numbers in the changed whole.
+void name_as_whole(Report& report, const PatchNumbers& numbers);
 /// What comes of a plain patch by passes: numbers, verification, splice. The passes are done.
 void finish_patch(PatchResult& made, const MeshedModel& input, const Measured& known, const Request& request,
                   const PatchNumbers& numbers, Report& report);

@@ -23,6 +23,7 @@ struct SizesOfAll {
   std::shared_ptr<const SizeWish> wish;
   std::vector<std::string> told;          ///< what is to be said of the target
   std::vector<Index> region;              ///< hexes of the target, ascending
+  std::vector<std::uint8_t> in_zone;      ///< where sizes are wished for: a byte per hex
   std::vector<Index> too_large, too_far;  ///< hexes that are, ascending; nodes of edges that are too long, two for each
 
   /// Throws as the passes do.
@@ -35,16 +36,13 @@ struct SizesOfAll {
   DirectionSizes directions(std::span<const Index> hexes) const;
   /// So many more hexes it takes at the very least.
   double least_more() const;
-  /// The zone: a byte per hex.
-  std::vector<std::uint8_t> zone() const;
 };
 
 /// The same in the numbers of a part, and what is outside of it.
 struct SizesInPart {
   const SizesOfAll& all;
+  std::span<const Index> nodes;  ///< those of the part, ascending
   std::vector<Index> region;
-  CombinationTarget target;  ///< where the combination may have to do with it
-  std::vector<std::string> told_of_target;
   Index n_outside = 0;       ///< hexes
   Index n_base_outside = 0;  ///< those of the base of levels
   double worst_shape_outside = 1;
@@ -56,8 +54,10 @@ struct SizesInPart {
   bool is_too_small = false;  ///< something begins outside: only the whole will do
 
   void note_cut(Index hex) { farthest = std::max(farthest, int{ring[hex]}); }
-  /// nodes, hexes: those of the part, ascending.
-  SizesInPart(const SizesOfAll& of, std::span<const Index> nodes, std::span<const Index> hexes);
+  /// Nodes, edges and faces of the target; what is to be said of it goes to `told`.
+  CombinationTarget target(std::vector<std::string>& told) const;
+  /// part_nodes (kept), hexes: those of the part, ascending.
+  SizesInPart(const SizesOfAll& of, std::span<const Index> part_nodes, std::span<const Index> hexes);
 };
 
 }  // namespace hextwist

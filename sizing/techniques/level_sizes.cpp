@@ -52,18 +52,18 @@ LevelSizes::LevelSizes(const Forest& forest, State& state)
     : forest_(forest),
       state_(state),
       sizes_(std::get<Sizes>(state.request.how)),
-      shared_wish_(size_wish(state)),
-      wish_(*shared_wish_),
-      in_zone_(state.input.mesh.hexes.size(), wish_.is_everywhere()),
-      in_report_(in_zone_.size(), 0) {
-  for (const Index h : size_region(state)) in_zone_[h] = in_report_[h] = 1;
+      wish_(size_wish(state)),
+      in_report_(state.input.mesh.hexes.size(), 0) {
+  const std::vector<Index> region = size_region(state);
+  in_zone_ = wish_->zone(state.input.mesh, region);
+  for (const Index h : region) in_report_[h] = 1;
 }
 
 LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const {
-  const std::vector<Index> too_large = wish_.too_large(mesh, in_zone);
-  wish_.check_fits(mesh, too_large, n_outside(state_), true);
-  const std::vector<Index> too_far = wish_.nodes_too_far_apart(mesh, in_zone);
-  std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, too_far);
+  const std::vector<Index> too_large = wish_->too_large(mesh, in_zone);
+  wish_->check_fits(mesh, too_large, n_outside(state_), true);
+  const std::vector<Index> too_far = wish_->nodes_too_far_apart(mesh, in_zone);
+  std::vector<std::uint8_t> marked = wish_->marks(mesh, too_large, too_far);
   if (marked.empty()) return {};
   // Hexes that ask: for some of their edges or, when none of these can be had, for being cut.
   std::vector<std::uint8_t> asks(mesh.hexes.size(), 0), is_far(mesh.points.size(), 0);
@@ -122,15 +122,16 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
 }
 
 SizeReport LevelSizes::report(const LevelStep& step) const {
-  SizeReport result = report_on(step.mesh.mesh, step.origin, wish_, in_zone_, in_report_);
+  SizeReport result = report_on(step.mesh.mesh, step.origin, *wish_, in_zone_, in_report_);
   result.n_passes = n_levels_;
   return result;
 }
 
 SizeReport level_size_report(const Mesh& mesh, const LevelOrigin& origin, const State& state) {
   const std::shared_ptr<const SizeWish> wish = size_wish(state);
-  std::vector<std::uint8_t> in_zone(state.input.mesh.hexes.size(), wish->is_everywhere()), in_report(in_zone.size(), 0);
-  for (const Index h : state.part->region) in_zone[h] = in_report[h] = 1;
+  const std::vector<std::uint8_t> in_zone = wish->zone(state.input.mesh, state.part->region);
+  std::vector<std::uint8_t> in_report(in_zone.size(), 0);
+  for (const Index h : state.part->region) in_report[h] = 1;
   return report_on(mesh, origin, *wish, in_zone, in_report);
 }
 

@@ -30,8 +30,7 @@ class LevelSizes {
   const Forest& forest_;
   State& state_;
   const Sizes& sizes_;
-  const std::shared_ptr<const SizeWish> shared_wish_;
-  const SizeWish& wish_;
+  const std::shared_ptr<const SizeWish> wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;  // per hex of the input
   int n_levels_ = 0;
 };

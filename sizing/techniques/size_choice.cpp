@@ -141,24 +141,17 @@ double part_of_directions(const Candidate& candidate, const State& state, const 
   return 1 - (off.n_longer + off.n_shorter) / (3.0 * static_cast<double>(std::max<std::size_t>(n, 1)));
 }
 
-/// The zone of the input: a byte per hex.
-std::vector<std::uint8_t> zone_of(const State& state, const SizeWish& wish) {
-  std::vector<std::string> told;
-  std::vector<std::uint8_t> in_zone(state.input.mesh.hexes.size(), wish.is_everywhere());
-  for (const Index h : state.part ? state.part->region : region_target(state.input, state.request.target, told))
-    in_zone[h] = 1;
-  return in_zone;
-}
-
 /// Asked of the whole. A part that does not have all hexes where cuts of single directions begin is no good.
 bool are_uneven(const State& state, const SizeWish& wish, int by) {
-  const std::vector<std::uint8_t> here = zone_of(state, wish);
-  if (!state.part) return are_uneven(state.input.mesh, here, wish.field(), by);
-  const Mesh& whole = state.part->all.input.mesh;
-  const std::vector<std::uint8_t> in_zone = state.part->all.zone();
-  if (!are_uneven(whole, in_zone, wish.field(), by)) return false;
-  state.part->is_too_small =
-      count_uneven(whole, in_zone, wish.field()) != count_uneven(state.input.mesh, here, wish.field());
+  const Mesh& here = state.input.mesh;
+  if (!state.part) {
+    std::vector<std::string> told;  // again
+    return are_uneven(here, wish.zone(here, region_target(state.input, state.request.target, told)), wish.field(), by);
+  }
+  const SizesOfAll& all = state.part->all;
+  if (!are_uneven(all.input.mesh, all.in_zone, wish.field(), by)) return false;
+  state.part->is_too_small = count_uneven(all.input.mesh, all.in_zone, wish.field()) !=
+                             count_uneven(here, wish.zone(here, state.part->region), wish.field());
   return !state.part->is_too_small;
 }
 

@@ -80,11 +80,11 @@ std::vector<std::uint8_t> touching(const CombinationTarget& target, const Mesh& 
 /// Trisects what is too large; the other two do something else first.
 class ByThrees : public SizeTechnique {
  public:
-  explicit ByThrees(State& state) : shared_wish_(size_wish(state)), wish_(*shared_wish_) {
+  explicit ByThrees(State& state) : wish_(size_wish(state)) {
     const std::vector<Index> targets = size_region(state);
-    in_zone_.assign(state.input.mesh.hexes.size(), wish_.is_everywhere());
-    in_report_.assign(state.input.mesh.hexes.size(), 0);
-    for (const Index h : targets) in_zone_[h] = in_report_[h] = 1;
+    in_zone_ = wish_->zone(state.input.mesh, targets);
+    in_report_.assign(in_zone_.size(), 0);
+    for (const Index h : targets) in_report_[h] = 1;
   }
 
   bool has_done() const override { return has_done_; }
@@ -95,14 +95,14 @@ class ByThrees : public SizeTechnique {
       if (auto cut = go_on(state)) return cut;
       state.begin("sizes");
       const Mesh& mesh = state.mesh();
-      std::vector<Index> too_large = wish_.too_large(mesh, in_zone_);
-      wish_.check_fits(mesh, too_large, n_outside(state));
+      std::vector<Index> too_large = wish_->too_large(mesh, in_zone_);
+      wish_->check_fits(mesh, too_large, n_outside(state));
       if (n_passes_ < max_passes && begin_round(mesh, too_large)) {
         ++n_passes_;
         has_done_ = true;
         continue;
       }
-      std::vector<std::uint8_t> marked = wish_.marks(mesh, too_large, wish_.nodes_too_far_apart(mesh, in_zone_));
+      std::vector<std::uint8_t> marked = wish_->marks(mesh, too_large, wish_->nodes_too_far_apart(mesh, in_zone_));
       if (marked.empty()) return std::nullopt;
       if (n_passes_ == max_passes) {
         unmet_ = std::move(too_large);
@@ -119,7 +119,7 @@ class ByThrees : public SizeTechnique {
     std::vector<std::uint8_t> zone(lineage.parent.size()), reported(lineage.parent.size());
     for (std::size_t h = 0; h < lineage.parent.size(); ++h) {
       zone[h] = in_zone_[lineage.parent[h]];
-      reported[h] = in_report_[lineage.parent[h]] || (wish_.is_everywhere() && h >= n_kept);
+      reported[h] = in_report_[lineage.parent[h]] || (wish_->is_everywhere() && h >= n_kept);
     }
     in_zone_ = std::move(zone);
     in_report_ = std::move(reported);
@@ -128,7 +128,7 @@ class ByThrees : public SizeTechnique {
   void finish(State& state) override {
     SizeReport report =
         size_report(state.mesh(), indices_where(state.mesh().n_hexes(), [&](Index h) { return in_report_[h] != 0; }),
-                    wish_.field());
+                    wish_->field());
     report.n_passes = n_passes_;
     report.unmet = std::move(unmet_);
     state.report.sizes = std::move(report);
@@ -142,8 +142,7 @@ class ByThrees : public SizeTechnique {
   /// Marks what is to be trisected for the sake of later passes.
   virtual void mark_more(const Mesh&, const std::vector<Index>& /*too_large*/, std::vector<std::uint8_t>&) {}
 
-  const std::shared_ptr<const SizeWish> shared_wish_;
-  const SizeWish& wish_;
+  const std::shared_ptr<const SizeWish> wish_;
   std::vector<std::uint8_t> in_zone_, in_report_;
   int n_passes_ = 0;
   bool cuts_transitions_ = true;  // those of earlier passes
@@ -158,7 +157,7 @@ class ByThrees : public SizeTechnique {
 class ByHalves : public ByThrees {
  public:
   explicit ByHalves(State& state) : ByThrees(state) {
-    cuts_transitions_ = !(is_regular(state.request) && wish_.is_constant());
+    cuts_transitions_ = !(is_regular(state.request) && wish_->is_constant());
   }
 
   void follow(const Lineage& lineage, const Mesh& before, const Mesh& after) override {
@@ -174,10 +173,10 @@ class ByHalves : public ByThrees {
     return cut;
   }
   bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
-    const std::vector<Index> wanted = hexes_to_halve(mesh, too_large, wish_.field());
+    const std::vector<Index> wanted = hexes_to_halve(mesh, too_large, wish_->field());
     if (wanted.empty()) return false;
     std::vector<Index> around;
-    if (!cuts_transitions_) around = difference(around_those_cut_again(mesh, wanted, wish_.field(), true), too_large);
+    if (!cuts_transitions_) around = difference(around_those_cut_again(mesh, wanted, wish_->field(), true), too_large);
     EightStart start = plan_eight_around(mesh, wanted, around);
     std::vector<Index> halved = difference(start.region, start.plan.trisected);
     start.plan.trisected.clear();
@@ -187,7 +186,7 @@ class ByHalves : public ByThrees {
   }
   void mark_more(const Mesh& mesh, const std::vector<Index>& too_large, std::vector<std::uint8_t>& marked) override {
     if (!cuts_transitions_)
-      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field(), true), marked);
+      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_->field(), true), marked);
   }
 
  private:
@@ -197,12 +196,12 @@ class ByHalves : public ByThrees {
 /// Directions that are too long by themselves, then whole hexes, both by threes: so none comes out too short.
 class ByDirections : public ByThrees {
  public:
-  explicit ByDirections(State& state) : ByThrees(state) { cuts_transitions_ = !wish_.is_constant(); }
+  explicit ByDirections(State& state) : ByThrees(state) { cuts_transitions_ = !wish_->is_constant(); }
 
   void finish(State& state) override {
     ByThrees::finish(state);
     SizeReport& report = *state.report.sizes;
-    report.directions = direction_sizes(state.mesh(), report.hexes, wish_.field());
+    report.directions = direction_sizes(state.mesh(), report.hexes, wish_->field());
   }
 
  protected:
@@ -212,13 +211,13 @@ class ByDirections : public ByThrees {
   }
   bool begin_round(const Mesh& mesh, const std::vector<Index>&) override {
     if (is_even_) return false;
-    masks_ = cuts_of_long_directions(mesh, in_zone_, wish_.field());
+    masks_ = cuts_of_long_directions(mesh, in_zone_, wish_->field());
     is_even_ = masks_.empty();
     return !is_even_;
   }
   void mark_more(const Mesh& mesh, const std::vector<Index>& too_large, std::vector<std::uint8_t>& marked) override {
     if (!cuts_transitions_)
-      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_.field(), false), marked);
+      mark_nodes(mesh.hexes, around_those_cut_again(mesh, too_large, wish_->field(), false), marked);
   }
 
  private:
@@ -235,7 +234,7 @@ class ByCombination : public ByThrees {
     ByThrees::follow(lineage, before, after);
     at_ = carried_target(at_, lineage, after);
     // Depth 0: what touches the target now is all that is wished for.
-    if (!wish_.is_everywhere()) in_zone_ = in_report_ = touching(at_, after);
+    if (!wish_->is_everywhere()) in_zone_ = in_report_ = touching(at_, after);
     if (round_) round_->follow(lineage, after);
   }
 

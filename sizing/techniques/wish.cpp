@@ -60,6 +60,12 @@ SizeWish::SizeWish(const MeshedModel& input, const Request& request)
   if (sizes.size && !is_solid(target.kind)) distance_.emplace(input, target.kind, target.ids);
 }
 
+std::vector<std::uint8_t> SizeWish::zone(const Mesh& mesh, std::span<const Index> region) const {
+  std::vector<std::uint8_t> in_zone(mesh.hexes.size(), is_everywhere_);
+  for (const Index h : region) in_zone[h] = 1;
+  return in_zone;
+}
+
 /// Per point: does it lie on the target? Nothing lies on hexes and volumes, nor where no size was named for it.
 std::vector<std::uint8_t> SizeWish::at_target(std::span<const Vec3> points) const {
   std::vector<std::uint8_t> result(points.size(), 0);
@@ -213,9 +219,8 @@ std::vector<Index> size_region(State& state) {
 
 CombinationTarget size_target(State& state) {
   std::vector<std::string>& notices = state.report.notices;
-  if (!state.part) return sub_element_target(state.input, state.request.target, notices);
-  notices.insert(notices.end(), state.part->told_of_target.begin(), state.part->told_of_target.end());
-  return state.part->target;
+  if (state.part) return state.part->target(notices);
+  return sub_element_target(state.input, state.request.target, notices);
 }
 
 Index n_outside(const State& state) {

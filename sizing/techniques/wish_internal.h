@@ -19,6 +19,8 @@ class SizeWish {
   const SizeField& field() const { return *field_; }
   /// It holds for all of the mesh, not for the hexes of the target alone.
   bool is_everywhere() const { return is_everywhere_; }
+  /// Where it holds, a byte per hex: everywhere, or in the hexes of the target.
+  std::vector<std::uint8_t> zone(const Mesh& mesh, std::span<const Index> region) const;
   /// It is the same at all places.
   bool is_constant() const { return is_constant_; }
 
