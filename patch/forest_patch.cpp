@@ -18,6 +18,51 @@ std::uint8_t corners_of(std::uint32_t code) {
   return static_cast<std::uint8_t>(mask);
 }
 
+/// Faces between two volumes are sides of the lower hex. Where that is just outside of the patch, they are sides of the
+/// hex inside here: it may be cut, and its nodes on that face belong to the surface.
+void add_faces_seen_from_outside(const Forest& forest, const Rings& rings, Association& part) {
+  const Mesh& base = forest.base->mesh;
+  const Association& whole = forest.base->association;
+  if (rings.is_all || whole.surface_faces.empty() || !forest.base_corners) return;
+  const auto sorted_face = [&](Side side) {
+    Quad nodes = face_nodes(base.hexes[side.hex], side.face);
+    std::ranges::sort(nodes);
+    return nodes;
+  };
+  const auto surface_of = [&](Side side) {
+    const auto found = std::ranges::lower_bound(whole.surface_faces, side);
+    return found != whole.surface_faces.end() && *found == side
+               ? whole.face_surface[static_cast<std::size_t>(found - whole.surface_faces.begin())]
+               : 0;
+  };
+  std::vector<std::pair<Side, int>> faces;
+  for (std::size_t i = 0; i < rings.hexes.size(); ++i) {
+    const Index h = rings.hexes[i];
+    if (rings.ring[i] < rings.n_rings) continue;
+    for (int f = 0; f < n_hex_faces; ++f) {
+      const Quad nodes = sorted_face({h, f});
+      for (const Index corner : (*forest.base_corners)[nodes[0]]) {
+        const Index other = corner >> 3;
+        if (other >= h || whole.hex_volume[other] == whole.hex_volume[h] || position_in(rings.hexes, other) >= 0)
+          continue;
+        for (int g = 0; g < n_hex_faces; ++g)
+          if (sorted_face({other, g}) == nodes)
+            if (const int surface = surface_of({other, g})) faces.emplace_back(Side{static_cast<Index>(i), f}, surface);
+      }
+    }
+  }
+  if (faces.empty()) return;
+  for (std::size_t i = 0; i < part.surface_faces.size(); ++i)
+    faces.emplace_back(part.surface_faces[i], part.face_surface[i]);
+  std::ranges::sort(faces);
+  part.surface_faces.clear();
+  part.face_surface.clear();
+  for (const auto& [side, surface] : faces) {
+    part.surface_faces.push_back(side);
+    part.face_surface.push_back(surface);
+  }
+}
+
 }  // namespace
 
 Forest bare_forest(Forest forest) {
@@ -81,6 +126,7 @@ ForestPatch::ForestPatch(const MeshedModel& input, const Levelling& whole, const
   set_ids(input.mesh, patch, patch.meshed.mesh);
   Patch of_base = make_patch(*whole.forest.base, {roots.begin(), roots.end()});
   set_ids(whole.forest.base->mesh, of_base, of_base.meshed.mesh);
+  add_faces_seen_from_outside(whole.forest, rings, of_base.meshed.association);
   const GrownForest& all = *whole.forest.grown;
   auto grown = std::make_shared<GrownForest>();
   grown->next_node_id = all.next_node_id;

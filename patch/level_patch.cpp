@@ -272,7 +272,8 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
   if (is_base) {
     rings = rings_of(base, nodes, changed, n_rings, limit);
   } else {
-    rings = rings_in_base(next, nodes, n_rings, limit);
+    rings = rings_in_base(forest, nodes, n_rings, limit);
+    next.base_corners = forest.base_corners;
   }
   if (!rings) return std::nullopt;
   std::vector<Index> hexes = hexes_in(grown.hexes, rings->hexes);

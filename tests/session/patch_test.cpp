@@ -77,7 +77,7 @@ struct Pair {
 };
 
 /// Smaller than what is there, here and there.
-std::string random_sizes(const Mesh& mesh, std::mt19937& random, bool may_end_levels) {
+std::string random_sizes(const Mesh& mesh, std::mt19937& random) {
   if (mesh.n_hexes() == 0) return "redo";  // the taking of the mesh was undone
   const auto below = [&](int n) { return static_cast<Index>(random() % static_cast<unsigned>(n)); };
   const std::string targets[] = {"vertex " + std::to_string(1 + below(8)), "curve " + std::to_string(1 + below(12)),
@@ -87,7 +87,7 @@ std::string random_sizes(const Mesh& mesh, std::mt19937& random, bool may_end_le
                                " depth 0",         " depth 1",       " max_passes 2"};
   const std::string target = targets[below(4)];
   const bool is_hex = target.starts_with("hex");
-  std::string word = below(3) || !may_end_levels ? "" : words[below(7)];
+  std::string word = below(3) ? "" : words[below(7)];
   if (is_hex && word == " depth 0") word.clear();
   return "refine " + target + (is_hex && !below(2) ? " " + std::to_string(hex_id(mesh, below(mesh.n_hexes()))) : "") +
          word + " size " + std::to_string(box(mesh).diagonal() / (35 + below(mesh.n_hexes() < 20000 ? 60 : 1))) +
@@ -106,7 +106,7 @@ std::string random_command(const Mesh& mesh, std::mt19937& random) {
   };
   switch (below(18)) {
     case 17:
-      return random_sizes(mesh, random, true);
+      return random_sizes(mesh, random);
     case 0:
       return "undo";
     case 1:
@@ -206,7 +206,7 @@ void check_levels(unsigned seed, bool with_sizes) {
     meshed.mesh.node_sets.push_back({7, "some", {0, 5, 9}});
     Pair pair(meshed);
     for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i)
-      pair.run(with_sizes && i % 7 == 3 ? random_sizes(pair.plain.session.meshed().mesh, random, false)
+      pair.run(with_sizes && i % 7 == 3 ? random_sizes(pair.plain.session.meshed().mesh, random)
                                         : random_level_command(pair.plain.session.meshed().mesh, random));
     n_in_place += pair.n_in_place;
     pair.run("coarsen hex all levels 9");
@@ -217,6 +217,21 @@ void check_levels(unsigned seed, bool with_sizes) {
 
 TEST(PatchedSession, makes_levels_that_one_without_patches_makes) {
   check_levels(random_seed(), true);
+}
+
+/// A face between two volumes is a side of the lower hex, which may be outside of a patch that ends in between.
+TEST(PatchedSession, ends_between_volumes) {
+  Fixture finer;
+  const MeshedModel inclusion = shipped("inclusion");
+  finer.session.take(inclusion.mesh, inclusion.model);
+  finer.session.run("refine volume all");
+  Pair pair(finer.session.meshed());
+  pair.run("refine node 340 depth 2 smooth");
+  for (Index hex = 0; hex < pair.plain.session.meshed().mesh.n_hexes() && !testing::Test::HasFailure(); hex += 200) {
+    pair.run("refine hex " + std::to_string(hex_id(pair.plain.session.meshed().mesh, hex)));
+    if (pair.plain.last().ok) pair.run("undo");
+  }
+  EXPECT_GT(pair.n_in_place, 0);
 }
 
 /// A cell that others need stays cut when it is given up, and is wished for no longer.
