@@ -71,7 +71,7 @@ TEST(paper, combination_along_a_curve_stays_within_one_original_element_as_figur
   EXPECT_GT(n_kept, before.n_hexes() / 2);
 }
 
-TEST(SlowPaper, every_row_has_better_shapes_than_the_paper_s) {
+TEST(Paper, every_row_has_better_shapes_than_the_paper_s) {
   for (const test::PaperCase& paper_case : test::paper_cases()) check(paper_case);
 }
 

@@ -14,7 +14,7 @@
 namespace hextwist::test {
 namespace {
 
-class SlowConsumer : public testing::Test {
+class Consumer : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     // Each test may run as a process of its own, several at a time.
@@ -26,7 +26,9 @@ class SlowConsumer : public testing::Test {
   const std::filesystem::path examples = source_folder() / "examples";
 };
 
-TEST_F(SlowConsumer, builds_the_example_through_find_package) {
+class SlowConsumer : public Consumer {};
+
+TEST_F(Consumer, builds_the_example_through_find_package) {
   const auto folder = output_folder() / "build";
   const Outcome built = build_with_cmake(prefix, examples / "minimal", folder);
   ASSERT_EQ(built.status, 0) << built.output;
@@ -54,7 +56,7 @@ TEST_F(SlowConsumer, a_front_moves_through_a_mesh_and_leaves_nothing_behind) {
   EXPECT_NE(ran.output.find("coarsened: 1000 hexes"), std::string::npos) << ran.output;
 }
 
-TEST_F(SlowConsumer, builds_the_C_example_through_find_package) {
+TEST_F(Consumer, builds_the_C_example_through_find_package) {
   const auto folder = output_folder() / "build";
   const Outcome built = build_with_cmake(prefix, examples / "c", folder);
   ASSERT_EQ(built.status, 0) << built.output;
@@ -88,7 +90,7 @@ TEST_F(SlowConsumer, builds_the_deal_II_example_which_refines_without_hanging_no
   EXPECT_NE(ran.output.find("hanging nodes: no (deal.II's own: yes)"), std::string::npos) << ran.output;
 }
 
-TEST_F(SlowConsumer, imports_the_installed_Python_package) {
+TEST_F(Consumer, imports_the_installed_Python_package) {
   const Outcome found = run("cd " + quoted(prefix) + " && find \"$PWD\" -path '*/hextwist/__init__.py'");
   if (found.output.empty()) GTEST_SKIP() << "the Python module is not built";
   const auto package = std::filesystem::path(found.output.substr(0, found.output.find('\n'))).parent_path();
@@ -100,7 +102,7 @@ TEST_F(SlowConsumer, imports_the_installed_Python_package) {
   EXPECT_NE(ran.output.find(package.string()), std::string::npos) << ran.output;
 }
 
-TEST_F(SlowConsumer, builds_the_example_through_pkg_config) {
+TEST_F(Consumer, builds_the_example_through_pkg_config) {
   const auto program = output_folder() / "minimal";
   const Outcome built = build_with_pkg_config(prefix, HEXTWIST_CXX_COMPILER " " HEXTWIST_CXX_FLAGS,
                                               examples / "minimal/main.cpp", program);
@@ -108,7 +110,7 @@ TEST_F(SlowConsumer, builds_the_example_through_pkg_config) {
   expect_minimal_refines(program);
 }
 
-TEST_F(SlowConsumer, gets_every_public_header_and_no_other) {
+TEST_F(Consumer, gets_every_public_header_and_no_other) {
   std::vector<std::string> installed, expected = {"hextwist.h"};
   const auto folder = prefix / "include/hextwist";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))

@@ -8,7 +8,7 @@
 namespace hextwist::test {
 namespace {
 
-TEST(SlowPip, installs_the_package_in_a_fresh_environment) {
+TEST(Pip, installs_the_package_in_a_fresh_environment) {
   const std::string python = HEXTWIST_PYTHON;
   if (python.empty()) GTEST_SKIP() << "the Python module is not built";
   if (run(quoted(python) + " -c 'import venv, ensurepip, setuptools, wheel, numpy'").status != 0)

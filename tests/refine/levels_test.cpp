@@ -99,7 +99,7 @@ TEST(Levels, single_hex_keeps_its_quality) {
   expect_reached(test::brick(5, 5, 5), {62}, 2, 3113, 0.477);
   expect_reached(test::brick(5, 5, 5), {62}, 3, 32127, 0.477);
 }
-TEST(SlowLevels, single_hex_keeps_its_quality_for_four_levels) {
+TEST(Levels, single_hex_keeps_its_quality_for_four_levels) {
   expect_reached(test::brick(5, 5, 5), {62}, 4, 616400, 0.477, false);
 }
 TEST(Levels, three_hexes_in_an_L_keep_their_quality) {
@@ -131,7 +131,7 @@ std::vector<Index> front(const Mesh& brick, const Vec3& centre) {
   return hexes;
 }
 
-TEST(SlowLevels, sphere_front_keeps_its_quality) {
+TEST(Levels, sphere_front_keeps_its_quality) {
   const MeshedModel brick = test::brick(10, 10, 10);
   const std::vector<Index> hexes = front(brick.mesh, {5, 5, 5});
   const double nested = n_nested(brick.mesh, hexes, 3);

@@ -224,7 +224,7 @@ Index n_shared(const Fixture& f) {
   return n;
 }
 
-TEST(SlowMeshVolume, volumes_one_behind_the_other_agree_on_what_they_share) {
+TEST(MeshVolume, volumes_one_behind_the_other_agree_on_what_they_share) {
   const std::vector<std::array<double, 2>> l = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
   const std::vector<std::pair<const char*, std::vector<OccShape>>> cases = {
       // The step in the middle has a disc and a ring at both of its ends, the last ones at one of theirs.
@@ -293,7 +293,7 @@ TEST(MeshVolume, shipped_models_are_filled_or_refused_by_name) {
   }
 }
 
-TEST(SlowMeshVolume, real_cad_is_filled_where_it_can_be_swept) {
+TEST(MeshVolume, real_cad_is_filled_where_it_can_be_swept) {
   const std::filesystem::path data = std::filesystem::path(HEXTWIST_TEST_DATA) / "cad";
   if (!std::filesystem::exists(data) || !has_gmsh()) GTEST_SKIP() << "no CAD in " << data << ", or no gmsh";
   // Blossom leaves an element over a hole of the fillet's bracket, which is mended; the ring is four solids that are
