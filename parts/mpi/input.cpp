@@ -65,25 +65,34 @@ void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& 
     throw Error(name + ": periodic surfaces are not kept alike in parts; run it with hextwist");
 }
 
-/// What the first rank reads by itself, on CAD where there is any. glued: the CAD had to be.
-MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesystem::path& cad, bool& glued, Say say) {
+/// What takes a mesh makes of it on its CAD. glued: the CAD had to be.
+MeshedModel on_cad(const std::filesystem::path& cad, const std::function<void(Session&)>& take, const std::string& name,
+                   bool& glued, const Say& say) {
   Session session;
   Session::Core& core = session.core();
   core.history.on = false;
   SessionCallbacks callbacks;
   callbacks.notice = say;
   session.set_callbacks(callbacks);
+  session.import_cad(cad);
+  take(session);
+  refuse_more(core.meshed->mesh, core.state.extras.get(), name);
+  glued = core.state.glued;
+  return std::move(core.meshed.to_change());
+}
+
+/// What the first rank reads by itself, on CAD where there is any.
+MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesystem::path& cad, bool& glued, Say say) {
   MeshFile file;
   if (split_name(mesh).n_parts > 0) file = read_parts(mesh);
   if (!cad.empty()) {
-    session.import_cad(cad);
-    if (file.mesh.hexes.empty())
-      session.import_mesh(mesh);
-    else
-      session.take_mesh(std::move(file.mesh));
-    refuse_more(core.meshed->mesh, core.state.extras.get(), mesh.string());
-    glued = core.state.glued;
-    return std::move(core.meshed.to_change());
+    const auto take = [&](Session& session) {
+      if (file.mesh.hexes.empty())
+        session.import_mesh(mesh);
+      else
+        session.take_mesh(std::move(file.mesh));
+    };
+    return on_cad(cad, take, mesh.string(), glued, say);
   }
   if (file.mesh.hexes.empty()) file = read_mesh(mesh);
   if (!file.middles.empty())
@@ -132,6 +141,16 @@ void put_on_own_skin(Ranks& ranks, MeshedModel& own) {
   }
 }
 
+/// The first rank has its model; all others read the CAD as well.
+void share_model(Ranks& ranks, MeshedModel& own, const std::filesystem::path& cad, bool glued) {
+  glued = ranks.largest(glued) != 0;
+  ranks.together([&] {
+    if (cad.empty() || ranks.is_first()) return;
+    own.model = read_cad(cad, {}).model;
+    if (glued) own.model = hextwist::glued(*own.model).model;
+  });
+}
+
 void count_whole(Ranks& ranks, RankPart& part) {
   const Mesh& mesh = part.own.mesh;
   part.n_hexes = ranks.sum(mesh.n_hexes());
@@ -164,20 +183,53 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
       rank_of_hex = partition(part.own.mesh, ranks.size(), by.value_or(partition_by("")));
       need_ids(part.own.mesh);
     });
-    glued = ranks.largest(glued) != 0;
-    std::shared_ptr<const Model> model = part.own.model;
-    ranks.together([&] {
-      if (cad.empty() || ranks.is_first()) return;
-      model = read_cad(cad, {}).model;
-      if (glued) model = hextwist::glued(*model).model;
-    });
+    share_model(ranks, part.own, cad, glued);
     share_heads(ranks, part.own.mesh);
-    part.own.model = model;
   }
   if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
   if (!part.has_cad) {
     ranks.together([&] { check_part(part.own.mesh, mesh.string()); });
     put_on_own_skin(ranks, part.own);
+  }
+  count_whole(ranks, part);
+  return part;
+}
+
+RankPart take_in_ranks(Ranks& ranks, Mesh own, const std::filesystem::path& cad, const Say& say) {
+  RankPart part;
+  part.has_cad = !cad.empty();
+  part.own.mesh = std::move(own);
+  const std::string name = "the part";
+  ranks.together([&] {
+    refuse_more(part.own.mesh, nullptr, name);
+    if (part.own.mesh.node_ids.size() != part.own.mesh.points.size() ||
+        part.own.mesh.hex_ids.size() != part.own.mesh.hexes.size())
+      throw Error("a part needs the ids that its nodes and hexes have in the whole mesh");
+    check_part(part.own.mesh, name);
+  });
+  if (ranks.sum(part.own.mesh.n_hexes()) == 0) throw Error("there are no hexes");
+  share_heads(ranks, part.own.mesh);
+  if (cad.empty()) {
+    put_on_own_skin(ranks, part.own);
+  } else {
+    // Who owns what of the CAD is found by looking at all of the mesh.
+    std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
+    ids[0] = part.own.mesh.hex_ids;
+    ids = ranks.exchange(ids);
+    const std::vector<int> to_first(part.own.mesh.hexes.size(), 0);
+    part.own = moved(ranks, std::move(part.own), to_first);
+    std::vector<int> home;
+    bool glued = false;
+    ranks.together([&] {
+      if (!ranks.is_first()) return;
+      const auto take = [&](Session& session) { session.take_mesh(std::move(part.own.mesh)); };
+      part.own = on_cad(cad, take, name, glued, say);
+      home.resize(part.own.mesh.hexes.size());
+      for (std::size_t rank = 0; rank < ids.size(); ++rank)
+        for (const std::int64_t id : ids[rank]) home[find_hex(part.own.mesh, id)] = static_cast<int>(rank);
+    });
+    share_model(ranks, part.own, cad, glued);
+    part.own = moved(ranks, std::move(part.own), home);
   }
   count_whole(ranks, part);
   return part;

@@ -25,4 +25,8 @@ struct RankPart {
 RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const std::filesystem::path& cad,
                        std::optional<PartitionBy> by, const std::function<void(const std::string&)>& say);
 
+/// The same of parts that ranks have already, with their ids; they stay where they are.
+RankPart take_in_ranks(Ranks& ranks, Mesh own, const std::filesystem::path& cad,
+                       const std::function<void(const std::string&)>& say);
+
 }  // namespace hextwist

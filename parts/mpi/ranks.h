@@ -1,4 +1,4 @@
-// Messages between the processes that share a mesh. MPI is seen here alone.
+// Messages between the processes that share a mesh. MPI is seen here alone, and by the call for other programs.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,8 @@ class Ranks {
  public:
   /// Begins with MPI, and ends with it in the destructor.
   Ranks(int& argc, char**& argv);
+  /// Of another program's communicator, by its handle for Fortran (MPI_Comm_c2f). Leaves it, and MPI, as it is.
+  explicit Ranks(int communicator);
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -59,6 +61,8 @@ class Ranks {
   void exchange_bytes(const std::vector<std::span<const std::byte>>& to,
                       const std::function<std::byte*(std::size_t, std::size_t)>& room);
   int rank_ = 0, size_ = 1;
+  int communicator_ = 0;
+  bool is_ours_ = true;
   std::int64_t n_messages_ = 0, n_bytes_ = 0;
 };
 

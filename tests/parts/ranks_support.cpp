@@ -11,13 +11,17 @@
 namespace hextwist::test {
 
 Outcome run_ranks(int n, const std::string& arguments) {
+  return run_program_in_ranks(n, HEXTWIST_MPI_PROGRAM, arguments);
+}
+
+Outcome run_program_in_ranks(int n, const std::string& program, const std::string& arguments) {
   const auto folder = std::filesystem::path(HEXTWIST_TEST_OUTPUT) /
                       (std::string("mpi.") + testing::UnitTest::GetInstance()->current_test_info()->name());
   std::filesystem::create_directories(folder);
   const std::string out = (folder / "stdout").string(), err = (folder / "stderr").string();
   const std::string command = std::string("'") + HEXTWIST_MPIEXEC + "' --oversubscribe --allow-run-as-root -n " +
-                              std::to_string(n) + " '" + HEXTWIST_MPI_PROGRAM + "' " + arguments + " > '" + out +
-                              "' 2> '" + err + "'";
+                              std::to_string(n) + " '" + program + "' " + arguments + " > '" + out + "' 2> '" + err +
+                              "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
 }

@@ -12,6 +12,8 @@ struct Outcome {
 
 /// n processes; arguments as a shell sees them.
 Outcome run_ranks(int n, const std::string& arguments);
+/// The same of another program.
+Outcome run_program_in_ranks(int n, const std::string& program, const std::string& arguments);
 
 /// The path of a file of models/.
 std::string model(const std::string& name);
