@@ -223,7 +223,7 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
   Mesh& mesh = local.meshed.mesh;
   mesh.node_ids = ids.node;
   mesh.hex_ids = ids.hex;
-  bool is_any_left = true;
+  bool is_any_left = !mesh.hexes.empty();  // a part may have none
   result.has_id.reserve(ids_[i].size());
   for (Item& item : command.items) {
     if (item.is_word || item.name != "range") continue;

@@ -11,8 +11,10 @@ namespace {
 using test::model;
 using test::Outcome;
 
-void expect_same(int n, const std::string& mesh_and_cad, const std::string& commands) {
-  const std::string arguments = mesh_and_cad + " " + std::to_string(test::random_seed() % 1000000) + " " + commands;
+/// In every third try rank 1 begins with nothing.
+void expect_same(int n, const std::string& mesh_and_cad, const std::string& commands,
+                 unsigned seed = test::random_seed() % 1000000) {
+  const std::string arguments = mesh_and_cad + " " + std::to_string(seed) + " " + commands;
   SCOPED_TRACE(std::to_string(n) + " ranks: " + arguments);
   const Outcome outcome = test::run_program_in_ranks(n, HEXTWIST_PARTS_CALL, arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -23,6 +25,7 @@ TEST(PartsCall, gives_arrays_of_parts_what_one_process_makes_of_the_whole) {
   const std::string cam = model("cam.msh") + " " + model("cam.brep");
   expect_same(3, cam, "'refine curve 1 depth 1' 'refine hex 1 2 transition nested'");
   expect_same(2, model("bracket.msh") + " -", "'refine node 5 depth 1'");
+  expect_same(2, cam, "'refine curve 1 depth 1'", 3);
   expect_same(4, model("bracket.msh") + " -", "'refine hex 7 8 9 depth 1' 'refine node 70 transition nested'");
 }
 
