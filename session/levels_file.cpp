@@ -6,9 +6,13 @@
 #include <fstream>
 #include <map>
 
+#include "hextwist/base/sorted.h"
+#include "hextwist/geom/facet/model.h"
+#include "hextwist/io/extras.h"
 #include "hextwist/io/format.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/association/association.h"
+#include "hextwist/mesh/association/meant.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/refine/levels/reorder.h"
 #include "hextwist/session/load.h"
@@ -115,12 +119,100 @@ struct Scratch {
   }
 };
 
+/// The skin that a mesh without CAD began with, which later refinements lie on.
+void write_skin(PieceWriter& out, const FacetSource& skin, const Association& association) {
+  out.add("skin_points", skin.points);
+  out.add("skin_quads", skin.quads);
+  out.add("skin_volumes", skin.quad_volumes);
+  out.add("skin_angle", std::vector<double>{skin.feature_angle});
+  if (skin.has_labels) {
+    out.add("skin_surfaces", skin.quad_labels);
+    out.add("skin_edges", skin.labelled_edges);
+    out.add("skin_curves", skin.edge_labels);
+    out.add("skin_vertices", skin.labelled_vertices);
+  }
+  if (skin.has_middles) {
+    out.add("skin_middle_edges", skin.middle_edges);
+    out.add("skin_edge_points", skin.edge_points);
+    out.add("skin_middle_faces", skin.middle_faces);
+    out.add("skin_face_points", skin.face_points);
+  }
+  out.add("base_edges", association.curve_edges);
+  out.add("base_edge_curves", association.edge_curve);
+  out.add("base_faces", association.surface_faces);
+  out.add("base_face_surfaces", association.face_surface);
+  out.add("base_volumes", association.hex_volume);
+}
+
+/// The base on the skin of the file.
+MeshedModel on_skin(const PieceReader& in, Mesh mesh) {
+  FacetSource skin;
+  skin.points = in.get<Vec3>("skin_points");
+  skin.quads = in.get<std::array<std::int32_t, 4>>("skin_quads");
+  skin.quad_volumes = in.get<std::array<int, 2>>("skin_volumes");
+  const auto angle = in.get<double>("skin_angle");
+  if (angle.size() != 1) in.fail("has no skin_angle");
+  skin.feature_angle = angle[0];
+  skin.has_labels = in.has("skin_surfaces");
+  if (skin.has_labels) {
+    skin.quad_labels = in.get<int>("skin_surfaces");
+    skin.labelled_edges = in.get<std::array<std::int32_t, 2>>("skin_edges");
+    skin.edge_labels = in.get<int>("skin_curves");
+    skin.labelled_vertices = in.get<std::int32_t>("skin_vertices");
+  }
+  skin.has_middles = in.has("skin_edge_points");
+  if (skin.has_middles) {
+    skin.middle_edges = in.get<std::array<std::int32_t, 2>>("skin_middle_edges");
+    skin.edge_points = in.get<Vec3>("skin_edge_points");
+    skin.middle_faces = in.get<std::array<std::int32_t, 4>>("skin_middle_faces");
+    skin.face_points = in.get<Vec3>("skin_face_points");
+  }
+  MeshedModel base{std::move(mesh), nullptr, {}};
+  try {
+    base.model = facet_model(skin).model;
+  } catch (const Error& error) {
+    in.fail("is damaged: " + std::string(error.what()));
+  }
+  Association& association = base.association;
+  for (const OwnerRow row : in.get<OwnerRow>("base_owners")) association.node_owner.push_back({row.dim, row.id});
+  association.node_parameters = in.get<Parameters>("base_parameters");
+  association.curve_edges = in.get<Edge>("base_edges");
+  association.edge_curve = in.get<int>("base_edge_curves");
+  association.surface_faces = in.get<Side>("base_faces");
+  association.face_surface = in.get<int>("base_face_surfaces");
+  association.hex_volume = in.get<int>("base_volumes");
+  for (const std::string& line : check_association(base.mesh, association, *base.model))
+    in.fail("has owners that do not fit its mesh: " + line);
+  return base;
+}
+
+/// What a node set of the base is meant to hold.
+struct MeantRow {
+  std::int32_t set, dim, id;
+};
+void read_meant(const PieceReader& in, MeshedModel& base) {
+  if (!in.has("base_meant")) {
+    std::vector<std::string> told;  // when the file of the mesh was read
+    find_meant_entities(base.mesh, base.association, told);
+    return;
+  }
+  for (const MeantRow& row : in.get<MeantRow>("base_meant")) {
+    const auto set = std::ranges::find(base.mesh.node_sets, row.set, &NodeSet::id);
+    if (set == base.mesh.node_sets.end() || row.dim < 1 || row.dim > 3 || row.id < 1 ||
+        row.id > base.model->count(row.dim))
+      in.fail("has a base_meant that cannot be");
+    set->meant.push_back({row.dim, row.id});
+  }
+  for (NodeSet& set : base.mesh.node_sets) sort_unique(set.meant);
+}
+
 MeshedModel read_base(Transaction& run, const PieceReader& in) {
   const auto bytes = in.get<char>("base");
   auto copy = std::make_unique_for_overwrite<char[]>(bytes.size());
   std::ranges::copy(bytes, copy.get());
   MeshFile read = io::read_vtu({in.name() + ", its base", {copy.release(), io::ReleaseBytes{}}, bytes.size()});
   MeshedModel base;
+  if (!run.state.has_cad && in.has("skin_points")) return on_skin(in, std::move(read.mesh));
   if (run.state.has_cad) {
     AssociateResult on_cad =
         associate(read.mesh, *run.meshed->model, &read.tags, {.relative_tolerance = run.state.tolerance});
@@ -131,7 +223,8 @@ MeshedModel read_base(Transaction& run, const PieceReader& in) {
     base = {std::move(read.mesh), std::move(skin.model), std::move(skin.association)};
   }
   if (owner_rows(base.association) != in.get<OwnerRow>("base_owners"))
-    in.fail("is of a mesh on other CAD: its nodes do not lie on the same entities");
+    in.fail(run.state.has_cad ? "is of a mesh on other CAD: its nodes do not lie on the same entities"
+                              : "is of a mesh on CAD, which is not there: import it first");
   base.association.node_parameters = in.get<Parameters>("base_parameters");
   if (base.association.node_parameters.size() != base.mesh.points.size()) in.fail("has too few base_parameters");
   return base;
@@ -187,18 +280,18 @@ void write_levels(const Transaction& run, const std::filesystem::path& file, boo
   const GrownForest& forest = *levelling.forest.grown;
   Replacement replacement(file, overwrite);
   const Scratch scratch(replacement.temporary());
-  // A skin that is curved is written as middle nodes.
-  const bool curved = base.model && base.model->count(2) > 0 && base.model->type({2, 1}) == "quadratic facets";
-  write_mesh(scratch.file, base.mesh, &base.association,
-             {.write_quality = false,
-              .model = curved ? base.model.get() : nullptr,
-              .order = curved ? 2 : 1,
-              .nodes_per_hex = curved ? 27 : 0});
+  write_mesh(scratch.file, base.mesh, &base.association, {.write_quality = false, .order = 1});
   const io::Bytes vtu = io::read_bytes(scratch.file);
   PieceWriter out(replacement.temporary());
   out.add("base", std::vector<char>(vtu.data.get(), vtu.data.get() + vtu.size));
   out.add("base_parameters", base.association.node_parameters);
   out.add("base_owners", owner_rows(base.association));
+  if (const FacetSource* skin = base.model ? facet_source(*base.model) : nullptr)
+    write_skin(out, *skin, base.association);
+  std::vector<MeantRow> meant;
+  for (const NodeSet& set : base.mesh.node_sets)
+    for (const Owner& owner : set.meant) meant.push_back({set.id, owner.dim, owner.id});
+  out.add("base_meant", meant);
   for (std::size_t k = 0; k < levelling.forest.wished.size(); ++k) {
     out.add("cells_" + std::to_string(k), levelling.forest.wished[k].cell);
     out.add("corners_" + std::to_string(k), levelling.forest.wished[k].corners);
@@ -215,6 +308,11 @@ void write_levels(const Transaction& run, const std::filesystem::path& file, boo
   out.add("smoothed", levelling.overlay.nodes);
   out.add("smoothed_points", levelling.overlay.points);
   out.add("smoothed_parameters", levelling.overlay.parameters);
+  if (run.state.extras && !run.state.extras->nodes_per_hex.empty()) {
+    std::vector<std::array<std::int32_t, 2>> rows;
+    for (const auto& [block, n] : run.state.extras->nodes_per_hex) rows.push_back({block, n});
+    out.add("nodes_per_hex", rows);
+  }
   if (!out.close()) replacement.fail("cannot be written (disk full?)");
   replacement.commit();
 }
@@ -223,7 +321,9 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
   const PieceReader in(file);
   Levelling levelling;
   Forest& forest = levelling.forest;
-  forest.base = std::make_shared<const MeshedModel>(read_base(run, in));
+  MeshedModel base = read_base(run, in);
+  read_meant(in, base);
+  forest.base = std::make_shared<const MeshedModel>(std::move(base));
   forest.wished = read_marks(in, forest.base->mesh);
   auto made = std::make_shared<GrownForest>();
   MeshedModel mesh = grown_mesh(forest, *made);
@@ -266,8 +366,15 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
     check_same(in, mesh.mesh, there);
     mesh.mesh.fields = there.fields;
   }
+  const bool is_alone = there.n_hexes() == 0;
   in.check_unchanged();
   load_meshed(run, std::move(mesh));
+  if (is_alone && in.has("nodes_per_hex")) {
+    FileExtras extras;
+    for (const auto& [block, n] : in.get<std::array<std::int32_t, 2>>("nodes_per_hex"))
+      if (n == 8 || n == 20 || n == 27) extras.nodes_per_hex[block] = n;
+    run.state.extras = std::make_shared<const FileExtras>(std::move(extras));
+  }
   run.state.tags = nullptr;
   run.state.levelling = std::make_shared<const Levelling>(std::move(levelling));
 }

@@ -8,6 +8,10 @@
 //   base              the base mesh, as a .vtu file
 //   base_parameters   two per node of the base: on its curve (t, -) or surface (u, v)
 //   base_owners       two 32-bit integers per node: dimension and id of its CAD entity
+//   skin_*            without CAD: what the skin was made of that the mesh began with (FacetSource, geom/facet/model.h)
+//   base_edges, base_edge_curves, base_faces, base_face_surfaces, base_volumes    then: the rest of who owns what
+//   base_meant        three 32-bit integers each: a node set, and dimension and id of what it is meant to hold
+//   nodes_per_hex     two 32-bit integers each: block (0: all others) and 8, 20 or 27
 //   cells_<k>         64-bit numbers of the cells of level k on which there are marks (refine/levels/cells.h)
 //   corners_<k>       8 bits per cell: its marked corners
 //   node_ids, hex_ids 64-bit ids of the mesh as it is

@@ -144,8 +144,11 @@ std::vector<Index> State::new_hexes() const {
 std::vector<Index> State::new_nodes() const {
   const std::int64_t last_old = node_id(input.mesh, input.mesh.n_nodes() - 1);
   const std::vector<Index>& old = result_.old_node;
+  // By levels nodes that had been smoothed may be back where they were; those of the base, which come first, stay.
+  const Index n_base = result_.levelling ? result_.levelling->forest.base->mesh.n_nodes() : 0;
   return indices_where(mesh().n_nodes(), [&](Index n) {
     if (old.empty()) return node_id(mesh(), n) > last_old;
+    if (n < n_base) return false;
     return old[n] < 0 || mesh().points[n] != input.mesh.points[old[n]];
   });
 }

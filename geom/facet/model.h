@@ -76,4 +76,26 @@ struct FacetImport {
 FacetImport facet_model(std::span<const Vec3> points, std::span<const std::array<std::int32_t, 4>> quads,
                         std::span<const std::array<int, 2>> quad_volumes, const FacetModelOptions& options = {});
 
+/// What a skin was made of: from the same, the same model is made, bit for bit. Positions are those among `points`.
+struct FacetSource {
+  std::vector<Vec3> points;  ///< of nodes of the skin, in the order of the mesh
+  std::vector<std::array<std::int32_t, 4>> quads;
+  std::vector<std::array<int, 2>> quad_volumes;
+  double feature_angle = 35;
+  bool has_labels = false;
+  std::vector<int> quad_labels;
+  std::vector<std::array<std::int32_t, 2>> labelled_edges;
+  std::vector<int> edge_labels;
+  std::vector<std::int32_t> labelled_vertices;
+  bool has_middles = false;
+  std::vector<std::array<std::int32_t, 2>> middle_edges;
+  std::vector<Vec3> edge_points;
+  std::vector<std::array<std::int32_t, 4>> middle_faces;
+  std::vector<Vec3> face_points;
+};
+/// Null where the model is none of facets.
+const FacetSource* facet_source(const Model& model);
+/// Throws Error where positions are none of the points or lengths differ.
+FacetImport facet_model(const FacetSource& source);
+
 }  // namespace hextwist

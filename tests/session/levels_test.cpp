@@ -343,6 +343,72 @@ TEST(SessionLevels, are_written_and_read_so_that_another_run_goes_on) {
   EXPECT_EQ(error_of(bare, "export levels \"nothing.levels\""), "there are no levels to export: this mesh is a base");
 }
 
+/// Nodes of the base that smoothing had moved are back when all is coarse again, also where its hexes are poor: what
+/// lifts corners is for new nodes.
+TEST(SessionLevels, a_poor_base_comes_back_from_smoothing) {
+  Fixture f;
+  f.session.import_mesh(std::string(HEXTWIST_SOURCE_DIR) + "/models/cylinder.msh");
+  f.session.run("refine curve 1");
+  const MeshedModel base = f.session.meshed();
+  f.session.run("refine hex 1000 smooth");
+  f.session.run("coarsen hex all levels 9");
+  EXPECT_TRUE(test::same_bits(base, f.session.meshed()));
+}
+
+/// Without CAD the base may lie on the skin of a mesh before it, whose facets and numbers it does not tell.
+TEST(SessionLevels, on_the_skin_of_a_mesh_that_is_no_more_are_written_and_read) {
+  const std::string models = std::string(HEXTWIST_SOURCE_DIR) + "/models/";
+  const std::array<std::array<const char*, 2>, 6> cases = {{{"l_block", "refine curve 1"},
+                                                            {"notched_cube", "refine volume all"},
+                                                            {"cam", "refine sheet edge 5"},
+                                                            {"cylinder", "refine curve 1"},
+                                                            {"cylinder", "smooth volume all"},
+                                                            {"cylinder", "set feature_angle 10"}}};
+  for (const auto& [name, first] : cases) {
+    SCOPED_TRACE(name + std::string(": ") + first);
+    Fixture f;
+    const bool is_setting = std::string(first).starts_with("set");
+    if (is_setting) f.session.run(first);
+    f.session.import_mesh(models + name + ".msh");
+    if (!is_setting) f.session.run(first);
+    const Mesh base = f.session.meshed().mesh;
+    const std::string refine = "refine hex " + std::to_string(hex_id(base, base.n_hexes() / 2));
+    const std::string refine_more = "refine node " + std::to_string(node_id(base, 0)) + " depth 1";
+    const std::string file = (test::folder() / "skin.levels").string();
+    f.session.run(refine + "; refine node " + std::to_string(node_id(base, 0)) + " depth 1; export levels \"" + file +
+                  "\" overwrite");
+
+    Fixture other;
+    other.session.run("import levels \"" + file + "\"");
+    EXPECT_TRUE(test::same_bits({f.session.meshed().mesh, other.session.meshed().model, f.session.meshed().association},
+                                other.session.meshed()));
+    for (Fixture* one : {&f, &other}) one->session.run(refine_more + " smooth; coarsen curve 2");
+    EXPECT_TRUE(test::same_bits({f.session.meshed().mesh, other.session.meshed().model, f.session.meshed().association},
+                                other.session.meshed()));
+    other.session.run("coarsen hex all levels 9");
+    EXPECT_EQ(other.session.meshed().mesh.hexes, base.hexes);
+    EXPECT_EQ(other.session.meshed().mesh.points, base.points);
+
+    // Damaged anywhere: refused, or another place.
+    if (is_setting) continue;
+    std::string bytes;
+    {
+      std::ifstream in(file, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    std::mt19937 random(7);
+    for (int i = 0; i < 8; ++i) {
+      std::string broken = bytes;
+      broken[random() % broken.size()] ^= static_cast<char>(1 + random() % 255);
+      const auto damaged = test::folder() / "damaged.levels";
+      std::ofstream(damaged, std::ios::binary) << broken;
+      Fixture reader;
+      error_of(reader, "import levels \"" + damaged.string() + "\"");
+      EXPECT_TRUE(test::conformal(reader.session.meshed().mesh));
+    }
+  }
+}
+
 TEST(SessionLevels, what_cannot_be_is_refused) {
   Fixture f;
   EXPECT_TRUE(error_of(f, "coarsen hex all").starts_with("there is no mesh to coarsen; read one"));
