@@ -176,7 +176,7 @@ class ExodusWriter {
         ExodusPart part{id, is_it ? in_file(Of::block, id) : id, called, {}};
         part.type = name;
         if (!is_it)
-          notices_.push_back("other elements of type " + type.name +
+          notices_.push_back("other elements of type " + (type.name.empty() ? name : type.name) +
                              (b < 0 ? " that are in no block" : " of block " + std::to_string(block_of[e])) +
                              " are in element block " + std::to_string(id));
         at = part_of.emplace(key, parts_.size()).first;

@@ -230,33 +230,38 @@ class GmshAssembly {
 
   void lines_and_points() {
     const GmshElements& lines = in_.elements[1];
-    std::vector<Edge> owned;
-    std::vector<int> curves;
-    std::vector<std::size_t> of_owned;
-    for (std::size_t i = 0; i < lines.tags.size(); ++i) {
-      const Owner owner = in_.owner({1, lines.entity[i]});
-      if (owner.dim != 1) continue;
-      of_owned.push_back(i);
-      owned.push_back(
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < lines.tags.size(); ++i)
+      edges.push_back(
           {std::min(lines.nodes[2 * i], lines.nodes[2 * i + 1]), std::max(lines.nodes[2 * i], lines.nodes[2 * i + 1])});
-      curves.push_back(owner.id);
-    }
-    const auto good = are_edges(file_.mesh, owned);
-    for (std::size_t i = 0; i < owned.size(); ++i)
-      if (good[i]) {
-        file_.tags.curve_edges.push_back(owned[i]);
-        file_.tags.edge_curve.push_back(curves[i]);
+    const auto good = are_edges(file_.mesh, edges);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Owner owner = in_.owner({1, lines.entity[i]});
+      if (!good[i]) {
+        beside(1, i);
+      } else if (owner.dim == 1) {
+        file_.tags.curve_edges.push_back(edges[i]);
+        file_.tags.edge_curve.push_back(owner.id);
       }
-    for (std::size_t i = 0; i < good.size(); ++i)
-      if (!good[i]) beside(1, of_owned[i]);
+    }
     derive_node_owners(1);
     derive_node_owners(0);
+    std::array<std::map<int, std::vector<Index>>, 2> groups;
+    groups[0] =
+        members<Index>(0, [&](std::size_t i, std::vector<Index>& group) { group.push_back(in_.elements[0].nodes[i]); });
+    const auto lines_of =
+        members<std::size_t>(1, [](std::size_t i, std::vector<std::size_t>& group) { group.push_back(i); });
+    for (const auto& [id, of_group] : lines_of) {
+      std::vector<Index>& nodes = groups[1][id];
+      for (const std::size_t i : of_group) nodes.insert(nodes.end(), {lines.nodes[2 * i], lines.nodes[2 * i + 1]});
+      sort_unique(nodes);
+    }
+    find_line_blocks(lines_of, good);
 
     auto& sets = file_.mesh.node_sets;
     for (const int dim : {0, 1})
-      for (auto& [id, nodes] : members<Index>(dim, [&](std::size_t i, std::vector<Index>&group) {
-             for (int k = 0; k <= dim; ++k) group.push_back(in_.elements[dim].nodes[(dim + 1) * i + k]);
-           })) {
+      for (auto& [id, nodes] : groups[dim]) {
+        if (dim == 1 && line_blocks_.contains(id)) continue;
         const bool taken = std::ranges::find(sets, id, &NodeSet::id) != sets.end();
         NodeSet& set = group_of_id(sets, taken ? free_id(sets) : id);
         set.name = group_name(dim, id);
@@ -266,6 +271,18 @@ class GmshAssembly {
           notice("physical curve group " + std::to_string(id) + " is node set " + std::to_string(set.id) +
                  ": a physical point group has its id");
       }
+  }
+
+  /// A block of lines is written as a group of these, and as one of dimension 3 that has nothing and the same name.
+  void find_line_blocks(const std::map<int, std::vector<std::size_t>>& lines, const std::vector<char>& is_edge) {
+    for (const auto& [id, of_group] : lines) {
+      if (of_group.empty() || std::ranges::any_of(of_group, [&](std::size_t i) { return is_edge[i] != 0; })) continue;
+      const std::string name = group_name(1, id);
+      const auto block = std::ranges::find_if(file_.mesh.blocks, [&, id = id](const Block& b) {
+        return b.hexes.empty() && b.name == name && (!name.empty() || b.id == id);
+      });
+      if (block != file_.mesh.blocks.end()) line_blocks_[id] = block->id;
+    }
   }
 
   std::vector<int> groups_of(int dim, int list, std::size_t i) const {
@@ -300,7 +317,7 @@ class GmshAssembly {
         notice("dropped " + counted(n_bent_[dim], what) + (n_bent_[dim] == 1 ? " that is no " : " that are no ") +
                (dim == 1 ? "edge" : "side") + " of a hex");
     others_.finish(
-        file_.mesh, [this](int dim, int id) { return group_name(dim, id); }, file_.notices);
+        file_.mesh, [this](int dim, int id) { return group_name(dim, id); }, line_blocks_, file_.notices);
   }
   std::string only_others() const {
     std::map<std::string, std::int64_t> n;
@@ -348,6 +365,7 @@ class GmshAssembly {
   const Cursor& cursor_;
   MeshFile file_;
   GmshOthersFound others_;
+  std::map<int, int> line_blocks_;                  // by physical group of lines
   std::array<std::int64_t, 3> n_bent_ = {0, 0, 0};  // per dimension: of second order, on no hex
   Ids hex_ids_;
   bool owned_by_entities_ = false;     // nodes; else by the elements around them

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hextwist/io/gmsh/plan_internal.h"
+#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist::io {
@@ -78,6 +79,23 @@ std::vector<Index> lines_anywhere(const NodeSet& set, const Edges& all, Cover co
   return lines;
 }
 
+/// Is the element beside the hexes in this group of the file that it came from?
+bool is_in_group(const OtherElements& others, Index element, int group) {
+  const OtherHeads& heads = *others.heads;
+  if (heads.format != "gmsh" || heads.rest.empty()) return false;
+  const std::string text = " " + heads.rest[others.of[element]] + " ";
+  return text.find(" " + std::to_string(group) + " ") != std::string::npos;
+}
+/// Lines beside the hexes that a group has, too.
+void add_other_lines(const Mesh& mesh, int group, Cover& cover) {
+  if (!mesh.others) return;
+  for (Index e = 0; e < mesh.others->size(); ++e) {
+    if (mesh.others->type_of(e).shape != OtherShape::line || !is_in_group(*mesh.others, e, group)) continue;
+    const auto nodes = mesh.others->nodes_of(e);
+    if (const Edge edge{nodes[0], nodes[1]}; cover.has(edge)) cover.add(edge);
+  }
+}
+
 }  // namespace
 
 PlannedLines plan_lines(const Mesh& mesh, const Association& association, const FileExtras* extras, Index n_corners) {
@@ -94,7 +112,8 @@ PlannedLines plan_lines(const Mesh& mesh, const Association& association, const 
       plan.is_group[s] = was_group;
       continue;
     }
-    const Cover cover(mesh, set, n_corners);
+    Cover cover(mesh, set, n_corners);
+    if (was_group) add_other_lines(mesh, extras->curve_groups.at(set.id), cover);
     std::vector<Index>& lines = plan.members[s];
     lines = lines_of_whole_curves(association, cover);
     if (lines.empty() && was_group) {
@@ -109,7 +128,7 @@ PlannedLines plan_lines(const Mesh& mesh, const Association& association, const 
         std::ranges::sort(lines);
       }
     }
-    plan.is_group[s] = !lines.empty();
+    plan.is_group[s] = !lines.empty() || (was_group && cover.is_complete());
   }
   // Tags of the file, where no other group has them: points and curves are numbered apart there.
   for (std::size_t s = 0; s < n; ++s) {

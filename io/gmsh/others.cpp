@@ -1,6 +1,6 @@
 // Elements beside the hexes in Gmsh's files: tetrahedra, wedges, pyramids and triangles, and those quads and lines that
 // are no side or edge of a hex. Physical groups of dimension 3 are blocks, of dimension 2 side sets; those of dimension
-// 1 are kept as they are.
+// 1 are kept as they are, but for blocks of lines that we have written.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -76,7 +76,7 @@ void GmshOthersFound::add(int type, std::int64_t tag, Owner entity, std::vector<
 }
 
 void GmshOthersFound::finish(Mesh& mesh, const std::function<std::string(int dim, int id)>& group_name,
-                             std::vector<std::string>& notices) {
+                             const std::map<int, int>& line_blocks, std::vector<std::string>& notices) {
   if (heads.ids.empty()) return;
   heads.format = "gmsh";
   merge_copies();
@@ -106,7 +106,10 @@ void GmshOthersFound::finish(Mesh& mesh, const std::function<std::string(int dim
       if (id <= 0) continue;
       if (dim == 3) blocks[id].push_back(static_cast<Index>(e));
       if (dim == 2) sides[id].push_back(static_cast<Index>(e));
-      if (dim < 2) rest[e] += (rest[e].empty() ? "" : " ") + std::to_string(id);
+      if (const auto block = line_blocks.find(id); dim == 1 && block != line_blocks.end())
+        blocks[block->second].push_back(static_cast<Index>(e));
+      else if (dim < 2)
+        rest[e] += (rest[e].empty() ? "" : " ") + std::to_string(id);
     }
   }
   for (auto& [id, elements] : blocks) {
@@ -239,7 +242,7 @@ std::vector<GmshOther> gmsh_others(const Mesh& mesh, std::vector<PlannedGroup>& 
   if (!others.heads->format.empty() && others.heads->format != "gmsh")
     notices.push_back(
         "Gmsh has shapes and groups of other elements, not their types and what else is said of them, and "
-        "quads and lines on hexes are sides and edges when they are read: " +
+        "points, and quads and lines on hexes, are nodes, sides and edges when they are read: " +
         others_text(mesh));
   return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/io/gmsh/plan_internal.h"
@@ -21,8 +22,9 @@ struct GmshOthersFound {
 
   void add(int type, std::int64_t tag, Owner entity, std::vector<int> physicals, std::span<const Index> nodes_in_file);
   /// Gives them to the mesh, whose hexes and groups are there.
+  /// line_blocks: blocks of lines, by their physical group of dimension 1.
   void finish(Mesh& mesh, const std::function<std::string(int dim, int id)>& group_name,
-              std::vector<std::string>& notices);
+              const std::map<int, int>& line_blocks, std::vector<std::string>& notices);
 
  private:
   void merge_copies();

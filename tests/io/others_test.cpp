@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "hextwist/io/others.h"
 #include "hextwist/mesh/others.h"
 #include "io/io_support.h"
 
@@ -136,6 +137,44 @@ constexpr const char* mixed_inp =
     "*ELEMENT, TYPE=CONN3D2\n60, 1,\n*ELSET, ELSET=both\nsolid, lid\n"
     "*SURFACE, NAME=top\nlid, SPOS\n*SURFACE, NAME=side\nglue, S3\nsolid, S1\n"
     "*SHELL SECTION, ELSET=lid, MATERIAL=m\n0.1\n*MASS, ELSET=lump\n2.5\n*DLOAD\n7, P, 1.\n";
+
+TEST(others_in_gmsh, lines_on_no_hex_stay_with_their_group) {
+  const std::string nodes =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n14,3,0,0\n16,4,0,0\n";
+  const auto inp = test::write_text(test::output_folder() / "truss.inp",
+                                    nodes +
+                                        "*ELEMENT, TYPE=C3D8, ELSET=solid\n1,1,2,3,4,5,6,7,8\n"
+                                        "*ELEMENT, TYPE=T3D2, ELSET=truss\n33,14,16\n34,2,14\n");
+  const MeshFile read = read_mesh(inp);
+  for (const int version : {41, 22}) {
+    SCOPED_TRACE(version);
+    const auto file = test::output_folder() / ("truss" + std::to_string(version) + ".msh");
+    write_mesh(file, read.mesh, nullptr, {.gmsh_version = version});
+    const MeshFile back = read_mesh(file);
+    EXPECT_EQ(back.mesh.blocks, read.mesh.blocks);
+    EXPECT_TRUE(back.mesh.node_sets.empty());
+    ASSERT_TRUE(back.mesh.others);
+    EXPECT_EQ(back.mesh.others->size(), 2);
+    EXPECT_EQ(io::others_of_block(back.mesh, 2).size(), 2U);
+  }
+  // A group of lines of which some are edges of hexes and some are not.
+  const auto rail = test::write_text(
+      test::output_folder() / "rail.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 2 \"rail\"\n3 1 \"solid\"\n$EndPhysicalNames\n"
+      "$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 2 0 0\n10 3 0 0\n"
+      "$EndNodes\n$Elements\n4\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 1 2 2 20 1 2\n3 1 2 2 21 2 9\n4 1 2 2 21 9 10\n"
+      "$EndElements\n");
+  const MeshFile first = read_mesh(rail);
+  const auto out = test::output_folder() / "rail_out.msh";
+  write_mesh(out, first.mesh, &first.tags, {.binary = false, .gmsh_version = 22, .extras = &first.extras});
+  const std::string text = test::text_of(out);
+  EXPECT_NE(text.find("1 2 \"rail\""), std::string::npos);
+  EXPECT_EQ(text.find("0 2 \"rail\""), std::string::npos);
+  const MeshFile second = read_mesh(out);
+  EXPECT_EQ(second.mesh.node_sets, first.mesh.node_sets);
+  EXPECT_EQ(second.mesh.others->size(), 2);
+  EXPECT_EQ(second.mesh.others->heads->rest, first.mesh.others->heads->rest);
+}
 
 TEST(others_in_abaqus, elements_and_the_cards_about_them_stay) {
   const auto file = test::write_text(test::output_folder() / "a.inp", mixed_inp);
