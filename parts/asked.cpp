@@ -1,10 +1,13 @@
 #include "hextwist/parts/asked.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "hextwist/base/text.h"
 #include "hextwist/command/braces.h"
 #include "hextwist/command/error_at.h"
+#include "hextwist/command/flow.h"
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/session.h"
 #include "hextwist/sizing/targets.h"
@@ -13,7 +16,7 @@ namespace hextwist {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, const std::string& why) {
-  throw Error(what + " is not done in parts: " + why + "; run it with hextwist");
+  throw NeedsWhole(what + ": " + why);
 }
 
 bool is_set(EntityKind kind) {
@@ -80,6 +83,10 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<N
       check_range(term.any_kind ? kind : term.kind, term.range, is_cad(kind), nullptr);
   }
 }
+
+/// Commands that begin with another mesh, or end.
+constexpr std::array<std::string_view, 8> of_sessions = {"brick",  "create", "cylinder", "exit",
+                                                         "import", "quit",   "reset",    "sphere"};
 
 constexpr std::int64_t most_ids = 1000000;  // of a span
 
@@ -176,33 +183,47 @@ void find_target(Execution& run, PartAsked& result) {
 
 }  // namespace
 
-PartCommands::PartCommands(std::span<const std::string> texts) {
+PartCommands::PartCommands(std::span<const std::string> texts) : texts_(texts.begin(), texts.end()) {
+  bool is_any = false;
   for (const std::string& text : texts)
     for (const Statement& statement : split_statements(text, "", 1)) {
-      if (has_braces(statement))
-        throw error_at(statement, statement.tokens.front(), "braces are not known to meshes in parts");
-      Command command = parse(statement);
-      if (command.spec->name != "refine")
-        throw error_at(
-            statement, statement.tokens.front(),
-            "'" + std::string(command.spec->name) + "' is not done in parts: join them and run it with hextwist");
-      if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
-      if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
-      if (command.find("size") || command.has("sizing_function"))
-        refuse("a size", "how well sizes are met is compared over the whole mesh");
-      std::vector<NamedId> ids;
-      for (Item& item : command.items) {
-        if (item.is_word || (item.name != "range" && item.name != "which")) continue;
-        const bool is_target = item.name == "range";
-        if (is_target) spell_out(item.kind, item.range);
-        check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
-        if (is_mesh(item.kind) && command.find("radius"))
-          refuse("a radius around nodes or hexes", "they may lie in any part");
+      is_any = true;
+      try {
+        add(statement);
+      } catch (const NeedsWhole& needs) {
+        if (by_whole_.empty()) by_whole_ = needs.why;
       }
-      ids_.push_back(std::move(ids));
-      commands_.push_back(std::move(command));
     }
-  if (commands_.empty()) throw Error("no refinement was asked for");
+  if (!is_any) throw Error("no refinement was asked for");
+}
+
+void PartCommands::add(const Statement& statement) {
+  std::string& name = names_.emplace_back();
+  if (has_braces(statement) || flow_of(statement).kind != Flow::none)
+    refuse("braces", "values may be those of the whole mesh");
+  Command command = parse(statement);
+  name = command.spec->name;
+  const bool makes_group = name == "create" && (command.has("group") || command.has("block"));
+  if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
+    throw error_at(
+        statement, statement.tokens.front(),
+        "'" + name + "' is for sessions of hextwist: here " + "the mesh is read first and written in the end");
+  if (name != "refine") refuse("'" + name + "'", "only refinements are done in parts");
+  if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
+  if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
+  if (command.find("size") || command.has("sizing_function"))
+    refuse("a size", "how well sizes are met is compared over the whole mesh");
+  std::vector<NamedId> ids;
+  for (Item& item : command.items) {
+    if (item.is_word || (item.name != "range" && item.name != "which")) continue;
+    const bool is_target = item.name == "range";
+    if (is_target) spell_out(item.kind, item.range);
+    check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
+    if (is_mesh(item.kind) && command.find("radius"))
+      refuse("a radius around nodes or hexes", "they may lie in any part");
+  }
+  ids_.push_back(std::move(ids));
+  commands_.push_back(std::move(command));
 }
 
 int PartCommands::depth() const {
@@ -236,6 +257,8 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
     try {
       Execution run(core, command);
       find_target(run, result);
+    } catch (const NeedsWhole& needs) {
+      result.by_whole = needs.why;
     } catch (const std::exception& error) {
       result.wrong = in_one_line(error);
     }
@@ -253,15 +276,15 @@ bool PartCommands::cuts_levels(std::size_t i, Approach approach) const {
          (approach == Approach::trisect && !commands_[i].has("fill") && !commands_[i].has("nested"));
 }
 
-void PartCommands::check(std::size_t i, bool is_anywhere, const std::string& nothing, const std::string& wrong,
-                         std::span<const std::int64_t> has_id, Approach approach,
-                         std::span<const Approach> before) const {
-  if (!wrong.empty()) throw Error(wrong);
+void PartCommands::check(std::size_t i, bool is_anywhere, const Objections& said, std::span<const std::int64_t> has_id,
+                         Approach approach, std::span<const Approach> before) const {
+  if (!said.wrong.empty()) throw Error(said.wrong);
   for (std::size_t k = 0; k < has_id.size(); ++k)
     if (has_id[k] == 0 && !ids_[i][k].may_be_missing)
       throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
                   std::to_string(ids_[i][k].id));
-  if (!is_anywhere) throw Error(nothing);
+  if (!said.by_whole.empty()) throw NeedsWhole(said.by_whole);
+  if (!is_anywhere) throw Error(said.nothing);
   if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))
     refuse("a second level", "it is made from the mesh before the first; 'numsplit 2' or 'transition nested' can be");
 }

@@ -62,9 +62,7 @@ class OnDisk {
       lines_.clear();
       is_done = refine_all();
       if (!is_done) {
-        if (n_rings_ == most_rings)
-          throw Error("what is cut depends on places more than " + std::to_string(most_rings) +
-                      " hexes away; run it with hextwist");
+        if (n_rings_ == most_rings) throw NeedsWhole(depends_on_far(most_rings));
         n_rings_ = std::min(2 * n_rings_, most_rings);
         say_("what is made depends on places far away: halos of " + counted(n_rings_, "ring") + " are needed");
       }
@@ -299,10 +297,12 @@ class OnDisk {
     std::vector<HaloMade> halo;
     std::vector<std::vector<Made>> made;
     std::vector<Turn> turns;
-    std::string nothing, wrong, by_whole, fault;
+    Objections said;
+    std::string by_whole, fault;
     std::vector<std::int64_t> has_id;
+    bool is_hopeless() const { return !said.wrong.empty() || !said.by_whole.empty(); }
     bool is_anywhere = false, by_levels = false, is_all = true;
-    int n_rings = all_rings;
+    int n_rings = most_rings;
     std::int64_t n_before = 0, n_after = 0, largest = 0;
     std::vector<Bounds> next = std::vector<Bounds>(n_freedoms, no_bounds);  ///< of lifting, beyond those that are known
   };
@@ -314,11 +314,12 @@ class OnDisk {
     all.n_rings = std::min(all.n_rings, local.n_rings);
     all.is_all = all.is_all && local.is_all;
     PartAsked mine = commands_.asked(i, local, ids, false);
-    if (!mine.wrong.empty()) all.wrong = mine.wrong;
-    if (all.nothing.empty()) all.nothing = mine.nothing;
+    if (all.said.wrong.empty()) all.said.wrong = mine.wrong;
+    if (all.said.by_whole.empty()) all.said.by_whole = mine.by_whole;
+    if (all.said.nothing.empty()) all.said.nothing = mine.nothing;
     all.has_id.resize(mine.has_id.size(), 0);
     for (std::size_t k = 0; k < all.has_id.size(); ++k) all.has_id[k] += mine.has_id[k];
-    if (!all.wrong.empty()) return;
+    if (all.is_hopeless()) return;
     if (mine.asked.is_here) {
       all.is_anywhere = true;
       done.approach = mine.asked.approach;
@@ -358,7 +359,7 @@ class OnDisk {
       for (;;) {
         all = {};
         counts_.clear();
-        for (int p = 0; p < n_parts() && all.wrong.empty(); ++p) refine_part(p, i, done, all);
+        for (int p = 0; p < n_parts() && !all.is_hopeless(); ++p) refine_part(p, i, done, all);
         // Low hexes are lifted by what all parts have at the least: once more with that of the first step that is not
         // known and lifts any. What is said of the steps behind it may change for it.
         const auto known = all.next.begin() + std::ssize(done.bounds);
@@ -367,15 +368,14 @@ class OnDisk {
         if (lifts == all.next.end()) break;
         done.bounds.insert(done.bounds.end(), known, lifts + 1);
       }
-      commands_.check(i, all.is_anywhere, all.nothing, all.wrong, all.has_id, done.approach, approaches);
+      commands_.check(i, all.is_anywhere, all.said, all.has_id, done.approach, approaches);
       approaches.push_back(done.approach);
       const int alike = rings_alike(all.halo, all.made, all.n_rings);
       switch (verdict_of(alike, all.n_rings, all.by_whole, all.is_all)) {
         case Verdict::right:
           break;
         case Verdict::needs_all:
-          throw Error(all.by_whole +
-                      ", so parts can't do it one after the other; run it with hextwist or hextwist-mpi");
+          throw NeedsWhole(all.by_whole);
         case Verdict::too_narrow:
           return false;
       }
@@ -526,6 +526,7 @@ class OnDisk {
 void refine_on_disk(const std::filesystem::path& any_part, const PartCommands& commands,
                     const std::filesystem::path& output, const OnDiskOptions& options,
                     const std::function<void(const std::string&)>& say) {
+  if (!commands.by_whole().empty()) throw NeedsWhole(commands.by_whole());
   OnDisk(any_part, commands, options, output, say).run(output);
 }
 

@@ -167,15 +167,50 @@ TEST(InRanks, an_error_of_one_is_one_line_with_its_rank_and_nothing_is_written) 
   EXPECT_FALSE(std::filesystem::exists(folder / "a.e.2.0"));
 }
 
-TEST(InRanks, what_is_not_done_in_parts_is_refused_by_name) {
+/// What each part can't do by itself.
+TEST(InRanks, sizes_coarser_hexes_and_smoothing_are_done_by_the_first_of_three_as_by_one) {
+  const std::string grid = brick("12 6 5");
+  expect_same_file({grid, "",
+                    "sizing function f linear curve 1 size 0.08; refine volume all sizing_function f; "
+                    "smooth volume all iterations 2"},
+                   3, "slabs");
+  expect_same_file({grid, "", "refine hex 20 to 60; refine hex 400 to 420; coarsen hex in surface 1"}, 2, "boxes");
+  expect_same_file({model("cam.msh"), model("cam.brep"), "{s = 2}\nrefine curve {s} size 0.4 bias 1.4; undo; redo"}, 3,
+                   "random");
+}
+TEST(SlowInRanks, what_the_first_does) {
+  const std::string grid = brick("12 6 5"), cam = model("cam.msh"), cad = model("cam.brep");
+  expect_same_files({{grid, "", "refine surface 1 size 0.2"},
+                     {grid, "", "refine hex 9 to 90 numsplit 2; coarsen hex all; refine node 7 method parallel"},
+                     {grid, "", "refine hex 1 100 300 smooth; refine edge 5; sideset 9 add surface 2; undo"},
+                     {cam, cad, "refine surface 2 size 0.6 bias 1.3; refine curve 1 size 0.2 bias 2"},
+                     {cam, cad, "refine surface 1 direction layers 2; refine volume 1 size 0.4 dry_run"}},
+                    "");
+}
+TEST(InRanks, it_is_said_what_the_first_does_and_why) {
+  const std::string mesh = brick("6 4 4");
+  const auto said = [&](const std::string& commands) {
+    return run_ranks(2, "'" + mesh + "' -c '" + commands + "'").out;
+  };
+  EXPECT_NE(said("refine curve 1 size 0.1")
+                .find("a size: how well sizes are met is compared over the whole mesh: "
+                      "the first process does it, with the whole mesh"),
+            std::string::npos);
+  EXPECT_NE(said("refine hex 1; refine hex 4").find("a second level: "), std::string::npos);
+  EXPECT_NE(said("refine hex 1; coarsen hex all").find("'coarsen': "), std::string::npos);
+}
+TEST(InRanks, commands_of_a_session_are_refused_by_name) {
   const std::string mesh = brick("6 4 4");
   const auto said = [&](const std::string& commands) {
     const Outcome outcome = run_ranks(2, "'" + mesh + "' -c '" + commands + "'");
     EXPECT_EQ(outcome.status, 1);
     return outcome.err.substr(0, outcome.err.find('\n'));
   };
-  EXPECT_NE(said("refine curve 1 size 0.1").find("a size is not done in parts"), std::string::npos);
-  EXPECT_NE(said("refine hex 1; coarsen hex 1").find("'coarsen' is not done in parts"), std::string::npos);
+  EXPECT_NE(said("refine hex 1; reset").find("'reset' is for sessions of hextwist"), std::string::npos);
+  EXPECT_NE(said("import mesh \"a.msh\"").find("'import' is for sessions of hextwist"), std::string::npos);
+  EXPECT_NE(said("{n = 4}\ncreate brick x {n}").find("rank 0: a command has put the mesh on another model"),
+            std::string::npos);
+  EXPECT_NE(said("coarsen hex 1").find("rank 0: no hex can become coarser"), std::string::npos);
 }
 
 }  // namespace
