@@ -122,12 +122,30 @@ bool keep_ids_here(const Mesh& mesh, EntityKind kind, Range& range) {
   return !range.items.empty();
 }
 
+void check_sizes(const Request& request, Approach approach) {
+  const Sizes& sizes = std::get<Sizes>(request.how);
+  const EntityKind kind = request.target.kind;
+  if (sizes.size && !is_cad(kind) && (kind != EntityKind::hex || sizes.bias > 1))
+    refuse("a size at nodes, edges, faces or hexes", "others may be nearer");
+  if (sizes.field && sizes.bias > 1)
+    refuse("a sizing function with a bias", "its growth is limited over the whole mesh");
+  if (approach == Approach::nearest_size && may_halve(request))
+    refuse("a size that is the same everywhere",
+           "it may be met by one into eight, whose sheets run through the whole mesh");
+  if (request.concave == Concave::fill) refuse("sizes with 'concave fill'", "regions are filled pass by pass");
+}
+
 void check_request(const Request& request, Approach approach) {
   switch (approach) {
     case Approach::uniform:
     case Approach::trisect:
     case Approach::levels:
     case Approach::parallel:
+      break;
+    case Approach::size_by_levels:
+    case Approach::size_by_threes:
+    case Approach::nearest_size:
+      check_sizes(request, approach);
       break;
     case Approach::combination:
       if (std::get<Cuts>(request.how).numsplit > 1 && is_regular(request))
@@ -140,8 +158,10 @@ void check_request(const Request& request, Approach approach) {
     case Approach::layers:
     case Approach::sheets:
       refuse("a direction or a sheet", "sheets run through the whole mesh");
-    default:
-      refuse("a size", "how well sizes are met is compared over the whole mesh");
+    case Approach::size_by_halves:
+    case Approach::size_by_directions:
+    case Approach::size_by_combination:
+      refuse("a size by 'method parallel' or 'method combination'", "what is too large is looked at as a whole");
   }
   if (request.finish.smooth) refuse("smooth", "smoothing goes across parts");
   if (request.finish.dry_run) refuse("dry_run", "it counts without making anything");
@@ -165,7 +185,12 @@ void find_target(Execution& run, PartAsked& result) {
   check_request(request, approach);
   std::vector<std::string> told;
   try {
-    if (request.target.radius) {
+    if (const Sizes* sizes = std::get_if<Sizes>(&request.how)) {
+      // Where nothing of the target is here, sizes may be wished for all the same, and others have to be told.
+      result.asked = {request, approach, sizes->bias > 1 || approach == Approach::nearest_size, {}};
+      result.asked.region = region_target(*run.meshed, request.target, told);
+      if (result.asked.region.empty()) throw Error("there are no hexes at the target");
+    } else if (request.target.radius) {
       request.target = {EntityKind::hex, region_target(*run.meshed, request.target, told)};
       request.method = Method::single;
     } else if (approach != Approach::uniform) {
@@ -178,7 +203,23 @@ void find_target(Execution& run, PartAsked& result) {
     result.nothing = error.what();
     return;
   }
-  result.asked = {std::move(request), approach, true};
+  result.has_target = true;
+  if (!std::holds_alternative<Sizes>(request.how)) result.asked = {std::move(request), approach, true, {}};
+  result.asked.is_here = true;
+}
+
+}  // namespace
+
+namespace {
+
+/// Of the CAD alone.
+void check_function(const Command& command) {
+  if (command.has("list") || command.find("field"))
+    refuse("a sizing function of a field, or a list of functions", "a part has its own hexes only");
+  for (const Item* range : command.find_all("range")) {
+    if (!is_cad(range->kind)) refuse("a sizing function at nodes, edges, faces or hexes", "others may be nearer");
+    check_range(range->kind, range->range, true, nullptr);
+  }
 }
 
 }  // namespace
@@ -208,11 +249,14 @@ void PartCommands::add(const Statement& statement) {
     throw error_at(
         statement, statement.tokens.front(),
         "'" + name + "' is for sessions of hextwist: here " + "the mesh is read first and written in the end");
+  if (name == "sizing") {
+    check_function(command);
+    functions_.push_back({commands_.size(), std::move(command)});
+    return;
+  }
   if (name != "refine") refuse("'" + name + "'", "only refinements are done in parts");
   if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
   if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
-  if (command.find("size") || command.has("sizing_function"))
-    refuse("a size", "how well sizes are met is compared over the whole mesh");
   std::vector<NamedId> ids;
   for (Item& item : command.items) {
     if (item.is_word || (item.name != "range" && item.name != "which")) continue;
@@ -255,6 +299,11 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
   core.exchange_mesh(MeshHolder(std::move(local.meshed)));
   if (is_any_left) {
     try {
+      for (const auto& [before, function] : functions_) {
+        if (before > i) break;
+        Execution define(core, function);
+        transact(define, [&] { execute(define); });
+      }
       Execution run(core, command);
       find_target(run, result);
     } catch (const NeedsWhole& needs) {
@@ -272,7 +321,7 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
 }
 
 bool PartCommands::cuts_levels(std::size_t i, Approach approach) const {
-  return approach == Approach::levels ||
+  return approach == Approach::levels || (approach >= Approach::size_by_levels && approach <= Approach::nearest_size) ||
          (approach == Approach::trisect && !commands_[i].has("fill") && !commands_[i].has("nested"));
 }
 

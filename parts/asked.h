@@ -29,6 +29,7 @@ struct Objections {
 /// What one part makes of a command; parts then agree (agreed()).
 struct PartAsked : Objections {
   Asked asked;
+  bool has_target = false;           ///< something of the target is here
   std::vector<std::int64_t> has_id;  ///< per id that the command names: 1 where it is here
 };
 
@@ -66,6 +67,11 @@ class PartCommands {
   std::vector<std::string> texts_, names_;
   std::string by_whole_;
   std::vector<Command> commands_;
+  struct Function {
+    std::size_t before;  ///< which command
+    Command command;
+  };
+  std::vector<Function> functions_;        // for sizes
   std::vector<std::vector<NamedId>> ids_;  // that command i names one by one
 };
 

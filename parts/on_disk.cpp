@@ -34,11 +34,17 @@ struct Numbered {
 
 /// A command that all parts have done.
 struct Done {
+  OfWhole whole;             ///< before it
   int n_rings = 0;             ///< that stay
   std::vector<Bounds> bounds;  ///< of all parts, by freedom of lifting
   Approach approach = Approach::trisect;
   std::vector<Numbered> of_part;
 };
+
+/// What is decided together is not known before all parts are done.
+PartNumbers not_part_after_part(const PartNumbers&, bool&) {
+  throw NeedsWhole("a size: which technique comes nearer is found out by all parts together");
+}
 
 class OnDisk {
  public:
@@ -100,6 +106,7 @@ class OnDisk {
       }
       is_by_blocks = is_by_blocks && has_block_each(mesh);
       find_faces(mesh, volume, open, walls);
+      box_.add(hextwist::box(mesh));
       n_nodes += mesh.n_nodes();
       n_hexes += mesh.n_hexes();
       highest_node_ = std::max(highest_node_, mesh.node_ids.back());
@@ -278,9 +285,10 @@ class OnDisk {
       const Done& done = done_[i];
       PartAsked mine = commands_.asked(i, local, ids, false);
       mine.asked.approach = done.approach;
-      LocalRun run = run_locally(local, mine.asked, [&](int freedom, const Bounds& none) {
+      const LeastOfAll least = [&](int freedom, const Bounds& none) {
         return freedom < std::ssize(done.bounds) ? done.bounds[freedom] : none;
-      });
+      };
+      LocalRun run = run_locally(local, mine.asked, done.whole, {least, not_part_after_part});
       for (PassRecord& record : run.records) keep_rings(record, done.n_rings);
       const Numbered& numbered = done.of_part[p];
       for (const Brought& brought : numbered.turns)
@@ -303,6 +311,8 @@ class OnDisk {
     bool is_hopeless() const { return !said.wrong.empty() || !said.by_whole.empty(); }
     bool is_anywhere = false, by_levels = false, is_all = true;
     int n_rings = most_rings;
+    SizeCounts sizes;
+    Box box;  ///< afterwards
     std::int64_t n_before = 0, n_after = 0, largest = 0;
     std::vector<Bounds> next = std::vector<Bounds>(n_freedoms, no_bounds);  ///< of lifting, beyond those that are known
   };
@@ -320,21 +330,26 @@ class OnDisk {
     all.has_id.resize(mine.has_id.size(), 0);
     for (std::size_t k = 0; k < all.has_id.size(); ++k) all.has_id[k] += mine.has_id[k];
     if (all.is_hopeless()) return;
-    if (mine.asked.is_here) {
+    if (mine.has_target) {
       all.is_anywhere = true;
       done.approach = mine.asked.approach;
     }
     LocalRun run;
     try {
-      run = run_locally(local, mine.asked, [&](int freedom, const Bounds& bounds) {
+      const LeastOfAll least_so_far = [&](int freedom, const Bounds& bounds) {
         if (freedom < std::ssize(done.bounds)) return done.bounds[freedom];
         all.next[freedom] = least(all.next[freedom], bounds);
         return bounds;
-      });
+      };
+      run = run_locally(local, mine.asked, done.whole, {least_so_far, not_part_after_part});
+    } catch (const NeedsWhole&) {
+      throw;
     } catch (const Error& error) {
       throw Error(name(p) + ": " + error.what());
     }
     all.by_levels = all.by_levels || run.by_levels;
+    all.sizes.add(run.sizes);
+    all.box.add(own_box(local));
     for (const PassRecord& record : run.records) all.turns.push_back(record.turn);
     if (all.by_whole.empty()) all.by_whole = run.by_whole;
     if (all.fault.empty() && !run.wrong.empty()) all.fault = name(p) + ": " + run.wrong;
@@ -352,8 +367,10 @@ class OnDisk {
   /// All commands; false: halos were too narrow.
   bool refine_all() {
     std::vector<Approach> approaches;
+    OfWhole whole{box_, n_hexes_};
     for (std::size_t i = 0; i < commands_.size(); ++i) {
       Done done;
+      done.whole = whole;
       done.of_part.resize(static_cast<std::size_t>(n_parts()));
       Collected all;
       for (;;) {
@@ -385,6 +402,8 @@ class OnDisk {
       done.n_rings = rings_to_keep(alike, all.is_all);
       number(done, sorted_unique(std::move(all.turns)), all.by_levels);
       done_.push_back(std::move(done));
+      whole = {all.box, all.n_after};
+      if (const std::string met = text_of(all.sizes); !met.empty()) lines_.push_back(met);
       lines_.push_back(std::to_string(all.n_before) + " -> " + std::to_string(all.n_after) + " hexes in " +
                        counted(n_parts(), "part") + " of at most " + std::to_string(all.largest));
     }
@@ -515,9 +534,10 @@ class OnDisk {
   SharedNodes shared_;
   std::shared_ptr<const Model> model_;
   std::vector<std::vector<Owner>> meant_;  // per node set
+  Box box_;
   std::int64_t n_nodes_ = 0, n_hexes_ = 0, highest_node_ = 0, highest_hex_ = 0;
   std::vector<Done> done_;
-  std::vector<std::string> lines_;  // one per command
+  std::vector<std::string> lines_;  // of commands
   std::vector<std::int64_t> counts_;
 };
 

@@ -78,12 +78,31 @@ std::string first_text(Ranks& ranks, const std::string& text) {
   return first == ranks.size() ? std::string() : ranks.text_of(first, text);
 }
 
+Box whole_box(Ranks& ranks, const LocalMesh& local) {
+  const Box mine = own_box(local);
+  std::vector<double> most;
+  for (int k = 0; k < 3; ++k) most.insert(most.end(), {mine.max[k], -mine.min[k]});
+  most = ranks.largest(std::move(most));
+  Box all;
+  for (int k = 0; k < 3; ++k) {
+    all.max[k] = most[2 * k];
+    all.min[k] = -most[2 * k + 1];
+  }
+  return all;
+}
+
+SizeCounts sum_of(Ranks& ranks, const SizeCounts& mine) {
+  const std::vector<std::int64_t> sum =
+      ranks.sum(std::vector{mine.hexes, mine.coarser, mine.finer, mine.much_finer, mine.unmet});
+  return {sum[0], sum[1], sum[2], sum[3], sum[4]};
+}
+
 /// What all ranks make of a command together.
 Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMesh& local, const GlobalIds& ids,
              bool has_cad, std::vector<Approach>& before) {
   PartAsked mine;
   ranks.together([&] { mine = commands.asked(i, local, ids, has_cad); });
-  const bool is_here = mine.asked.is_here;
+  const bool is_here = mine.has_target;
   for (std::string* said : {&mine.wrong, &mine.by_whole, &mine.nothing}) *said = first_text(ranks, *said);
   const auto approach =
       static_cast<Approach>(ranks.largest(is_here ? static_cast<std::int64_t>(mine.asked.approach) : 0));
@@ -133,13 +152,23 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
     const std::int64_t n_before = ranks.sum(n_own_hexes(made.local));
     const Asked asked = agreed(ranks, commands, i, made.local, made.ids, part.has_cad, approaches);
     LocalRun run;
+    const OfWhole whole = {whole_box(ranks, made.local), n_before};
     // What is asked of all ranks in between, each asks as often.
-    ranks.together([&] {
-      run = run_locally(made.local, asked, [&](int, const Bounds& mine) {
-        const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
-        return Bounds{-most[0], -most[1]};
-      });
-    });
+    const LeastOfAll least = [&](int, const Bounds& mine) {
+      const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
+      return Bounds{-most[0], -most[1]};
+    };
+    const NumbersOfAll numbers = [&](const PartNumbers& mine, bool& has_failed) {
+      std::vector<std::int64_t> sums(mine.sum.begin(), mine.sum.end());
+      sums.push_back(has_failed);
+      sums = ranks.sum(std::move(sums));
+      has_failed = sums.back() > 0;
+      PartNumbers all;
+      std::copy_n(sums.begin(), all.sum.size(), all.sum.begin());
+      all.least = -ranks.largest(std::vector{-mine.least})[0];
+      return all;
+    };
+    ranks.together([&] { run = run_locally(made.local, asked, whole, {least, numbers}); });
     const int n_rings_now = made.local.n_rings;
     const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
     const bool have_all = ranks.least(made.local.is_all) != 0;
@@ -155,6 +184,7 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
     number(ranks, run, made.ids);
     ranks.together([&] { trim(made.local, keep, made.ids); });
     const std::int64_t n_after = ranks.sum(n_own_hexes(made.local)), largest = ranks.largest(n_own_hexes(made.local));
+    if (const std::string met = text_of(sum_of(ranks, run.sizes)); !met.empty()) lines.push_back(met);
     lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
                     counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
   }
