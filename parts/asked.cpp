@@ -208,9 +208,15 @@ void find_target(Execution& run, PartAsked& result) {
   result.asked.is_here = true;
 }
 
-}  // namespace
-
-namespace {
+/// The same request without a target: what others find together with this part.
+void ask_without_target(Session::Core& core, Command command, PartAsked& result) {
+  for (Item& item : command.items)
+    if (!item.is_word && item.name == "range") item.range = {{RangeItem{}}, {}, {}};
+  Execution run(core, command);
+  result.asked = {request_of(run), {}, false, {}};
+  result.asked.approach = plan(*run.meshed, result.asked.request).approach;
+  result.asked.is_here = result.asked.approach == Approach::nearest_size;
+}
 
 /// Of the CAD alone.
 void check_function(const Command& command) {
@@ -297,22 +303,25 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
     is_any_left = is_any_left && keep_ids_here(mesh, item.kind, item.range);
   }
   core.exchange_mesh(MeshHolder(std::move(local.meshed)));
-  if (is_any_left) {
-    try {
-      for (const auto& [before, function] : functions_) {
-        if (before > i) break;
-        Execution define(core, function);
-        transact(define, [&] { execute(define); });
-      }
-      Execution run(core, command);
-      find_target(run, result);
-    } catch (const NeedsWhole& needs) {
-      result.by_whole = needs.why;
-    } catch (const std::exception& error) {
-      result.wrong = in_one_line(error);
+  try {
+    for (const auto& [before, function] : functions_) {
+      if (before > i) break;
+      Execution define(core, function);
+      transact(define, [&] { execute(define); });
     }
-  } else {
-    result.nothing = "none of them is there";
+    Execution run(core, command);
+    if (is_any_left)
+      find_target(run, result);
+    else
+      result.nothing = "none of them is there";
+    const bool is_for_sizes = command.find("size") || command.has("sizing_function");
+    const Item* range = command.find("range");
+    if (is_for_sizes && !result.has_target && range && range->kind == EntityKind::hex)
+      ask_without_target(core, command, result);
+  } catch (const NeedsWhole& needs) {
+    result.by_whole = needs.why;
+  } catch (const std::exception& error) {
+    result.wrong = in_one_line(error);
   }
   local.meshed = std::move(core.meshed.to_change());
   local.meshed.mesh.node_ids.clear();

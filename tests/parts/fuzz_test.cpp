@@ -105,27 +105,43 @@ std::string random_ids(Random& random, std::int64_t low, std::int64_t high) {
   }
 }
 
-/// What the first rank does with the whole mesh; sizes are as many as a hex of the average has.
+std::string random_hexes(Random& random, const Mesh& mesh) {
+  return "hex" + random_ids(random, hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1));
+}
+std::string random_entity(Random& random, const Model& model) {
+  const int dim = random.number(0, 2);
+  const char* const words[] = {"vertex ", "curve ", "surface "};
+  return words[dim] + std::to_string(random.number(1, std::max(1, model.count(dim))));
+}
+
+/// Sizes around what the hexes have. Some are met in parts, some by the first rank.
+std::string random_sizes(Random& random, const MeshedModel& meshed) {
+  const double edge = std::cbrt(average_volume(meshed.mesh));
+  const auto size = [&] { return short_number(edge * random.number(2, 10) / 10); };
+  const auto growth = [&] { return "1." + std::to_string(random.number(2, 9)); };
+  const auto entity = [&] { return random_entity(random, *meshed.model); };
+  std::string command;
+  if (random.one_in(3)) {
+    const std::string where = random.one_in(3) ? "volume all" : random.one_in(2) ? entity() : "hex in " + entity();
+    command = random.one_in(3)
+                  ? "refine " + where + " sizing_function \"" + size() + "*(1 + 0.3*abs(x))\""
+                  : "sizing function f" + std::to_string(random.number(1, 2)) + " linear " + entity() + " size " +
+                        size() + " growth " + growth() + "; refine " + where + " sizing_function";
+  } else {
+    command = "refine " + (random.one_in(5) ? random_hexes(random, meshed.mesh) : entity()) + " size " + size();
+    if (!random.one_in(5)) command += " bias " + growth();
+    if (random.one_in(6)) command += " radius " + short_number(edge * random.number(5, 30) / 10);
+  }
+  if (random.one_in(3)) command += " method single";
+  if (random.one_in(3)) command += random.one_in(2) ? " transition regular" : " transition nested";
+  return command;
+}
+
+/// What the first rank does with the whole mesh.
 std::string random_whole_command(Random& random, const MeshedModel& meshed, bool is_first) {
-  const Mesh& mesh = meshed.mesh;
-  const auto hexes = [&] { return "hex" + random_ids(random, hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1)); };
-  const auto entities = [&] {
-    const int dim = random.number(0, 2);
-    const char* const words[] = {"vertex ", "curve ", "surface "};
-    return words[dim] + std::to_string(random.number(1, std::max(1, meshed.model->count(dim))));
-  };
-  const double edge = std::cbrt(average_volume(mesh));
-  const auto size = [&] { return short_number(edge * random.number(3, 12) / 10); };
-  switch (random.number(0, is_first ? 5 : 7)) {
-    case 0:
-      return "refine " + (random.one_in(3) ? hexes() : entities()) + " size " + size() +
-             (random.one_in(2) ? " bias 1." + std::to_string(random.number(2, 9)) : "") +
-             (random.one_in(4)   ? " method single"
-              : random.one_in(6) ? " transition nested"
-                                 : "");
-    case 1:
-      return "sizing function f" + std::to_string(random.number(1, 2)) + " linear " + entities() + " size " + size() +
-             "; refine volume all sizing_function";
+  const auto hexes = [&] { return random_hexes(random, meshed.mesh); };
+  const auto entities = [&] { return random_entity(random, *meshed.model); };
+  switch (random.number(2, is_first ? 5 : 7)) {
     case 2:
       return "refine " + hexes() + " smooth";
     case 3:
@@ -218,7 +234,8 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
   constexpr Index most_hexes = 12000;
   int n_left = random.of(std::vector<int>{1, 1, 2, 3});
   for (int k = 0; n_left > 0 && k < 12; ++k) {
-    const std::string command = by_ranks && random.one_in(3)
+    const std::string command = random.one_in(3) ? random_sizes(random, session.meshed())
+                                : by_ranks && random.one_in(4)
                                     ? random_whole_command(random, session.meshed(), commands.empty())
                                     : random_command(random, session.meshed(), commands.empty());
     try {
