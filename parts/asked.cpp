@@ -43,6 +43,9 @@ void check_attribute(Attribute attribute, EntityKind kind) {
     if (attribute == of_mesh) refuse_cad();
 }
 
+/// RangeItem::step of ids that were a span.
+constexpr std::int64_t within_span = 0, end_of_span = 2;
+
 void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids);
 
 /// Whether a condition asks for more than a part knows.
@@ -66,7 +69,7 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<N
     if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
     if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
     // Of a span some may be missing, as to a single process; its ends show that it does not go beyond what there is.
-    ids->push_back({item.first, item.step == 0});
+    ids->push_back({item.first, item.step == within_span, item.step == end_of_span});
   }
   if (of_cad && !is_cad(kind)) refuse_cad();
   for (const RangeFilter& filter : range.filters) {
@@ -90,7 +93,7 @@ constexpr std::array<std::string_view, 8> of_sessions = {"brick",  "create", "cy
 
 constexpr std::int64_t most_ids = 1000000;  // of a span
 
-/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Those within have a step of 0.
+/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Steps say which is which.
 void spell_out(EntityKind kind, Range& range) {
   if (kind != EntityKind::node && kind != EntityKind::hex) return;
   std::vector<RangeItem> items;
@@ -105,7 +108,7 @@ void spell_out(EntityKind kind, Range& range) {
       RangeItem one = item;
       one.kind = RangeItem::Kind::id;
       one.first = one.last = item.first + k * item.step;
-      one.step = k == 0 || k == last ? 1 : 0;
+      one.step = k == 0 || k == last ? end_of_span : within_span;
       items.push_back(std::move(one));
     }
   }
@@ -298,8 +301,9 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
   result.has_id.reserve(ids_[i].size());
   for (Item& item : command.items) {
     if (item.is_word || item.name != "range") continue;
-    for (const auto& [id, may_be_missing] : ids_[i])
-      result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, id) : find_hex(mesh, id)) >= 0);
+    for (const NamedId& named : ids_[i])
+      result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, named.id) : find_hex(mesh, named.id)) >=
+                              0);
     is_any_left = is_any_left && keep_ids_here(mesh, item.kind, item.range);
   }
   core.exchange_mesh(MeshHolder(std::move(local.meshed)));
@@ -338,9 +342,11 @@ void PartCommands::check(std::size_t i, bool is_anywhere, const Objections& said
                          Approach approach, std::span<const Approach> before) const {
   if (!said.wrong.empty()) throw Error(said.wrong);
   for (std::size_t k = 0; k < has_id.size(); ++k)
-    if (has_id[k] == 0 && !ids_[i][k].may_be_missing)
+    if (has_id[k] == 0 && !ids_[i][k].may_be_missing) {
+      if (ids_[i][k].is_end) refuse("a span of ids whose end is not there", "there may be ids beyond");
       throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
                   std::to_string(ids_[i][k].id));
+    }
   if (!said.by_whole.empty()) throw NeedsWhole(said.by_whole);
   if (!is_anywhere) throw Error(said.nothing);
   if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))

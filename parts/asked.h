@@ -37,6 +37,7 @@ struct PartAsked : Objections {
 struct NamedId {
   std::int64_t id;
   bool may_be_missing;
+  bool is_end;  ///< of a span, which ends among ids that there are
 };
 
 class PartCommands {
