@@ -223,6 +223,7 @@ std::vector<Index> size_region(State& state) {
 CombinationTarget size_target(State& state) {
   std::vector<std::string>& notices = state.report.notices;
   if (state.part) return state.part->target(notices);
+  if (state.among && state.among->region.empty()) return {};  // others have it
   return sub_element_target(state.input, state.request.target, notices);
 }
 

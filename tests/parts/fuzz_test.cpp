@@ -114,8 +114,9 @@ std::string random_entity(Random& random, const Model& model) {
   return words[dim] + std::to_string(random.number(1, std::max(1, model.count(dim))));
 }
 
-/// Sizes around what the hexes have. Some are met in parts, some by the first rank.
-std::string random_sizes(Random& random, const MeshedModel& meshed) {
+/// Sizes around what the hexes have. Some are met in parts, some by the first rank, most are refused from disk to disk:
+/// there those that are not come more often.
+std::string random_sizes(Random& random, const MeshedModel& meshed, bool by_ranks) {
   const double edge = std::cbrt(average_volume(meshed.mesh));
   const auto size = [&] { return short_number(edge * random.number(2, 10) / 10); };
   const auto growth = [&] { return "1." + std::to_string(random.number(2, 9)); };
@@ -132,6 +133,7 @@ std::string random_sizes(Random& random, const MeshedModel& meshed) {
     if (!random.one_in(5)) command += " bias " + growth();
     if (random.one_in(6)) command += " radius " + short_number(edge * random.number(5, 30) / 10);
   }
+  if (!by_ranks && !random.one_in(3)) return command + " transition regular";
   if (random.one_in(3)) command += " method single";
   if (random.one_in(3)) command += random.one_in(2) ? " transition regular" : " transition nested";
   return command;
@@ -234,7 +236,7 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
   constexpr Index most_hexes = 12000;
   int n_left = random.of(std::vector<int>{1, 1, 2, 3});
   for (int k = 0; n_left > 0 && k < 12; ++k) {
-    const std::string command = random.one_in(3) ? random_sizes(random, session.meshed())
+    const std::string command = random.one_in(3) ? random_sizes(random, session.meshed(), by_ranks)
                                 : by_ranks && random.one_in(4)
                                     ? random_whole_command(random, session.meshed(), commands.empty())
                                     : random_command(random, session.meshed(), commands.empty());
@@ -257,6 +259,8 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
                "' by " + std::to_string(n) + ", " + by + (is_split ? ", split" : "") + ", rings " +
                std::to_string(rings));
   if (session.meshed().mesh.n_hexes() > most_hexes) return;
+  if (std::getenv("HEXTWIST_RUNS"))
+    std::cout << "seed " << seed << ": " << commands << (serial_error.empty() ? "" : ": " + serial_error) << std::endl;
   if (serial_error.empty()) session.export_mesh(folder / "serial.e");
 
   std::string said, all_said;
