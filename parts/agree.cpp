@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 
 namespace hextwist {
 
@@ -17,6 +18,10 @@ Verdict verdict_of(int alike, int n_rings, const std::string& by_whole, bool hav
 
 int rings_to_keep(int alike, bool have_all) {
   return have_all ? alike : alike - 1;
+}
+
+std::string depends_on_far(int n_rings) {
+  return "what is made depends on places more than " + counted(n_rings, "ring") + " of hexes away";
 }
 
 int first_rings(int wished, int depth, std::size_t n_commands) {

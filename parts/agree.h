@@ -18,8 +18,6 @@ namespace hextwist {
 inline constexpr int least_rings = enough_rings;
 /// More rings than this make no sense.
 inline constexpr int most_rings = 250;
-/// This many: all of the mesh, however far.
-inline constexpr int all_rings = 254;
 
 /// What comes of a try. Throws Error where parts that have the whole mesh differ.
 enum class Verdict { right, too_narrow, needs_all };
@@ -28,6 +26,9 @@ enum class Verdict { right, too_narrow, needs_all };
 Verdict verdict_of(int alike, int n_rings, const std::string& by_whole, bool have_all);
 /// Rings that stay for the next command: of the outermost that is right it is not known what is new at its rim.
 int rings_to_keep(int alike, bool have_all);
+
+/// NeedsWhole::why, where not even so many rings were enough.
+std::string depends_on_far(int n_rings);
 
 /// Rings to begin with. wished: by the user.
 int first_rings(int wished, int depth, std::size_t n_commands);

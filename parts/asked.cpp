@@ -1,10 +1,13 @@
 #include "hextwist/parts/asked.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "hextwist/base/text.h"
 #include "hextwist/command/braces.h"
 #include "hextwist/command/error_at.h"
+#include "hextwist/command/flow.h"
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/session.h"
 #include "hextwist/sizing/targets.h"
@@ -13,7 +16,7 @@ namespace hextwist {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, const std::string& why) {
-  throw Error(what + " is not done in parts: " + why + "; run it with hextwist");
+  throw NeedsWhole(what + ": " + why);
 }
 
 bool is_set(EntityKind kind) {
@@ -40,6 +43,9 @@ void check_attribute(Attribute attribute, EntityKind kind) {
     if (attribute == of_mesh) refuse_cad();
 }
 
+/// RangeItem::step of ids that were a span.
+constexpr std::int64_t within_span = 0, end_of_span = 2;
+
 void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<NamedId>* ids);
 
 /// Whether a condition asks for more than a part knows.
@@ -63,7 +69,7 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<N
     if (item.kind != RangeItem::Kind::id && item.kind != RangeItem::Kind::span) continue;
     if (!ids) refuse("an id of a node or hex inside a range", "it may lie in any part");
     // Of a span some may be missing, as to a single process; its ends show that it does not go beyond what there is.
-    ids->push_back({item.first, item.step == 0});
+    ids->push_back({item.first, item.step == within_span, item.step == end_of_span});
   }
   if (of_cad && !is_cad(kind)) refuse_cad();
   for (const RangeFilter& filter : range.filters) {
@@ -81,9 +87,13 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<N
   }
 }
 
+/// Commands that begin with another mesh, or end.
+constexpr std::array<std::string_view, 8> of_sessions = {"brick",  "create", "cylinder", "exit",
+                                                         "import", "quit",   "reset",    "sphere"};
+
 constexpr std::int64_t most_ids = 1000000;  // of a span
 
-/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Those within have a step of 0.
+/// Spans of ids of nodes and hexes, id by id: a part has some of them only. Steps say which is which.
 void spell_out(EntityKind kind, Range& range) {
   if (kind != EntityKind::node && kind != EntityKind::hex) return;
   std::vector<RangeItem> items;
@@ -98,7 +108,7 @@ void spell_out(EntityKind kind, Range& range) {
       RangeItem one = item;
       one.kind = RangeItem::Kind::id;
       one.first = one.last = item.first + k * item.step;
-      one.step = k == 0 || k == last ? 1 : 0;
+      one.step = k == 0 || k == last ? end_of_span : within_span;
       items.push_back(std::move(one));
     }
   }
@@ -115,12 +125,30 @@ bool keep_ids_here(const Mesh& mesh, EntityKind kind, Range& range) {
   return !range.items.empty();
 }
 
+void check_sizes(const Request& request, Approach approach) {
+  const Sizes& sizes = std::get<Sizes>(request.how);
+  const EntityKind kind = request.target.kind;
+  if (sizes.size && !is_cad(kind) && (kind != EntityKind::hex || sizes.bias > 1))
+    refuse("a size at nodes, edges, faces or hexes", "others may be nearer");
+  if (sizes.field && sizes.bias > 1)
+    refuse("a sizing function with a bias", "its growth is limited over the whole mesh");
+  if (approach == Approach::nearest_size && may_halve(request))
+    refuse("a size that is the same everywhere",
+           "it may be met by one into eight, whose sheets run through the whole mesh");
+  if (request.concave == Concave::fill) refuse("sizes with 'concave fill'", "regions are filled pass by pass");
+}
+
 void check_request(const Request& request, Approach approach) {
   switch (approach) {
     case Approach::uniform:
     case Approach::trisect:
     case Approach::levels:
     case Approach::parallel:
+      break;
+    case Approach::size_by_levels:
+    case Approach::size_by_threes:
+    case Approach::nearest_size:
+      check_sizes(request, approach);
       break;
     case Approach::combination:
       if (std::get<Cuts>(request.how).numsplit > 1 && is_regular(request))
@@ -133,8 +161,10 @@ void check_request(const Request& request, Approach approach) {
     case Approach::layers:
     case Approach::sheets:
       refuse("a direction or a sheet", "sheets run through the whole mesh");
-    default:
-      refuse("a size", "how well sizes are met is compared over the whole mesh");
+    case Approach::size_by_halves:
+    case Approach::size_by_directions:
+    case Approach::size_by_combination:
+      refuse("a size by 'method parallel' or 'method combination'", "what is too large is looked at as a whole");
   }
   if (request.finish.smooth) refuse("smooth", "smoothing goes across parts");
   if (request.finish.dry_run) refuse("dry_run", "it counts without making anything");
@@ -158,7 +188,12 @@ void find_target(Execution& run, PartAsked& result) {
   check_request(request, approach);
   std::vector<std::string> told;
   try {
-    if (request.target.radius) {
+    if (const Sizes* sizes = std::get_if<Sizes>(&request.how)) {
+      // Where nothing of the target is here, sizes may be wished for all the same, and others have to be told.
+      result.asked = {request, approach, sizes->bias > 1 || approach == Approach::nearest_size, {}};
+      result.asked.region = region_target(*run.meshed, request.target, told);
+      if (result.asked.region.empty()) throw Error("there are no hexes at the target");
+    } else if (request.target.radius) {
       request.target = {EntityKind::hex, region_target(*run.meshed, request.target, told)};
       request.method = Method::single;
     } else if (approach != Approach::uniform) {
@@ -171,38 +206,77 @@ void find_target(Execution& run, PartAsked& result) {
     result.nothing = error.what();
     return;
   }
-  result.asked = {std::move(request), approach, true};
+  result.has_target = true;
+  if (!std::holds_alternative<Sizes>(request.how)) result.asked = {std::move(request), approach, true, {}};
+  result.asked.is_here = true;
+}
+
+/// The same request without a target: what others find together with this part.
+void ask_without_target(Session::Core& core, Command command, PartAsked& result) {
+  for (Item& item : command.items)
+    if (!item.is_word && item.name == "range") item.range = {{RangeItem{}}, {}, {}};
+  Execution run(core, command);
+  result.asked = {request_of(run), {}, false, {}};
+  result.asked.approach = plan(*run.meshed, result.asked.request).approach;
+  result.asked.is_here = result.asked.approach == Approach::nearest_size;
+}
+
+/// Of the CAD alone.
+void check_function(const Command& command) {
+  if (command.has("list") || command.find("field"))
+    refuse("a sizing function of a field, or a list of functions", "a part has its own hexes only");
+  for (const Item* range : command.find_all("range")) {
+    if (!is_cad(range->kind)) refuse("a sizing function at nodes, edges, faces or hexes", "others may be nearer");
+    check_range(range->kind, range->range, true, nullptr);
+  }
 }
 
 }  // namespace
 
-PartCommands::PartCommands(std::span<const std::string> texts) {
+PartCommands::PartCommands(std::span<const std::string> texts) : texts_(texts.begin(), texts.end()) {
+  bool is_any = false;
   for (const std::string& text : texts)
     for (const Statement& statement : split_statements(text, "", 1)) {
-      if (has_braces(statement))
-        throw error_at(statement, statement.tokens.front(), "braces are not known to meshes in parts");
-      Command command = parse(statement);
-      if (command.spec->name != "refine")
-        throw error_at(
-            statement, statement.tokens.front(),
-            "'" + std::string(command.spec->name) + "' is not done in parts: join them and run it with hextwist");
-      if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
-      if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
-      if (command.find("size") || command.has("sizing_function"))
-        refuse("a size", "how well sizes are met is compared over the whole mesh");
-      std::vector<NamedId> ids;
-      for (Item& item : command.items) {
-        if (item.is_word || (item.name != "range" && item.name != "which")) continue;
-        const bool is_target = item.name == "range";
-        if (is_target) spell_out(item.kind, item.range);
-        check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
-        if (is_mesh(item.kind) && command.find("radius"))
-          refuse("a radius around nodes or hexes", "they may lie in any part");
+      is_any = true;
+      try {
+        add(statement);
+      } catch (const NeedsWhole& needs) {
+        if (by_whole_.empty()) by_whole_ = needs.why;
       }
-      ids_.push_back(std::move(ids));
-      commands_.push_back(std::move(command));
     }
-  if (commands_.empty()) throw Error("no refinement was asked for");
+  if (!is_any) throw Error("no refinement was asked for");
+}
+
+void PartCommands::add(const Statement& statement) {
+  std::string& name = names_.emplace_back();
+  if (has_braces(statement) || flow_of(statement).kind != Flow::none)
+    refuse("braces", "values may be those of the whole mesh");
+  Command command = parse(statement);
+  name = command.spec->name;
+  const bool makes_group = name == "create" && (command.has("group") || command.has("block"));
+  if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
+    throw error_at(
+        statement, statement.tokens.front(),
+        "'" + name + "' is for sessions of hextwist: here " + "the mesh is read first and written in the end");
+  if (name == "sizing") {
+    check_function(command);
+    functions_.push_back({commands_.size(), std::move(command)});
+    return;
+  }
+  if (name != "refine") refuse("'" + name + "'", "only refinements are done in parts");
+  if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
+  if (command.find("x")) refuse("a place to refine at", "the nearest hex may lie in any part");
+  std::vector<NamedId> ids;
+  for (Item& item : command.items) {
+    if (item.is_word || (item.name != "range" && item.name != "which")) continue;
+    const bool is_target = item.name == "range";
+    if (is_target) spell_out(item.kind, item.range);
+    check_range(item.kind, item.range, is_target && is_cad(item.kind), is_target ? &ids : nullptr);
+    if (is_mesh(item.kind) && command.find("radius"))
+      refuse("a radius around nodes or hexes", "they may lie in any part");
+  }
+  ids_.push_back(std::move(ids));
+  commands_.push_back(std::move(command));
 }
 
 int PartCommands::depth() const {
@@ -227,20 +301,31 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
   result.has_id.reserve(ids_[i].size());
   for (Item& item : command.items) {
     if (item.is_word || item.name != "range") continue;
-    for (const auto& [id, may_be_missing] : ids_[i])
-      result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, id) : find_hex(mesh, id)) >= 0);
+    for (const NamedId& named : ids_[i])
+      result.has_id.push_back((item.kind == EntityKind::node ? find_node(mesh, named.id) : find_hex(mesh, named.id)) >=
+                              0);
     is_any_left = is_any_left && keep_ids_here(mesh, item.kind, item.range);
   }
   core.exchange_mesh(MeshHolder(std::move(local.meshed)));
-  if (is_any_left) {
-    try {
-      Execution run(core, command);
-      find_target(run, result);
-    } catch (const std::exception& error) {
-      result.wrong = in_one_line(error);
+  try {
+    for (const auto& [before, function] : functions_) {
+      if (before > i) break;
+      Execution define(core, function);
+      transact(define, [&] { execute(define); });
     }
-  } else {
-    result.nothing = "none of them is there";
+    Execution run(core, command);
+    if (is_any_left)
+      find_target(run, result);
+    else
+      result.nothing = "none of them is there";
+    const bool is_for_sizes = command.find("size") || command.has("sizing_function");
+    const Item* range = command.find("range");
+    if (is_for_sizes && !result.has_target && range && range->kind == EntityKind::hex)
+      ask_without_target(core, command, result);
+  } catch (const NeedsWhole& needs) {
+    result.by_whole = needs.why;
+  } catch (const std::exception& error) {
+    result.wrong = in_one_line(error);
   }
   local.meshed = std::move(core.meshed.to_change());
   local.meshed.mesh.node_ids.clear();
@@ -249,19 +334,21 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
 }
 
 bool PartCommands::cuts_levels(std::size_t i, Approach approach) const {
-  return approach == Approach::levels ||
+  return approach == Approach::levels || (approach >= Approach::size_by_levels && approach <= Approach::nearest_size) ||
          (approach == Approach::trisect && !commands_[i].has("fill") && !commands_[i].has("nested"));
 }
 
-void PartCommands::check(std::size_t i, bool is_anywhere, const std::string& nothing, const std::string& wrong,
-                         std::span<const std::int64_t> has_id, Approach approach,
-                         std::span<const Approach> before) const {
-  if (!wrong.empty()) throw Error(wrong);
+void PartCommands::check(std::size_t i, bool is_anywhere, const Objections& said, std::span<const std::int64_t> has_id,
+                         Approach approach, std::span<const Approach> before) const {
+  if (!said.wrong.empty()) throw Error(said.wrong);
   for (std::size_t k = 0; k < has_id.size(); ++k)
-    if (has_id[k] == 0 && !ids_[i][k].may_be_missing)
+    if (has_id[k] == 0 && !ids_[i][k].may_be_missing) {
+      if (ids_[i][k].is_end) refuse("a span of ids whose end is not there", "there may be ids beyond");
       throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
                   std::to_string(ids_[i][k].id));
-  if (!is_anywhere) throw Error(nothing);
+    }
+  if (!said.by_whole.empty()) throw NeedsWhole(said.by_whole);
+  if (!is_anywhere) throw Error(said.nothing);
   if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))
     refuse("a second level", "it is made from the mesh before the first; 'numsplit 2' or 'transition nested' can be");
 }

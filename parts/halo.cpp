@@ -6,7 +6,6 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/topology.h"
-#include "hextwist/parts/agree.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/patch/patch.h"
 
@@ -117,7 +116,6 @@ LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPie
     for (Index h = 0; h < piece.meshed.mesh.n_hexes(); ++h)
       owner[find_hex(mesh, hex_id(piece.meshed.mesh, h))] = piece.owner;
   std::vector<std::uint8_t> ring = rings_of(mesh, owner, number, n_rings);
-  if (n_rings == all_rings) std::ranges::replace(ring, outside, std::uint8_t{all_rings});
   LocalMesh local;
   local.n_rings = n_rings;
   const auto take = [&](Index h) {

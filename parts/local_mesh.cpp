@@ -5,12 +5,38 @@
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {
 
 std::int64_t n_own_hexes(const LocalMesh& local) {
   return std::ranges::count_if(local.base_of, [&](Index b) { return local.base.ring[b] == 0; });
+}
+
+Box own_box(const LocalMesh& local) {
+  Box box;
+  for (Index h = 0; h < local.meshed.mesh.n_hexes(); ++h)
+    if (local.is_own(h))
+      for (const Index n : local.meshed.mesh.hexes[h]) box.add(local.meshed.mesh.points[n]);
+  return box;
+}
+
+void SizeCounts::add(const SizeCounts& more) {
+  hexes += more.hexes;
+  coarser += more.coarser;
+  finer += more.finer;
+  much_finer += more.much_finer;
+  unmet += more.unmet;
+}
+
+std::string text_of(const SizeCounts& counts) {
+  if (counts.hexes == 0) return {};
+  const double met = 1 - static_cast<double>(counts.coarser + counts.finer) / static_cast<double>(counts.hexes);
+  return "actual / wished size of " + counted(counts.hexes, "hex", "hexes") + ": " + short_number(100 * met) +
+         "% within a factor of sqrt(3), " + std::to_string(counts.coarser) + " coarser, " +
+         std::to_string(counts.finer) + " finer (" + std::to_string(counts.much_finer) + " by more than 3)" +
+         (counts.unmet > 0 ? ", " + std::to_string(counts.unmet) + " still too large" : "");
 }
 
 void trim(LocalMesh& local, int n_rings, GlobalIds& ids) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hextwist/parts/numbering.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
 
@@ -42,13 +43,32 @@ struct Asked {
   Request request;  ///< in the numbers of its local mesh
   Approach approach = Approach::trisect;
   bool is_here = true;  ///< false: nothing of the target is
+  /// Of requests for sizes: hexes of the target that are here, which may be none where sizes are wished for everywhere.
+  std::vector<Index> region;
 };
+
+/// What parts know of the whole mesh before a command.
+struct OfWhole {
+  Box box;
+  std::int64_t n_hexes = 0;
+};
+/// Around the part's own hexes.
+Box own_box(const LocalMesh& local);
+
+/// How well sizes are met.
+struct SizeCounts {
+  std::int64_t hexes = 0, coarser = 0, finer = 0, much_finer = 0, unmet = 0;
+  void add(const SizeCounts& more);
+};
+/// One line; none where no size was wished for.
+std::string text_of(const SizeCounts& counts);
 
 struct LocalRun {
   std::vector<PassRecord> records;
   bool by_levels = false;
   std::vector<std::uint64_t> digest;  ///< per base hex: of all that it has become, and how
   std::string by_whole;               ///< what was decided by all that is here at once; empty: nothing was
+  SizeCounts sizes;                   ///< of own hexes
   std::string wrong;                  ///< why the part's own hexes are no good; empty: they are, if all parts agree
 };
 /// The least of the bounds that all parts have for a step of lifting (sizing/lift_new.h), freedom 0 to n_freedoms - 1.
@@ -59,8 +79,17 @@ inline Bounds least(const Bounds& a, const Bounds& b) {
   return {std::min(a.scaled_jacobian, b.scaled_jacobian), std::min(a.shape, b.shape)};
 }
 
+/// The numbers of all parts by which techniques for sizes are compared (sizing/among_parts.h), and whether one of them
+/// could not go on.
+using NumbersOfAll = std::function<PartNumbers(const PartNumbers& mine, bool& has_failed)>;
+struct OfAll {
+  LeastOfAll least;
+  NumbersOfAll numbers;
+};
+
 /// Runs the passes on what is there; the local mesh becomes the result, which is right where what lies beyond the halo
-/// has no say (agree.h). least_of_all is called n_freedoms times, whatever happens.
-LocalRun run_locally(LocalMesh& local, const Asked& asked, const LeastOfAll& least_of_all);
+/// has no say (agree.h). of_all.least is called n_freedoms times, whatever happens, of_all.numbers as often as by all
+/// other parts. Throws Error; where another part did, nothing is made.
+LocalRun run_locally(LocalMesh& local, const Asked& asked, const OfWhole& whole, const OfAll& of_all);
 
 }  // namespace hextwist

@@ -34,11 +34,17 @@ struct Numbered {
 
 /// A command that all parts have done.
 struct Done {
+  OfWhole whole;             ///< before it
   int n_rings = 0;             ///< that stay
   std::vector<Bounds> bounds;  ///< of all parts, by freedom of lifting
   Approach approach = Approach::trisect;
   std::vector<Numbered> of_part;
 };
+
+/// What is decided together is not known before all parts are done.
+PartNumbers not_part_after_part(const PartNumbers&, bool&) {
+  throw NeedsWhole("a size: which technique comes nearer is found out by all parts together");
+}
 
 class OnDisk {
  public:
@@ -62,9 +68,7 @@ class OnDisk {
       lines_.clear();
       is_done = refine_all();
       if (!is_done) {
-        if (n_rings_ == most_rings)
-          throw Error("what is cut depends on places more than " + std::to_string(most_rings) +
-                      " hexes away; run it with hextwist");
+        if (n_rings_ == most_rings) throw NeedsWhole(depends_on_far(most_rings));
         n_rings_ = std::min(2 * n_rings_, most_rings);
         say_("what is made depends on places far away: halos of " + counted(n_rings_, "ring") + " are needed");
       }
@@ -102,6 +106,7 @@ class OnDisk {
       }
       is_by_blocks = is_by_blocks && has_block_each(mesh);
       find_faces(mesh, volume, open, walls);
+      box_.add(hextwist::box(mesh));
       n_nodes += mesh.n_nodes();
       n_hexes += mesh.n_hexes();
       highest_node_ = std::max(highest_node_, mesh.node_ids.back());
@@ -280,9 +285,10 @@ class OnDisk {
       const Done& done = done_[i];
       PartAsked mine = commands_.asked(i, local, ids, false);
       mine.asked.approach = done.approach;
-      LocalRun run = run_locally(local, mine.asked, [&](int freedom, const Bounds& none) {
+      const LeastOfAll least = [&](int freedom, const Bounds& none) {
         return freedom < std::ssize(done.bounds) ? done.bounds[freedom] : none;
-      });
+      };
+      LocalRun run = run_locally(local, mine.asked, done.whole, {least, not_part_after_part});
       for (PassRecord& record : run.records) keep_rings(record, done.n_rings);
       const Numbered& numbered = done.of_part[p];
       for (const Brought& brought : numbered.turns)
@@ -299,10 +305,14 @@ class OnDisk {
     std::vector<HaloMade> halo;
     std::vector<std::vector<Made>> made;
     std::vector<Turn> turns;
-    std::string nothing, wrong, by_whole, fault;
+    Objections said;
+    std::string by_whole, fault;
     std::vector<std::int64_t> has_id;
+    bool is_hopeless() const { return !said.wrong.empty() || !said.by_whole.empty(); }
     bool is_anywhere = false, by_levels = false, is_all = true;
-    int n_rings = all_rings;
+    int n_rings = most_rings;
+    SizeCounts sizes;
+    Box box;  ///< afterwards
     std::int64_t n_before = 0, n_after = 0, largest = 0;
     std::vector<Bounds> next = std::vector<Bounds>(n_freedoms, no_bounds);  ///< of lifting, beyond those that are known
   };
@@ -314,26 +324,32 @@ class OnDisk {
     all.n_rings = std::min(all.n_rings, local.n_rings);
     all.is_all = all.is_all && local.is_all;
     PartAsked mine = commands_.asked(i, local, ids, false);
-    if (!mine.wrong.empty()) all.wrong = mine.wrong;
-    if (all.nothing.empty()) all.nothing = mine.nothing;
+    if (all.said.wrong.empty()) all.said.wrong = mine.wrong;
+    if (all.said.by_whole.empty()) all.said.by_whole = mine.by_whole;
+    if (all.said.nothing.empty()) all.said.nothing = mine.nothing;
     all.has_id.resize(mine.has_id.size(), 0);
     for (std::size_t k = 0; k < all.has_id.size(); ++k) all.has_id[k] += mine.has_id[k];
-    if (!all.wrong.empty()) return;
-    if (mine.asked.is_here) {
+    if (all.is_hopeless()) return;
+    if (mine.has_target) {
       all.is_anywhere = true;
       done.approach = mine.asked.approach;
     }
     LocalRun run;
     try {
-      run = run_locally(local, mine.asked, [&](int freedom, const Bounds& bounds) {
+      const LeastOfAll least_so_far = [&](int freedom, const Bounds& bounds) {
         if (freedom < std::ssize(done.bounds)) return done.bounds[freedom];
         all.next[freedom] = least(all.next[freedom], bounds);
         return bounds;
-      });
+      };
+      run = run_locally(local, mine.asked, done.whole, {least_so_far, not_part_after_part});
+    } catch (const NeedsWhole&) {
+      throw;
     } catch (const Error& error) {
       throw Error(name(p) + ": " + error.what());
     }
     all.by_levels = all.by_levels || run.by_levels;
+    all.sizes.add(run.sizes);
+    all.box.add(own_box(local));
     for (const PassRecord& record : run.records) all.turns.push_back(record.turn);
     if (all.by_whole.empty()) all.by_whole = run.by_whole;
     if (all.fault.empty() && !run.wrong.empty()) all.fault = name(p) + ": " + run.wrong;
@@ -351,14 +367,16 @@ class OnDisk {
   /// All commands; false: halos were too narrow.
   bool refine_all() {
     std::vector<Approach> approaches;
+    OfWhole whole{box_, n_hexes_};
     for (std::size_t i = 0; i < commands_.size(); ++i) {
       Done done;
+      done.whole = whole;
       done.of_part.resize(static_cast<std::size_t>(n_parts()));
       Collected all;
       for (;;) {
         all = {};
         counts_.clear();
-        for (int p = 0; p < n_parts() && all.wrong.empty(); ++p) refine_part(p, i, done, all);
+        for (int p = 0; p < n_parts() && !all.is_hopeless(); ++p) refine_part(p, i, done, all);
         // Low hexes are lifted by what all parts have at the least: once more with that of the first step that is not
         // known and lifts any. What is said of the steps behind it may change for it.
         const auto known = all.next.begin() + std::ssize(done.bounds);
@@ -367,15 +385,14 @@ class OnDisk {
         if (lifts == all.next.end()) break;
         done.bounds.insert(done.bounds.end(), known, lifts + 1);
       }
-      commands_.check(i, all.is_anywhere, all.nothing, all.wrong, all.has_id, done.approach, approaches);
+      commands_.check(i, all.is_anywhere, all.said, all.has_id, done.approach, approaches);
       approaches.push_back(done.approach);
       const int alike = rings_alike(all.halo, all.made, all.n_rings);
       switch (verdict_of(alike, all.n_rings, all.by_whole, all.is_all)) {
         case Verdict::right:
           break;
         case Verdict::needs_all:
-          throw Error(all.by_whole +
-                      ", so parts can't do it one after the other; run it with hextwist or hextwist-mpi");
+          throw NeedsWhole(all.by_whole);
         case Verdict::too_narrow:
           return false;
       }
@@ -385,6 +402,8 @@ class OnDisk {
       done.n_rings = rings_to_keep(alike, all.is_all);
       number(done, sorted_unique(std::move(all.turns)), all.by_levels);
       done_.push_back(std::move(done));
+      whole = {all.box, all.n_after};
+      if (const std::string met = text_of(all.sizes); !met.empty()) lines_.push_back(met);
       lines_.push_back(std::to_string(all.n_before) + " -> " + std::to_string(all.n_after) + " hexes in " +
                        counted(n_parts(), "part") + " of at most " + std::to_string(all.largest));
     }
@@ -515,9 +534,10 @@ class OnDisk {
   SharedNodes shared_;
   std::shared_ptr<const Model> model_;
   std::vector<std::vector<Owner>> meant_;  // per node set
+  Box box_;
   std::int64_t n_nodes_ = 0, n_hexes_ = 0, highest_node_ = 0, highest_hex_ = 0;
   std::vector<Done> done_;
-  std::vector<std::string> lines_;  // one per command
+  std::vector<std::string> lines_;  // of commands
   std::vector<std::int64_t> counts_;
 };
 
@@ -526,6 +546,7 @@ class OnDisk {
 void refine_on_disk(const std::filesystem::path& any_part, const PartCommands& commands,
                     const std::filesystem::path& output, const OnDiskOptions& options,
                     const std::function<void(const std::string&)>& say) {
+  if (!commands.by_whole().empty()) throw NeedsWhole(commands.by_whole());
   OnDisk(any_part, commands, options, output, say).run(output);
 }
 

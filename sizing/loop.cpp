@@ -18,6 +18,7 @@
 #include "hextwist/refine/carry.h"
 #include "hextwist/refine/others.h"
 #include "hextwist/refine/place.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/outcome.h"
@@ -67,7 +68,7 @@ std::optional<MeshedModel> State::pass(const Cut& cut) {
       place(from.mesh, from.association, parts, *next.model, next.mesh, next.association);
     }
     begin("improve");
-    if (is_second_try && cut.cuts_again && !inverted_hexes(next.mesh, parts.n_kept()).empty()) return std::nullopt;
+    if (is_second_try && cut.cuts_again && comes_out_inverted(next.mesh, parts)) return std::nullopt;
     bool stopped = false, had_to = false;
     const auto keep_going = [&](const char* stage, double) {
       stopped |= !stages.report(stage, fraction());
@@ -97,6 +98,14 @@ std::optional<MeshedModel> State::pass(const Cut& cut) {
   if (watch) watch(lineage_, from.mesh, cut);
   current_ = &result_.refined;
   return std::exchange(result_.refined, std::move(next));
+}
+
+bool State::comes_out_inverted(const Mesh& mesh, const Split& parts) const {
+  const std::vector<Index> inverted = inverted_hexes(mesh, parts.n_kept());
+  if (!among || inverted.empty()) return !inverted.empty();
+  std::vector<Index> parents;
+  for (const Index h : inverted) parents.push_back(parts.lineage.parent[h]);
+  return !among->own_among(parents, result_.origin).empty();
 }
 
 void State::keep() {

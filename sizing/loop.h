@@ -15,9 +15,12 @@
 namespace hextwist {
 
 struct SizesInPart;
+struct Split;
+class AmongParts;
 
 /// Report::by_whole.
 inline constexpr const char* repaired_together = "inverted hexes are repaired together";
+inline constexpr const char* smoothed_together = "flat hexes are smoothed together";
 inline constexpr const char* enclosed_together = "nodes where targets meet are enclosed one after the other";
 
 /// A mesh on its way through the passes of a request.
@@ -55,6 +58,8 @@ class State {
 
   /// The mesh is a part of another, whose sizes are wished for. May be null.
   SizesInPart* part = nullptr;
+  /// The mesh is one of several parts that are refined side by side for sizes. May be null.
+  AmongParts* among = nullptr;
 
   /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
   bool is_second_try = false;
@@ -88,6 +93,8 @@ class State {
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();
+  /// Are children of a pass inverted (in this part's own hexes, where it is one among others)?
+  bool comes_out_inverted(const Mesh& mesh, const Split& parts) const;
   /// Makes the input the result.
   void keep();
   /// Hexes of the input that a mesh made of it still has.

@@ -43,6 +43,12 @@ inline bool may_combine(const Target& target, const Sizes& sizes) {
   return sizes.size && sizes.bias > 1 && !is_solid(target.kind) && !target.depth && !target.radius;
 }
 
+/// Whether a size that is the same everywhere may be met by one into eight.
+inline bool may_halve(const Request& request) {
+  const Sizes& sizes = std::get<Sizes>(request.how);
+  return request.method != Method::single && sizes.bias <= 1 && !sizes.field;
+}
+
 /// Throws Error for unknown ids, options out of range and wishes that do not go together.
 Plan plan(const MeshedModel& input, const Request& request);
 

@@ -58,8 +58,8 @@ SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeFie
   for (std::size_t i = 0; i < hexes.size(); ++i) {
     double& ratio = report.ratio[i];
     ratio /= wished[i];
-    report.n_coarser += ratio > std::numbers::sqrt3;
-    report.n_finer += ratio < 1 / std::numbers::sqrt3;
+    report.n_coarser += is_coarser(ratio);
+    report.n_finer += is_finer(ratio);
     report.n_much_finer += ratio < 1.0 / 3;
   }
   report.hexes = std::move(hexes);

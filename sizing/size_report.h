@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,14 @@ std::vector<double> wished_sizes(const Mesh& mesh, std::span<const Index> hexes,
 
 /// Of a hex in each of its three directions: the longest edge.
 std::array<double, 3> lengths(const Mesh& mesh, Index hex);
+
+/// By more than that a hex is coarser, or finer, than wished. ratio: of actual and wished size.
+inline bool is_coarser(double ratio) {
+  return ratio > std::numbers::sqrt3;
+}
+inline bool is_finer(double ratio) {
+  return ratio < 1 / std::numbers::sqrt3;
+}
 
 /// Fills hexes, ratio and the counts.
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish);

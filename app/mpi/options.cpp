@@ -11,10 +11,11 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
   CLI::App app(
       "Refines a mesh by several processes: mpirun -n 8 hextwist-mpi --cad part.step mesh.e -c 'refine curve 3' -o "
       "out.e\n"
-      "writes out.e.8.0 .. out.e.8.7, whose join is what hextwist writes. Refinements only.",
+      "writes out.e.8.0 .. out.e.8.7, whose join is what hextwist writes. What can't be done in parts is done by the "
+      "first process with the whole mesh, and said.",
       "hextwist-mpi");
   app.add_option("MESH", options.mesh, "mesh to start from; of a split one, any part: mesh.e.8.0")->required();
-  app.add_option("-c,--commands", options.commands, "refinements, separated by ';'")
+  app.add_option("-c,--commands", options.commands, "refinements and other changes of the mesh, separated by ';'")
       ->type_name("COMMANDS")
       ->allow_extra_args(false)
       ->take_all()

@@ -19,8 +19,6 @@
 namespace hextwist {
 namespace {
 
-using Say = std::function<void(const std::string&)>;
-
 /// The files of a split mesh that fall to this rank.
 MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say) {
   MeshedModel own;
@@ -151,14 +149,14 @@ void share_model(Ranks& ranks, MeshedModel& own, const std::filesystem::path& ca
   });
 }
 
+}  // namespace
+
 void count_whole(Ranks& ranks, RankPart& part) {
   const Mesh& mesh = part.own.mesh;
   part.n_hexes = ranks.sum(mesh.n_hexes());
   part.highest_node = ranks.largest(mesh.node_ids.empty() ? 0 : mesh.node_ids.back());
   part.highest_hex = ranks.largest(mesh.hex_ids.empty() ? 0 : mesh.hex_ids.back());
 }
-
-}  // namespace
 
 RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const std::filesystem::path& cad,
                        std::optional<PartitionBy> by, const Say& say) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 
 #include "hextwist/mesh/meshed_model.h"
@@ -18,12 +17,15 @@ struct RankPart {
   std::int64_t n_hexes = 0, highest_node = 0, highest_hex = 0;  ///< of the whole
 };
 
+/// Fills in what is said of the whole.
+void count_whole(Ranks& ranks, RankPart& part);
+
 /// Reads a mesh on its CAD, or on its own skin where there is none. Parts that were split are read by ranks side by
 /// side, each its own, and stay where they are when there are as many as ranks and `by` is empty. All else, and what
 /// lies on CAD, is read by the first rank and sent out. say: called on all ranks. Throws Error on all ranks: "rank 3:
 /// ...".
 RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const std::filesystem::path& cad,
-                       std::optional<PartitionBy> by, const std::function<void(const std::string&)>& say);
+                       std::optional<PartitionBy> by, const Say& say);
 
 /// The same of parts that ranks have already, with their ids; they stay where they are.
 RankPart take_in_ranks(Ranks& ranks, Mesh own, const std::filesystem::path& cad,

@@ -10,6 +10,9 @@
 
 namespace hextwist {
 
+/// Told a line, on all ranks.
+using Say = std::function<void(const std::string&)>;
+
 /// All calls are made by all ranks, in the same order.
 class Ranks {
  public:

@@ -9,6 +9,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/parts/agree.h"
 #include "hextwist/parts/halo.h"
+#include "hextwist/parts/mpi/by_first.h"
 #include "hextwist/parts/mpi/directory.h"
 #include "hextwist/parts/mpi/share_out.h"
 #include "hextwist/parts/pack.h"
@@ -16,12 +17,6 @@
 
 namespace hextwist {
 namespace {
-
-std::vector<Index> all_of(Index n) {
-  std::vector<Index> all(static_cast<std::size_t>(n));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
 
 /// The part with its halo.
 LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
@@ -32,7 +27,7 @@ LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
   {
     HaloSearch search(mesh, ranks.rank(), ranks.size(), at_others(ranks, mesh, skin));
     std::vector<HaloSearch::Reached> told;
-    for (int ring = 1; ring <= n_rings && n_rings < all_rings; ++ring) {
+    for (int ring = 1; ring <= n_rings; ++ring) {
       const auto from = ranks.exchange(search.next_ring(told));
       told.clear();
       for (const auto& list : from) told.insert(told.end(), list.begin(), list.end());
@@ -41,7 +36,6 @@ LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
     ranks.together([&] {
       for (int other = 0; other < ranks.size(); ++other) {
         std::vector<Index> hexes = search.hexes_around(other);
-        if (n_rings == all_rings && other != ranks.rank()) hexes = all_of(mesh.n_hexes());
         if (hexes.empty()) continue;
         Patch patch = make_patch(part.own, std::move(hexes));
         set_ids(mesh, patch, patch.meshed.mesh);
@@ -84,17 +78,36 @@ std::string first_text(Ranks& ranks, const std::string& text) {
   return first == ranks.size() ? std::string() : ranks.text_of(first, text);
 }
 
+Box whole_box(Ranks& ranks, const LocalMesh& local) {
+  const Box mine = own_box(local);
+  std::vector<double> most;
+  for (int k = 0; k < 3; ++k) most.insert(most.end(), {mine.max[k], -mine.min[k]});
+  most = ranks.largest(std::move(most));
+  Box all;
+  for (int k = 0; k < 3; ++k) {
+    all.max[k] = most[2 * k];
+    all.min[k] = -most[2 * k + 1];
+  }
+  return all;
+}
+
+SizeCounts sum_of(Ranks& ranks, const SizeCounts& mine) {
+  const std::vector<std::int64_t> sum =
+      ranks.sum(std::vector{mine.hexes, mine.coarser, mine.finer, mine.much_finer, mine.unmet});
+  return {sum[0], sum[1], sum[2], sum[3], sum[4]};
+}
+
 /// What all ranks make of a command together.
 Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMesh& local, const GlobalIds& ids,
              bool has_cad, std::vector<Approach>& before) {
   PartAsked mine;
   ranks.together([&] { mine = commands.asked(i, local, ids, has_cad); });
-  const bool is_here = mine.asked.is_here;
-  const std::string wrong = first_text(ranks, mine.wrong), nothing = first_text(ranks, mine.nothing);
+  const bool is_here = mine.has_target;
+  for (std::string* said : {&mine.wrong, &mine.by_whole, &mine.nothing}) *said = first_text(ranks, *said);
   const auto approach =
       static_cast<Approach>(ranks.largest(is_here ? static_cast<std::int64_t>(mine.asked.approach) : 0));
   const bool is_anywhere = ranks.largest(is_here) != 0;
-  commands.check(i, is_anywhere, nothing, wrong, ranks.sum(std::move(mine.has_id)), approach, before);
+  commands.check(i, is_anywhere, mine, ranks.sum(std::move(mine.has_id)), approach, before);
   before.push_back(approach);
   mine.asked.approach = approach;
   return std::move(mine.asked);
@@ -127,15 +140,9 @@ void number(Ranks& ranks, const LocalRun& run, GlobalIds& ids) {
   number_survivors(before, runs[2], sums.before[2], sums.total[2][0], ids);
 }
 
-/// What comes of a try.
-struct Tried {
-  std::optional<InRanks> made;
-  std::string by_whole;  ///< why nothing less than the whole mesh on each rank will do
-};
-
-/// Nothing where halos were not wide enough.
-Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& commands, int n_rings,
-                    std::vector<std::string>& lines) {
+/// Nothing where halos were not wide enough. Throws NeedsWhole on all ranks.
+std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& commands, int n_rings,
+                                     std::vector<std::string>& lines) {
   InRanks made;
   made.n_rings = n_rings;
   made.local = with_halo(ranks, part, n_rings);
@@ -145,19 +152,30 @@ Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& comm
     const std::int64_t n_before = ranks.sum(n_own_hexes(made.local));
     const Asked asked = agreed(ranks, commands, i, made.local, made.ids, part.has_cad, approaches);
     LocalRun run;
+    const OfWhole whole = {whole_box(ranks, made.local), n_before};
     // What is asked of all ranks in between, each asks as often.
-    ranks.together([&] {
-      run = run_locally(made.local, asked, [&](int, const Bounds& mine) {
-        const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
-        return Bounds{-most[0], -most[1]};
-      });
-    });
+    const LeastOfAll least = [&](int, const Bounds& mine) {
+      const std::vector<double> most = ranks.largest(std::vector{-mine.scaled_jacobian, -mine.shape});
+      return Bounds{-most[0], -most[1]};
+    };
+    const NumbersOfAll numbers = [&](const PartNumbers& mine, bool& has_failed) {
+      std::vector<std::int64_t> sums(mine.sum.begin(), mine.sum.end());
+      sums.push_back(has_failed);
+      sums = ranks.sum(std::move(sums));
+      has_failed = sums.back() > 0;
+      PartNumbers all;
+      std::copy_n(sums.begin(), all.sum.size(), all.sum.begin());
+      all.least = -ranks.largest(std::vector{-mine.least})[0];
+      return all;
+    };
+    ranks.together([&] { run = run_locally(made.local, asked, whole, {least, numbers}); });
     const int n_rings_now = made.local.n_rings;
     const auto alike = static_cast<int>(ranks.least(rings_alike(ranks, made.local, run.digest)));
     const bool have_all = ranks.least(made.local.is_all) != 0;
     const std::string by_whole = first_text(ranks, run.by_whole);
     const Verdict verdict = verdict_of(alike, n_rings_now, by_whole, have_all);
-    if (verdict != Verdict::right) return {std::nullopt, by_whole};
+    if (verdict == Verdict::needs_all) throw NeedsWhole(by_whole);
+    if (verdict == Verdict::too_narrow) return std::nullopt;
     ranks.together([&] {
       if (!run.wrong.empty()) throw Error(run.wrong);
     });
@@ -166,6 +184,7 @@ Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& comm
     number(ranks, run, made.ids);
     ranks.together([&] { trim(made.local, keep, made.ids); });
     const std::int64_t n_after = ranks.sum(n_own_hexes(made.local)), largest = ranks.largest(n_own_hexes(made.local));
+    if (const std::string met = text_of(sum_of(ranks, run.sizes)); !met.empty()) lines.push_back(met);
     lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
                     counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
   }
@@ -173,36 +192,47 @@ Tried try_to_refine(Ranks& ranks, const RankPart& part, const PartCommands& comm
   for (const Index b : made.local.base_of) ++n_of_base[b];
   for (std::size_t b = 0; b < n_of_base.size(); ++b)
     if (made.local.base.ring[b] == 0) made.n_made.push_back(n_of_base[b]);
-  return {std::move(made), {}};
+  return made;
+}
+
+/// The mesh as it is, in parts that the first rank has made.
+InRanks refine_by_first(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
+                        const std::string& why, const Say& say) {
+  say(why + ": the first process does it, with the whole mesh");
+  refined_by_first(ranks, part, commands, options.rebalance, say);
+  InRanks made;
+  made.n_rings = 1;
+  made.local = with_halo(ranks, part, made.n_rings);
+  made.ids = {made.local.base.node, made.local.base.hex, part.highest_node, part.highest_hex};
+  return made;
 }
 
 }  // namespace
 
 InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
-                        const std::function<void(const std::string&)>& say) {
+                        const Say& say) {
+  if (!commands.by_whole().empty()) return refine_by_first(ranks, part, commands, options, commands.by_whole(), say);
   int n_rings = first_rings(options.n_rings, commands.depth(), commands.size()), n_restarts = 0;
-  std::string by_whole;
   bool may_rebalance = options.rebalance && ranks.size() > 1;
   for (;;) {
     std::vector<std::string> lines;
-    Tried tried = try_to_refine(ranks, part, commands, n_rings, lines);
-    std::optional<InRanks>& made = tried.made;
+    std::optional<InRanks> made;
+    try {
+      made = try_to_refine(ranks, part, commands, n_rings, lines);
+      if (!made && 2 * n_rings > most_rings) throw NeedsWhole(depends_on_far(n_rings));
+    } catch (const NeedsWhole& needs) {
+      return refine_by_first(ranks, part, commands, options, needs.why, say);
+    }
     if (!made) {
       ++n_restarts;
-      if (by_whole.empty()) by_whole = tried.by_whole;
-      n_rings = by_whole.empty() && 2 * n_rings <= most_rings ? 2 * n_rings : all_rings;
+      n_rings *= 2;
       continue;
     }
     made->n_restarts = n_restarts;
     for (const std::string& line : lines) say(line);
-    if (!by_whole.empty())
-      say(by_whole + ": each rank needed the whole mesh");
-    else if (n_restarts > 0)
-      say("what is made depends on places far away: halos of " +
-          (n_rings == all_rings ? "all rings" : counted(n_rings, "ring")) + " were needed");
-    const std::int64_t mine = n_own_hexes(made->local), all = ranks.sum(mine), largest = ranks.largest(mine);
-    const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);
-    say("the largest part has " + short_number(load) + " times the average");
+    if (n_restarts > 0)
+      say("what is made depends on places far away: halos of " + counted(n_rings, "ring") + " were needed");
+    const double load = load_of(ranks, n_own_hexes(made->local), say);
     if (!may_rebalance || load <= fair) return std::move(*made);
     // What comes out does not depend on who does it: the same again, by others.
     may_rebalance = false;

@@ -3,12 +3,10 @@
 // Each rank runs the passes on its own hexes and some rings of others' hexes around them, by the code that refines any
 // mesh. What it makes of these is compared with what their owners make of them (agree.h). Rings that differ are dropped
 // before the next refinement; where too near ones do, all is done again with twice as many rings. So a closing of
-// concave places that runs far makes halos wide, and where all of the mesh is looked at at once each rank has the whole
-// mesh and is right for that reason.
+// concave places that runs far makes halos wide, and what looks at all of the mesh at once is done by the first rank.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 
@@ -30,12 +28,12 @@ struct RankOptions {
   int n_rings = 6;        ///< around each part, to begin with, and as many as the depth of a target more
   bool rebalance = true;  ///< share hexes out again where a rank ends with more than `fair` times the average
 };
-inline constexpr double fair = 1.2;
 
-/// Does the refinements one after another. The part stays, but for where hexes are shared out again. say: lines about
-/// what was done; called on all ranks. Throws Error on all ranks: "rank 3: ...".
+/// Does the refinements one after another; what can't be done in parts is done by the first rank (by_first.h). The part
+/// stays, but for that, and where hexes are shared out again. say: lines about what was done. Throws Error on all
+/// ranks: "rank 3: ...".
 InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
-                        const std::function<void(const std::string&)>& say);
+                        const Say& say);
 
 /// This rank's part of what was made, with counts of the whole.
 OwnPart take_part(Ranks& ranks, InRanks made);

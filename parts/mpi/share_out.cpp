@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/pack.h"
@@ -203,6 +204,13 @@ MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_h
       for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.hex_ids.push_back(h + 1);
   });
   return result;
+}
+
+double load_of(Ranks& ranks, std::int64_t n, const Say& say) {
+  const std::int64_t all = ranks.sum(n), largest = ranks.largest(n);
+  const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);
+  say("the largest part has " + short_number(load) + " times the average");
+  return load;
 }
 
 void share_heads(Ranks& ranks, Mesh& part) {

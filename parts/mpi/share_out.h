@@ -17,6 +17,11 @@ std::vector<int> share_out(Ranks& ranks, const Mesh& part, PartitionBy by, std::
 /// Sends hexes to their ranks, with all that is known of them. The parts of all ranks have the same groups and fields.
 MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_hex);
 
+/// Says how many times the average the largest part has, and returns it. n: hexes of this rank's.
+double load_of(Ranks& ranks, std::int64_t n, const Say& say);
+/// More than this is shared out again.
+inline constexpr double fair = 1.2;
+
 /// Gives the parts of all ranks the groups and fields that any of them has.
 void share_heads(Ranks& ranks, Mesh& part);
 

@@ -6,6 +6,7 @@
 #include "hextwist/mesh/corners.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/targets.h"
@@ -72,7 +73,7 @@ LevelMarks LevelSizes::more(const Mesh& mesh, const LevelPieces& pieces, std::sp
   const std::vector<std::int8_t> level_at = regular_levels(mesh, pieces);
   for (std::size_t n = 0; n < marked.size(); ++n) marked[n] &= static_cast<std::uint8_t>(level_at[n] >= 0);
 
-  const Index n_base_outside = state_.part ? state_.part->n_base_outside : 0;
+  const Index n_base_outside = state_.part ? state_.part->n_base_outside : state_.among ? state_.among->n_outside : 0;
   const int most = std::min(sizes_.max_passes, max_level(forest_.base->mesh.n_hexes() + n_base_outside));
   LevelMarks marks(static_cast<std::size_t>(std::min(most, pieces.n_levels())));
   for (int block = 0; block < pieces.n_levels(); ++block)
@@ -105,6 +106,8 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
                                        .keep_jumps = options.keep_jumps,
                                        .repeated_surfaces = repeated_surfaces(forest_)});
     options.reuse = std::move(built.stack);
+    if (state_.among && std::ranges::any_of(options.reuse, [](const auto& pass) { return pass->is_repaired; }))
+      state_.among->by_whole = repaired_together;
     const LevelPieces pieces = level_pieces(options.reuse, base.mesh.n_hexes());
     const LevelOrigin origin = level_origin(pieces, forest_.grown->pieces);
     std::vector<std::uint8_t> zone(built.mesh.mesh.hexes.size());
@@ -116,6 +119,7 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
     trim(next);
     if (next == forest.wished) break;
     forest.wished = std::move(next);
+    if (state_.among) state_.among->wished(forest.wished);
   }
   n_levels_ = static_cast<int>(forest.wished.size());
   return forest.wished;

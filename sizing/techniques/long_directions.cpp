@@ -126,13 +126,17 @@ Needs needs(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeF
 
 }  // namespace
 
-bool are_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish, int by) {
-  std::size_t n_cut = 0, n_uneven = 0;
+UnevenHexes uneven_hexes(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish, int by) {
+  UnevenHexes count;
   for (const auto& n : needs(mesh, in_zone, wish).n) {
-    n_cut += std::ranges::max(n) > 0;
-    n_uneven += std::ranges::max(n) - std::ranges::min(n) >= by;
+    count.n_cut += std::ranges::max(n) > 0;
+    count.n_uneven += std::ranges::max(n) - std::ranges::min(n) >= by;
   }
-  return n_uneven > 0 && 10 * n_uneven >= n_cut;
+  return count;
+}
+
+bool are_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish, int by) {
+  return static_cast<bool>(uneven_hexes(mesh, in_zone, wish, by));
 }
 
 Index count_uneven(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeField& wish) {

@@ -4,9 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "hextwist/base/parallel.h"
+#include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/refine/place.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/sizes_of_all.h"
@@ -41,6 +44,7 @@ struct Candidate {
   double worst_shape = 0;
   bool sound = true;
   bool has_done = false;  ///< more than threes alone would have
+  int number = 0;         ///< AmongParts
 };
 
 /// Nothing: a second try, beside a result that is good, that was given up.
@@ -51,31 +55,77 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
   State state(from.input, from.request, candidate.report, from.progress);
   state.is_second_try = is_second_try;
   state.part = from.part;
+  state.among = from.among;
+  if (from.among) candidate.number = from.among->begin(state);
+  bool is_whole = true;
   if (approach == Approach::size_by_levels) {
     run_levels(state);
   } else {
     const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
-    if (!state.run(*technique)) return std::nullopt;
+    is_whole = state.run(*technique);
     candidate.has_done = technique->has_done();
+    if (from.among) technique->wait_for_others(state);
   }
+  if (from.among) {
+    const PartNumbers all = from.among->all({{!is_whole, candidate.has_done}});
+    is_whole = all.sum[0] == 0;
+    candidate.has_done = all.sum[1] > 0;
+  }
+  if (!is_whole) return std::nullopt;
   candidate.result = state.take_result();
+  if (from.among) {
+    from.among->end(candidate.result);
+    std::string& by_whole = from.among->by_whole;
+    if (by_whole.empty()) by_whole = candidate.report.has_smoothed ? smoothed_together : candidate.report.by_whole;
+  }
   candidate.straight = state.take_straight();
   return candidate;
 }
 
 /// Sum of |log(ratio)|, in units so small that the order does not matter: a part adds up to what the whole does.
-std::int64_t distances(const SizeReport& sizes, double unit) {
+constexpr double unit = 1e-8;
+std::int64_t distances(const SizeReport& sizes) {
   constexpr double most = 1000;
   std::int64_t sum = 0;
   for (const double ratio : sizes.ratio) sum += std::llround(std::min(std::abs(std::log(ratio)), most) / unit);
   return sum;
 }
 
+/// By this part's own hexes and those of all others.
+void judge_among(Candidate& candidate, const State& state) {
+  AmongParts& among = *state.among;
+  const Mesh& mesh = candidate.result.refined.mesh;
+  const std::vector<Index>& origin = candidate.result.origin;
+  SizeReport sizes;
+  for (std::size_t i = 0; i < candidate.report.sizes->hexes.size(); ++i)
+    if (among.own[origin[candidate.report.sizes->hexes[i]]]) {
+      const double ratio = candidate.report.sizes->ratio[i];
+      sizes.ratio.push_back(ratio);
+      sizes.n_coarser += is_coarser(ratio) || is_finer(ratio);
+    }
+  const std::vector<Index> own = indices_where(mesh.n_hexes(), [&](Index h) { return among.own[origin[h]] != 0; });
+  std::vector<std::uint8_t> is_own_node(mesh.points.size(), 0);
+  mark_nodes(mesh.hexes, own, is_own_node);
+  const bool is_off =
+      std::ranges::any_of(candidate.report.off_nodes, [&](const OffOwner& row) { return is_own_node[row.node] != 0; });
+  const bool is_sound =
+      !is_off && among.own_among(candidate.report.sizes->unmet, origin).empty() && inverted_hexes(mesh, own).empty();
+  const PartNumbers all =
+      among.all({{std::ssize(sizes.ratio), distances(sizes), sizes.n_coarser, std::ssize(own), !is_sound},
+                 own.empty() ? PartNumbers().least : summarize(quality(Metric::shape, mesh, own)).min});
+  const auto n = static_cast<double>(all.sum[0]);
+  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(all.sum[1]) / n;
+  candidate.met = n == 0 ? 1 : 1 - static_cast<double>(all.sum[2]) / n;
+  candidate.n_hexes = static_cast<Index>(std::min<std::int64_t>(all.sum[3], std::numeric_limits<Index>::max()));
+  candidate.worst_shape = all.least;
+  candidate.sound = all.sum[4] == 0;
+}
+
 void judge(Candidate& candidate, const State& state) {
-  constexpr double unit = 1e-8;
+  if (state.among) return judge_among(candidate, state);
   const SizeReport none, &here = *candidate.report.sizes, &outside = state.part ? state.part->outside : none;
   const auto n = static_cast<double>(here.ratio.size() + outside.ratio.size());
-  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(distances(here, unit) + distances(outside, unit)) / n;
+  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(distances(here) + distances(outside)) / n;
   candidate.met = n == 0 ? 1 : 1 - (here.n_coarser + here.n_finer + outside.n_coarser + outside.n_finer) / n;
   const Mesh& mesh = candidate.result.refined.mesh;
   candidate.n_hexes = mesh.n_hexes() + n_outside(state);
@@ -144,6 +194,15 @@ double part_of_directions(const Candidate& candidate, const State& state, const 
 /// Asked of the whole. A part that does not have all hexes where cuts of single directions begin is no good.
 bool are_uneven(const State& state, const SizeWish& wish, int by) {
   const Mesh& here = state.input.mesh;
+  if (state.among) {
+    std::vector<std::uint8_t> in_zone = wish.zone(here, state.among->region);
+    for (std::size_t h = 0; h < in_zone.size(); ++h) in_zone[h] &= state.among->own[h];
+    const UnevenHexes mine = uneven_hexes(here, in_zone, wish.field(), by);
+    const PartNumbers all = state.among->all({{mine.n_cut, mine.n_uneven}});
+    // Cuts of single directions go through sheets.
+    if (UnevenHexes{all.sum[0], all.sum[1]}) state.among->by_whole = "what is too long in some directions only";
+    return false;
+  }
   if (!state.part) {
     std::vector<std::string> told;  // again
     return are_uneven(here, wish.zone(here, region_target(state.input, state.request.target, told)), wish.field(), by);
@@ -173,6 +232,11 @@ Candidate or_by_directions(Candidate taken, const State& state, const Report& st
                    start);
 }
 
+bool is_same(const Candidate& levels, const Candidate& nested, const State& state) {
+  if (!state.among) return levels.result.refined.mesh.hexes == nested.result.refined.mesh.hexes;
+  return state.among->all({{!state.among->is_same(levels.number, nested.number)}}).sum[0] == 0;
+}
+
 /// By threes: by levels, nested, or whichever is better.
 Candidate by_threes(const State& state, const Report& start) {
   if (!is_regular(state.request)) return *attempt(state, start, Approach::size_by_threes);
@@ -186,9 +250,14 @@ Candidate by_threes(const State& state, const Report& start) {
     return levels;
   }
   judge(*nested, state);
-  if (levels.result.refined.mesh.hexes == nested->result.refined.mesh.hexes) return levels;
+  if (is_same(levels, *nested, state)) return levels;
   return better_of(std::move(levels), std::move(*nested), "by levels, no piece of a transition is cut again",
                    "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
+}
+
+std::int64_t n_hexes_before(const State& state) {
+  if (state.among) return state.among->all({{std::ranges::count(state.among->own, 1)}}).sum[0];
+  return state.input.mesh.n_hexes() + n_outside(state);
 }
 
 }  // namespace
@@ -197,14 +266,13 @@ void run_nearest_size(State& state) {
   const Request& request = state.request;
   const Sizes& sizes = std::get<Sizes>(request.how);
   const bool varies = sizes.bias > 1;
-  const bool may_mix =
-      request.method != Method::single && (may_combine(request.target, sizes) || !(varies || sizes.field));
+  const bool may_mix = may_halve(request) || (request.method != Method::single && may_combine(request.target, sizes));
   state.stages.close();  // those of the candidates count
   const Report start = state.report;
   Candidate taken = by_threes(state, start);
   std::optional<Candidate> mixed;
-  const bool cuts_anything = taken.result.refined.mesh.n_hexes() > state.input.mesh.n_hexes();
   judge(taken, state);
+  const bool cuts_anything = taken.n_hexes > n_hexes_before(state);
   if (may_mix && cuts_anything)
     mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, is_good(taken));
   if (mixed && mixed->has_done) {
@@ -217,6 +285,7 @@ void run_nearest_size(State& state) {
                       start);
   }
   if (cuts_anything) taken = or_by_directions(std::move(taken), state, start);
+  if (state.among) state.among->taken = taken.number;
   state.report = std::move(taken.report);
   state.adopt(std::move(taken.result), std::move(taken.straight));
 }

@@ -10,6 +10,7 @@
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/factors.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/targets.h"
@@ -92,12 +93,15 @@ class ByThrees : public SizeTechnique {
   std::optional<Cut> next(State& state) override {
     const int max_passes = std::get<Sizes>(state.request.how).max_passes;
     for (;;) {
-      if (auto cut = go_on(state)) return cut;
+      if (auto cut = go_on(state)) {
+        cut->turn.round = n_passes_ - 1;
+        return cut;
+      }
       state.begin("sizes");
       const Mesh& mesh = state.mesh();
       std::vector<Index> too_large = wish_->too_large(mesh, in_zone_);
       wish_->check_fits(mesh, too_large, n_outside(state));
-      if (n_passes_ < max_passes && begin_round(mesh, too_large)) {
+      if (n_passes_ < max_passes && begin_round(state, too_large)) {
         ++n_passes_;
         has_done_ = true;
         continue;
@@ -110,7 +114,8 @@ class ByThrees : public SizeTechnique {
       }
       mark_more(mesh, too_large, marked);
       if (state.request.concave == Concave::fill) state.report.filled_hexes += fill_concave(mesh, marked);
-      return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), n_passes_++ > 0 && cuts_transitions_};
+      const int pass = n_passes_++;
+      return Cut{trisect_table(), trisect_codes(mesh.hexes, marked), pass > 0 && cuts_transitions_, {pass, 0, 0}};
     }
   }
 
@@ -138,7 +143,7 @@ class ByThrees : public SizeTechnique {
   /// The next cut of a round of something else that has begun.
   virtual std::optional<Cut> go_on(State&) { return std::nullopt; }
   /// Begins such a round for what is too large, where that comes nearer to the wish.
-  virtual bool begin_round(const Mesh&, const std::vector<Index>&) { return false; }
+  virtual bool begin_round(const State&, const std::vector<Index>&) { return false; }
   /// Marks what is to be trisected for the sake of later passes.
   virtual void mark_more(const Mesh&, const std::vector<Index>& /*too_large*/, std::vector<std::uint8_t>&) {}
 
@@ -172,7 +177,8 @@ class ByHalves : public ByThrees {
     if (!cut) round_.reset();
     return cut;
   }
-  bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
+  bool begin_round(const State& state, const std::vector<Index>& too_large) override {
+    const Mesh& mesh = state.mesh();
     const std::vector<Index> wanted = hexes_to_halve(mesh, too_large, wish_->field());
     if (wanted.empty()) return false;
     std::vector<Index> around;
@@ -209,8 +215,9 @@ class ByDirections : public ByThrees {
     if (masks_.empty()) return std::nullopt;
     return Cut{trisect_table(), std::exchange(masks_, {})};
   }
-  bool begin_round(const Mesh& mesh, const std::vector<Index>&) override {
+  bool begin_round(const State& state, const std::vector<Index>&) override {
     if (is_even_) return false;
+    const Mesh& mesh = state.mesh();
     masks_ = cuts_of_long_directions(mesh, in_zone_, wish_->field());
     is_even_ = masks_.empty();
     return !is_even_;
@@ -248,13 +255,27 @@ class ByCombination : public ByThrees {
     }
     return cut;
   }
-  bool begin_round(const Mesh& mesh, const std::vector<Index>& too_large) override {
-    if (too_large.empty()) return false;
+  bool begin_round(const State& state, const std::vector<Index>& too_large) override {
+    const Mesh& mesh = state.mesh();
+    if (!state.among && too_large.empty()) return false;
     const std::vector<std::uint8_t> touches = touching(at_, mesh);
-    if (!std::ranges::all_of(too_large, [&](Index h) { return touches[h] != 0; })) return false;
+    const auto is_touching = [&](Index h) { return touches[h] != 0; };
+    if (state.among) {
+      const std::vector<Index> own = state.among->own_among(too_large, state.result().origin);
+      const PartNumbers all = state.among->all({{1, std::ssize(own), std::ranges::count_if(own, is_touching)}});
+      if (all.sum[1] == 0 || all.sum[1] > all.sum[2]) return false;
+    } else if (!std::ranges::all_of(too_large, is_touching)) {
+      return false;
+    }
     round_.emplace(part_at(at_, mesh, too_large), EncloseAt::third);
     done_ = {};
     return true;
+  }
+
+  /// Others may still ask whether all that is too large touches the target.
+  void wait_for_others(State& state) override {
+    while (state.among->all({}).sum[0] > 0) {
+    }
   }
 
  private:

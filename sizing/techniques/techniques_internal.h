@@ -25,6 +25,8 @@ std::unique_ptr<Technique> sheets_technique(State& state);
 class SizeTechnique : public Technique {
  public:
   virtual bool has_done() const = 0;
+  /// After the last pass of this part, where there are others: takes part in what these ask for still.
+  virtual void wait_for_others(State&) {}
 };
 std::unique_ptr<SizeTechnique> size_technique(State& state, Approach approach);
 /// Approach::nearest_size: tries threes and what else there is, goes on with what is better.

@@ -9,6 +9,7 @@
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/refine/marks.h"
 #include "hextwist/refine/templates/trisect.h"
+#include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/fields/growing.h"
 #include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/sizes_of_all.h"
@@ -46,7 +47,7 @@ std::vector<Vec3> corners_of(const Mesh& mesh, std::span<const Index> hexes) {
 
 }  // namespace
 
-SizeWish::SizeWish(const MeshedModel& input, const Request& request)
+SizeWish::SizeWish(const MeshedModel& input, const Request& request, double diagonal)
     : field_(wish_of(input, request)), dimension_(dimension(request.target.kind)) {
   const Sizes& sizes = std::get<Sizes>(request.how);
   const Target& target = request.target;
@@ -56,7 +57,7 @@ SizeWish::SizeWish(const MeshedModel& input, const Request& request)
   // Nodes or vertices for which a size was named: no edges lie on them, so the hexes that touch them are what is to
   // have that size.
   is_point_ = sizes.size && (target.kind == EntityKind::node || target.kind == EntityKind::vertex);
-  close_ = 1e-6 * box(input.mesh).diagonal();
+  close_ = 1e-6 * diagonal;
   if (sizes.size && !is_solid(target.kind)) distance_.emplace(input, target.kind, target.ids);
 }
 
@@ -207,11 +208,13 @@ std::vector<std::uint8_t> SizeWish::marks(const Mesh& mesh, std::span<const Inde
 }
 
 std::shared_ptr<const SizeWish> size_wish(const State& state) {
+  if (state.among) return std::make_shared<const SizeWish>(state.input, state.request, state.among->diagonal);
   return state.part ? state.part->all.wish : std::make_shared<const SizeWish>(state.input, state.request);
 }
 
 std::vector<Index> size_region(State& state) {
   std::vector<std::string>& notices = state.report.notices;
+  if (state.among) return state.among->region;
   if (!state.part) return region_target(state.input, state.request.target, notices);
   notices.insert(notices.end(), state.part->all.told.begin(), state.part->all.told.end());
   return state.part->region;
@@ -220,6 +223,7 @@ std::vector<Index> size_region(State& state) {
 CombinationTarget size_target(State& state) {
   std::vector<std::string>& notices = state.report.notices;
   if (state.part) return state.part->target(notices);
+  if (state.among && state.among->region.empty()) return {};  // others have it
   return sub_element_target(state.input, state.request.target, notices);
 }
 

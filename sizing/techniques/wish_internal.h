@@ -14,7 +14,9 @@ namespace hextwist {
 class SizeWish {
  public:
   /// Precondition: the request is for sizes.
-  SizeWish(const MeshedModel& input, const Request& request);
+  SizeWish(const MeshedModel& input, const Request& request) : SizeWish(input, request, box(input.mesh).diagonal()) {}
+  /// diagonal: of the box around the whole mesh, which the input is a part of.
+  SizeWish(const MeshedModel& input, const Request& request, double diagonal);
 
   const SizeField& field() const { return *field_; }
   /// It holds for all of the mesh, not for the hexes of the target alone.

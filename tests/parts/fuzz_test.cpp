@@ -4,12 +4,14 @@
 // HEXTWIST_SEED=n begins with that seed, HEXTWIST_RUNS=n makes so many runs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <random>
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/file_part.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/on_disk.h"
 #include "hextwist/session/session.h"
@@ -103,6 +105,60 @@ std::string random_ids(Random& random, std::int64_t low, std::int64_t high) {
   }
 }
 
+std::string random_hexes(Random& random, const Mesh& mesh) {
+  return "hex" + random_ids(random, hex_id(mesh, 0), hex_id(mesh, mesh.n_hexes() - 1));
+}
+std::string random_entity(Random& random, const Model& model) {
+  const int dim = random.number(0, 2);
+  const char* const words[] = {"vertex ", "curve ", "surface "};
+  return words[dim] + std::to_string(random.number(1, std::max(1, model.count(dim))));
+}
+
+/// Sizes around what the hexes have. Some are met in parts, some by the first rank, most are refused from disk to disk:
+/// there those that are not come more often.
+std::string random_sizes(Random& random, const MeshedModel& meshed, bool by_ranks) {
+  const double edge = std::cbrt(average_volume(meshed.mesh));
+  const auto size = [&] { return short_number(edge * random.number(2, 10) / 10); };
+  const auto growth = [&] { return "1." + std::to_string(random.number(2, 9)); };
+  const auto entity = [&] { return random_entity(random, *meshed.model); };
+  std::string command;
+  if (random.one_in(3)) {
+    const std::string where = random.one_in(3) ? "volume all" : random.one_in(2) ? entity() : "hex in " + entity();
+    command = random.one_in(3)
+                  ? "refine " + where + " sizing_function \"" + size() + "*(1 + 0.3*abs(x))\""
+                  : "sizing function f" + std::to_string(random.number(1, 2)) + " linear " + entity() + " size " +
+                        size() + " growth " + growth() + "; refine " + where + " sizing_function";
+  } else {
+    command = "refine " + (random.one_in(5) ? random_hexes(random, meshed.mesh) : entity()) + " size " + size();
+    if (!random.one_in(5)) command += " bias " + growth();
+    if (random.one_in(6)) command += " radius " + short_number(edge * random.number(5, 30) / 10);
+  }
+  if (!by_ranks && !random.one_in(3)) return command + " transition regular";
+  if (random.one_in(3)) command += " method single";
+  if (random.one_in(3)) command += random.one_in(2) ? " transition regular" : " transition nested";
+  return command;
+}
+
+/// What the first rank does with the whole mesh.
+std::string random_whole_command(Random& random, const MeshedModel& meshed, bool is_first) {
+  const auto hexes = [&] { return random_hexes(random, meshed.mesh); };
+  const auto entities = [&] { return random_entity(random, *meshed.model); };
+  switch (random.number(2, is_first ? 5 : 7)) {
+    case 2:
+      return "refine " + hexes() + " smooth";
+    case 3:
+      return "refine " + hexes() + " method parallel";
+    case 4:
+      return "refine " + entities() + " direction thickness";
+    case 5:
+      return "smooth volume all iterations 2";
+    case 6:
+      return "coarsen " + (random.one_in(2) ? hexes() : entities());
+    default:
+      return "refine " + hexes();  // a second level
+  }
+}
+
 /// For what the session has by now. is_first: nothing was refined; later a second level would be refused.
 std::string random_command(Random& random, const MeshedModel& meshed, bool is_first) {
   const Mesh& mesh = meshed.mesh;
@@ -146,16 +202,16 @@ std::string random_command(Random& random, const MeshedModel& meshed, bool is_fi
   return command;
 }
 
-/// What happened in all runs of a test.
+/// What happened in all runs of a test. gathered: of those that are the same.
 struct Tally {
-  int same = 0, refused = 0, wrong_anyhow = 0;
+  int same = 0, gathered = 0, refused = 0, wrong_anyhow = 0;
 };
 
-bool is_refusal(const std::string& said) {
-  for (const char* part : {"is not done in parts", "run it with hextwist", "are not refined from disk to disk",
-                           "has no ", "can't be shared out"})
-    if (said.find(part) != std::string::npos) return true;
-  return false;
+/// Ranks refuse no command.
+bool is_refusal(const std::string& said, bool by_ranks) {
+  std::vector<const char*> parts = {"has no ", "can't be shared out"};
+  if (!by_ranks) parts.insert(parts.end(), {"not done part after part", "are not refined from disk to disk"});
+  return std::ranges::any_of(parts, [&](const char* part) { return said.find(part) != std::string::npos; });
 }
 
 void expect_same(const std::filesystem::path& folder, int n, const std::string& all_said) {
@@ -180,7 +236,10 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
   constexpr Index most_hexes = 12000;
   int n_left = random.of(std::vector<int>{1, 1, 2, 3});
   for (int k = 0; n_left > 0 && k < 12; ++k) {
-    const std::string command = random_command(random, session.meshed(), commands.empty());
+    const std::string command = random.one_in(3) ? random_sizes(random, session.meshed(), by_ranks)
+                                : by_ranks && random.one_in(4)
+                                    ? random_whole_command(random, session.meshed(), commands.empty())
+                                    : random_command(random, session.meshed(), commands.empty());
     try {
       session.run(command);
     } catch (const std::exception& error) {
@@ -200,6 +259,8 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
                "' by " + std::to_string(n) + ", " + by + (is_split ? ", split" : "") + ", rings " +
                std::to_string(rings));
   if (session.meshed().mesh.n_hexes() > most_hexes) return;
+  if (std::getenv("HEXTWIST_RUNS"))
+    std::cout << "seed " << seed << ": " << commands << (serial_error.empty() ? "" : ": " + serial_error) << std::endl;
   if (serial_error.empty()) session.export_mesh(folder / "serial.e");
 
   std::string said, all_said;
@@ -228,12 +289,13 @@ void try_one(unsigned seed, bool by_ranks, Tally& counts) {
     EXPECT_NE(said, "") << "one process says: " << serial_error;
     ++counts.wrong_anyhow;
   } else if (!said.empty()) {
-    EXPECT_TRUE(is_refusal(said)) << said;
+    EXPECT_TRUE(is_refusal(said, by_ranks)) << said;
     ++counts.refused;
     if (std::getenv("HEXTWIST_RUNS")) std::cout << "seed " << seed << ": " << commands << ": " << said << "\n";
   } else {
     expect_same(folder, n, all_said);
     ++counts.same;
+    if (all_said.find("the first process does it") != std::string::npos) ++counts.gathered;
     if (std::getenv("HEXTWIST_RUNS") && all_said.find("needed") != std::string::npos)
       std::cout << "seed " << seed << ": " << commands << " on '" << input.cad << "': " << all_said << "\n";
   }
@@ -254,8 +316,8 @@ void expect_same_in_all(unsigned first, unsigned n_runs, bool by_ranks) {
       std::cout << seed << ": " << counts.same << ", " << counts.refused << ", " << counts.wrong_anyhow << std::endl;
     if (testing::Test::HasFailure()) break;
   }
-  std::cout << counts.same << " the same, " << counts.refused << " refused, " << counts.wrong_anyhow
-            << " that one process refuses too\n";
+  std::cout << counts.same << " the same (" << counts.gathered << " of them by the first process), " << counts.refused
+            << " refused, " << counts.wrong_anyhow << " that one process refuses too\n";
   if (n_runs >= 20) {
     EXPECT_GT(counts.same, static_cast<int>(n_runs / 3)) << "too few were compared";
   }

@@ -21,7 +21,8 @@ struct Case {
   std::string mesh, cad, commands;
 };
 
-void expect_same_file(const Case& each, int n, const std::string& by, const std::string& more = "") {
+/// Returns what was said.
+std::string expect_same_file(const Case& each, int n, const std::string& by, const std::string& more = "") {
   SCOPED_TRACE(each.commands + " of " + each.mesh + " by " + std::to_string(n) + " ranks, " + by);
   const auto folder = test::output_folder();
   Session session;
@@ -32,13 +33,15 @@ void expect_same_file(const Case& each, int n, const std::string& by, const std:
   const std::string cad = each.cad.empty() ? "" : "--cad '" + each.cad + "' ";
   const Outcome outcome = run_ranks(n, cad + "'" + each.mesh + "' --by " + by + " " + more + " -c '" + each.commands +
                                            "' -o '" + (folder / "parts.e").string() + "'");
-  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  if (outcome.status != 0) return outcome.err;
   std::string faults;
   for (const std::string& line : test::split_faults(folder / "parts.e", n)) faults += line + "\n";
   EXPECT_EQ(faults, "");
   join_files(part_name(folder / "parts.e", n, 0), folder / "joined.e");
   EXPECT_TRUE(test::same_mesh(read_mesh(folder / "serial.e").mesh, read_mesh(folder / "joined.e").mesh));
   EXPECT_EQ(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"), true) << outcome.out;
+  return outcome.out;
 }
 
 /// Written once per test.
@@ -167,15 +170,77 @@ TEST(InRanks, an_error_of_one_is_one_line_with_its_rank_and_nothing_is_written) 
   EXPECT_FALSE(std::filesystem::exists(folder / "a.e.2.0"));
 }
 
-TEST(InRanks, what_is_not_done_in_parts_is_refused_by_name) {
+/// And no rank has the whole mesh.
+void expect_same_in_parts(const Case& each, int n, const std::string& by) {
+  const std::string said = expect_same_file(each, n, by);
+  EXPECT_EQ(said.find("the first process"), std::string::npos) << said;
+  EXPECT_NE(said.find("actual / wished size of "), std::string::npos) << said;
+}
+TEST(InRanks, sizes_are_met_in_parts_as_by_one) {
+  const std::string grid = brick("24 10 8");
+  expect_same_in_parts({model("cam.msh"), model("cam.brep"), "refine curve 1 size 0.3 bias 1.4"}, 3, "slabs");
+  expect_same_in_parts({grid, "", "refine curve 1 size 0.05 bias 1.5 transition regular"}, 3, "boxes");
+  expect_same_in_parts({grid, "",
+                        "sizing function f linear vertex 2 size 0.1 growth 1.4; sizing function most constant 0.15; "
+                        "sizing function both minimum f most; refine hex in surface 1 sizing_function both"},
+                       2, "slabs");
+}
+TEST(SlowInRanks, sizes_are_met_in_parts_as_by_one) {
+  const std::string grid = brick("24 10 8"), cam = model("cam.msh"), cad = model("cam.brep");
+  for (const int n : {1, 2, 4})
+    for (const char* by : {"slabs", "boxes", "random"}) {
+      expect_same_in_parts({grid, "", "refine surface 1 size 0.08 bias 1.4"}, n, by);
+      expect_same_in_parts({grid, "", "refine vertex 1 size 0.01 bias 1.6; refine curve 2"}, n, by);
+      expect_same_in_parts({grid, "", "refine volume all sizing_function \"0.05 + 0.05*abs(x)\""}, n, by);
+      expect_same_in_parts({cam, cad, "refine curve 3 size 0.2 bias 1.5 method single"}, n, by);
+      expect_same_in_parts({cam, cad, "sizing function f curvature 3; refine volume 1 sizing_function f"}, n, by);
+    }
+}
+/// What each part can't do by itself.
+TEST(InRanks, sizes_coarser_hexes_and_smoothing_are_done_by_the_first_of_three_as_by_one) {
+  const std::string grid = brick("12 6 5");
+  expect_same_file({grid, "",
+                    "sizing function f linear curve 1 size 0.08; refine volume all sizing_function f; "
+                    "smooth volume all iterations 2"},
+                   3, "slabs");
+  expect_same_file({grid, "", "refine hex 20 to 60; refine hex 400 to 420; coarsen hex in surface 1"}, 2, "boxes");
+  expect_same_file({model("cam.msh"), model("cam.brep"), "{s = 2}\nrefine curve {s} size 0.4 bias 1.4; undo; redo"}, 3,
+                   "random");
+}
+TEST(SlowInRanks, what_the_first_does) {
+  const std::string grid = brick("12 6 5"), cam = model("cam.msh"), cad = model("cam.brep");
+  expect_same_files({{grid, "", "refine surface 1 size 0.2"},
+                     {grid, "", "refine hex 9 to 90 numsplit 2; coarsen hex all; refine node 7 method parallel"},
+                     {grid, "", "refine hex 1 100 300 smooth; refine edge 5; sideset 9 add surface 2; undo"},
+                     {cam, cad, "refine surface 2 size 0.6 bias 1.3; refine curve 1 size 0.2 bias 2"},
+                     {cam, cad, "refine surface 1 direction layers 2; refine volume 1 size 0.4 dry_run"}},
+                    "");
+}
+TEST(InRanks, it_is_said_what_the_first_does_and_why) {
+  const std::string mesh = brick("6 4 4");
+  const auto said = [&](const std::string& commands) {
+    return run_ranks(2, "'" + mesh + "' -c '" + commands + "'").out;
+  };
+  EXPECT_NE(
+      said("refine curve 1 size 0.1")
+          .find("a size that is the same everywhere: it may be met by one into eight, whose sheets run through the "
+                "whole mesh: the first process does it, with the whole mesh"),
+      std::string::npos);
+  EXPECT_NE(said("refine hex 1; refine hex 4").find("a second level: "), std::string::npos);
+  EXPECT_NE(said("refine hex 1; coarsen hex all").find("'coarsen': "), std::string::npos);
+}
+TEST(InRanks, commands_of_a_session_are_refused_by_name) {
   const std::string mesh = brick("6 4 4");
   const auto said = [&](const std::string& commands) {
     const Outcome outcome = run_ranks(2, "'" + mesh + "' -c '" + commands + "'");
     EXPECT_EQ(outcome.status, 1);
     return outcome.err.substr(0, outcome.err.find('\n'));
   };
-  EXPECT_NE(said("refine curve 1 size 0.1").find("a size is not done in parts"), std::string::npos);
-  EXPECT_NE(said("refine hex 1; coarsen hex 1").find("'coarsen' is not done in parts"), std::string::npos);
+  EXPECT_NE(said("refine hex 1; reset").find("'reset' is for sessions of hextwist"), std::string::npos);
+  EXPECT_NE(said("import mesh \"a.msh\"").find("'import' is for sessions of hextwist"), std::string::npos);
+  EXPECT_NE(said("{n = 4}\ncreate brick x {n}").find("rank 0: a command has put the mesh on another model"),
+            std::string::npos);
+  EXPECT_NE(said("coarsen hex 1").find("rank 0: no hex can become coarser"), std::string::npos);
 }
 
 }  // namespace
