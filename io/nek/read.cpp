@@ -42,8 +42,10 @@ class MergedCorners {
     std::vector<Place> places;
     for (std::size_t s = 0; s + 1 < starts_.size(); ++s) {
       gather({order_.data() + starts_[s], starts_[s + 1] - starts_[s]}, places);
-      if (places.size() > most_around) crowded(places[0].corners[0]);
-      if (places.size() > 1) unite(places);
+      if (places.size() > most_around)
+        crowded(places[0].corners[0]);
+      else if (places.size() > 1)
+        unite(places);
       for (const Place& place : places)
         for (const Index corner : place.corners) first[corner] = place.corners[0];
     }

@@ -58,7 +58,10 @@ class NekWriter {
         nodes.push_back(mesh_.hexes[h][c]);
         corners.push_back(mesh_.points[nodes.back()]);
       }
-    std::vector<Index> first = one_by_place(corners, [](Index) {});  // too many: readers will say so
+    bool is_crowded = false;
+    std::vector<Index> first = one_by_place(corners, [&](Index) { is_crowded = true; });
+    if (is_crowded)
+      notices_.emplace_back("too many corners lie too near to one to tell which are one when the file is read");
     sort_unique(nodes), sort_unique(first);
     if (const std::int64_t n = std::ssize(nodes) - std::ssize(first); n > 0)
       notices_.push_back(counted(n, "node") + (n == 1 ? " is" : " are") +

@@ -106,6 +106,21 @@ TEST(nek_files, nodes_at_one_place_are_told) {
   }
 }
 
+/// Three hundred unit cubes, each with corners of its own, all within a hundredth of an edge.
+TEST(nek_files, corners_too_near_to_tell_apart_are_told) {
+  const auto file = test::output_folder() / "a.re2";
+  Mesh mesh;
+  for (int h = 0; h < 300; ++h) {
+    Hex& hex = mesh.hexes.emplace_back();
+    for (int c = 0; c < 8; ++c) {
+      hex[static_cast<std::size_t>(c)] = mesh.n_nodes();
+      mesh.points.emplace_back((c & 1) + 1e-5 * h, c >> 1 & 1, c >> 2 & 1);
+    }
+  }
+  EXPECT_TRUE(test::told(write_mesh(file, mesh, nullptr), "too many corners lie too near to one"));
+  EXPECT_NE(test::refusal(file).find("too many corners lie too near to one of element"), std::string::npos);
+}
+
 TEST(nek_files, what_is_wrong_is_said_with_its_byte) {
   const auto folder = test::output_folder();
   const std::string good = nek_cubes(2, false);
