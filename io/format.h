@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <limits>
 #include <span>
@@ -233,6 +234,19 @@ static_assert(in_file_order({0, 1, 2, 3, 4, 5, 6, 7}) == file_corner);
 std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep,
                                     std::vector<std::string>& notices);
 std::vector<Field> merge_components(std::vector<Field> scalars);
+
+/// Fields are doubles: is a whole number the same as one?
+template <class T>
+constexpr bool is_exact_double(T value) {
+  if constexpr (sizeof(T) < 8 || std::is_floating_point_v<T>) return true;
+  auto size = static_cast<std::uint64_t>(value);
+  if (std::is_signed_v<T> && value < 0) size = 0 - size;
+  return size == 0 || size >> std::countr_zero(size) <= std::uint64_t{1} << 53;
+}
+/// Where n values of a field were not. name: of the field.
+void say_rounded(const std::string& name, std::int64_t n, std::vector<std::string>& notices);
+/// Is a field to be written as integers of 64 bits? One of integers, unless a value is none of these.
+bool is_whole(const Field& field);
 
 // ---- associations ----
 

@@ -155,6 +155,17 @@ void say_no_fields(const Mesh& mesh, const char* format, std::vector<std::string
   notices.push_back(std::string(format) + " has no fields: " + names + " left out");
 }
 
+void say_rounded(const std::string& name, std::int64_t n, std::vector<std::string>& notices) {
+  if (n > 0)
+    notices.push_back("field '" + name + "': " + counted(n, "integer") + (n == 1 ? " is" : " are") +
+                      " rounded, because fields have 53 bits of a number");
+}
+
+bool is_whole(const Field& field) {
+  constexpr double most = 0x1p63;
+  return field.integer && std::ranges::all_of(field.values, [](double x) { return x >= -most && x < most; });
+}
+
 std::vector<Field> split_components(const std::vector<Field>& fields, const std::function<bool(int)>& keep,
                                     std::vector<std::string>& notices) {
   std::vector<Field> result;

@@ -173,13 +173,18 @@ void Listing::assemble_groups(bool parts_count_always) {
     const auto taken = [&](int id) {
       return std::ranges::find(groups, id, [](const auto& g) { return g.id; }) != groups.end();
     };
-    const int own = generated_id(from.name, kind);
+    const int own = from.is_own ? -1 : generated_id(from.name, kind);
     const bool generated = own >= 0 && !taken(own);
     const int id = generated ? own : from.id;
     auto& group = group_of_id(groups, taken(id) ? free_id(groups) : id);
     if (!generated) group.name = from.name;
     return group;
   };
+  // Those that say their ids first, so that nobody else has these.
+  std::ranges::stable_partition(groups_, [](const Group& group) {
+    return !group.is_own && std::ranges::any_of(std::array{"block", "nodeset", "sideset"},
+                                                [&](const char* kind) { return generated_id(group.name, kind) >= 0; });
+  });
   // Sides by corners, of all groups at once.
   std::vector<Quad> cycles;
   std::int64_t n_lost = 0;
@@ -263,6 +268,11 @@ void Listing::assemble_groups(bool parts_count_always) {
     const auto found = part_names_.find(part);
     return found == part_names_.end() ? "" : found->second;
   };
+  const auto group_of = [&](int part) {
+    Group group{part, name(part)};
+    group.is_own = true;
+    return group;
+  };
   if (!hexes_grouped || parts_count_always) {
     std::map<int, std::vector<Index>> of_part;
     for (Index h = 0; h < mesh.n_hexes(); ++h)
@@ -272,7 +282,7 @@ void Listing::assemble_groups(bool parts_count_always) {
       const Index same = position_in(mesh.blocks, part, &Block::id);
       if (same >= 0 && mesh.blocks[same].name == name(part) && std::ranges::includes(mesh.blocks[same].hexes, hexes))
         continue;
-      put(mesh.blocks, {part, name(part)}, "block").hexes = std::move(hexes);
+      put(mesh.blocks, group_of(part), "block").hexes = std::move(hexes);
     }
   }
   if (!quads_grouped || parts_count_always) {
@@ -281,7 +291,7 @@ void Listing::assemble_groups(bool parts_count_always) {
       if (quads_.parts[q] > 0 && quad_sides_[q].hex >= 0) of_part[quads_.parts[q]].push_back(quad_sides_[q]);
     for (auto& [part, sides] : of_part) {
       sort_unique(sides);
-      put(mesh.side_sets, {part, name(part)}, "sideset").sides = std::move(sides);
+      put(mesh.side_sets, group_of(part), "sideset").sides = std::move(sides);
     }
   }
 }

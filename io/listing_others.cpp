@@ -39,10 +39,10 @@ void Listing::assemble_others() {
   for (std::size_t e = 0; e < by_id.size(); ++e)
     by_id[ids.place().empty() ? e : static_cast<std::size_t>(ids.place()[e])] = static_cast<Index>(e);
   // The block of a group or part of this id and name, which hexes may have made.
-  const auto block_of = [&](int id, const std::string& name) {
+  const auto block_of = [&](int id, const std::string& name, bool is_own) {
     const Index at = position_in(mesh.blocks, id, &Block::id);
     if (at >= 0 && mesh.blocks[at].name == name) return id;
-    const int own = generated_id(name, "block");
+    const int own = is_own ? -1 : generated_id(name, "block");
     Block& block = group_of_id(mesh.blocks, own >= 0 ? own : at < 0 ? id : free_id(mesh.blocks));
     if (own < 0) block.name = name;
     return block.id;
@@ -53,7 +53,7 @@ void Listing::assemble_others() {
     for (const std::int64_t id : group.elements)
       if (const Index at = ids.find(id); at >= 0) members.push_back(by_id[at]);
     if (members.empty()) continue;
-    std::vector<Index>& set = sets[block_of(group.id, group.name)];
+    std::vector<Index>& set = sets[block_of(group.id, group.name, group.is_own)];
     set.insert(set.end(), members.begin(), members.end());
   }
   const bool grouped = !sets.empty();
@@ -63,7 +63,7 @@ void Listing::assemble_others() {
   for (auto& [part, members] : of_part) {
     if (grouped) break;
     const auto name = part_names_.find(part);
-    std::vector<Index>& set = sets[block_of(part, name == part_names_.end() ? "" : name->second)];
+    std::vector<Index>& set = sets[block_of(part, name == part_names_.end() ? "" : name->second, true)];
     set.insert(set.end(), members.begin(), members.end());
   }
   for (auto& [id, members] : sets) heads.sets.push_back({id, sorted_unique(std::move(members))});

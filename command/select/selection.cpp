@@ -328,13 +328,24 @@ class Evaluation {
     for (const Index i : candidates) chosen[i] = 1;
   }
 
-  /// Of a hex: its value, or the average of its nodes. Of a node: its value. Of a vector: its length.
+  /// The component of a field that files call by this name: its own with _x, _y, _z, or _1, _2, ...; -1: none.
+  static int component_called(const Field& field, const std::string& name) {
+    for (int c = 0; field.components > 1 && c < field.components; ++c)
+      if (name == field.name + "_" + (field.components == 3 ? std::string(1, "xyz"[c]) : std::to_string(c + 1)))
+        return c;
+    return -1;
+  }
+
+  /// Of a hex: its value, or the average of its nodes. Of a node: its value. Of a vector: its length, but where one
+  /// component is named.
   std::vector<double> field_values(EntityKind kind, const RangeFilter& filter) const {
     const Mesh& mesh = selector_.meshed.mesh;
-    const auto fits = [&](const Field& field) {
-      return field.name == filter.field && (kind == EntityKind::hex || field.on == Field::On::node);
-    };
-    const auto found = std::ranges::find_if(mesh.fields, fits);
+    const auto is_of = [&](const Field& field) { return kind == EntityKind::hex || field.on == Field::On::node; };
+    auto found = std::ranges::find_if(mesh.fields,
+                                      [&](const Field& field) { return is_of(field) && field.name == filter.field; });
+    int component = -1;
+    for (auto field = mesh.fields.begin(); found == mesh.fields.end() && field != mesh.fields.end(); ++field)
+      if (is_of(*field) && (component = component_called(*field, filter.field)) >= 0) found = field;
     if (found == mesh.fields.end()) {
       std::string known;
       for (const Field& field : mesh.fields)
@@ -348,7 +359,7 @@ class Evaluation {
       for (int c = 0; c < found->components; ++c) {
         const double x = found->values[static_cast<std::size_t>(i) * static_cast<std::size_t>(found->components) +
                                        static_cast<std::size_t>(c)];
-        if (found->components == 1) return x;
+        if (found->components == 1 || c == component) return x;
         sum += x * x;
       }
       return std::sqrt(sum);

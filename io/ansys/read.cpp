@@ -324,6 +324,7 @@ class AnsysReader {
       if (component.own.id >= 0) {
         group.id = component.own.id;
         group.name = component.own.name;
+        group.is_own = true;
       } else {
         if (next == std::numeric_limits<int>::max()) cursor_.fail_at(cursor_.end, "there are too many components");
         group.id = ++next;

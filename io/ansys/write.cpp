@@ -4,6 +4,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/ansys/ansys_internal.h"
+#include "hextwist/io/group_names.h"
 
 namespace hextwist::io {
 namespace {
@@ -107,13 +108,7 @@ class AnsysWriter {
                                                       : '_';
     if (!std::isalpha(static_cast<unsigned char>(result[0]))) result.insert(0, "C");
     if (result.size() > longest_component_name) result.resize(longest_component_name);
-    for (int k = 0; std::ranges::find(names_, result) != names_.end(); ++k) {
-      const std::string tail = "_" + std::to_string(id) + (k == 0 ? "" : "_" + std::to_string(k));
-      result = result.substr(0, longest_component_name - tail.size()) + tail;
-    }
-    names_.push_back(result);
-    say_renamed(std::string(kind) + " " + std::to_string(id), name, result, notices_);
-    return result;
+    return distinct_name(kind, id, name, result, longest_component_name, names_, notices_);
   }
 
   /// ids: ascending. Runs of three and more are their first and, negative, their last.
@@ -136,7 +131,9 @@ class AnsysWriter {
         members.push_back(ids[last]);
       i = last + 1;
     }
-    out_ << "! hextwist " << kind << ' ' << id << ' ' << one_line(name) << "\nCMBLOCK," << known << ',' << of << ','
+    const std::string line = one_line(name), own(trimmed(line));
+    say_renamed(std::string(kind) + " " + std::to_string(id), name, own, notices_);
+    out_ << "! hextwist " << kind << ' ' << id << ' ' << own << "\nCMBLOCK," << known << ',' << of << ','
          << Right{std::ssize(members), 8} << "\n(8i10)\n";
     for (std::size_t i = 0; i < members.size(); ++i)
       out_ << Right{members[i], 10} << (i % 8 == 7 || i + 1 == members.size() ? "\n" : "");
@@ -165,7 +162,7 @@ class AnsysWriter {
   std::span<const std::int64_t> node_ids_, hex_ids_;
   std::vector<Side> sides_;  // of all side sets, each once
   std::int64_t last_hex_ = 0;
-  std::vector<std::string> names_;
+  std::set<std::string> names_;
 };
 
 }  // namespace

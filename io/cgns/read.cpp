@@ -280,11 +280,13 @@ class CgnsReader {
       int next = 0;
       for (const Set& set : sets) next = std::max({next, set.id, generated_id(set.name, kind)});
       for (Set& set : sets) {
-        if (set.id < 0) set.id = generated_id(set.name, kind) >= 0 ? generated_id(set.name, kind) : ++next;
+        const bool is_own = set.id >= 0;
+        if (!is_own) set.id = generated_id(set.name, kind) >= 0 ? generated_id(set.name, kind) : ++next;
         Listing::Group& group = listing_.add_group(set.id, set.name);
         group.nodes = std::move(set.nodes);
         group.elements = std::move(set.elements);
         group.sides = std::move(set.sides);
+        group.is_own = is_own;
         group.empty_block = set.block;
         group.empty_node_set = set.node_set;
         group.empty_side_set = set.side_set;

@@ -258,7 +258,7 @@ class CgnsWriter {
       say_renamed("field", field.name, name, notices_);
       std::vector<double> values = field.values;
       if (on == Field::On::hex) values = items_at(values, order_);
-      if (field.integer) {
+      if (is_whole(field)) {
         const std::vector<long> numbers(values.begin(), values.end());
         check(cg_field_write(file_.id(), base, zone, number, CGNS_ENUMV(LongInteger), name.c_str(), numbers.data(),
                              &one));

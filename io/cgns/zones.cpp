@@ -508,6 +508,13 @@ std::vector<CgnsValues> cgns_solutions(CgnsPlace& in, const CgnsZone& zone) {
       in.check(cg_field_read(in.file, in.base, zone.number, s, of.data(), CGNS_ENUMV(RealDouble), first.data(),
                              last.data(), values.values.data()),
                "field " + shown(values.name));
+      if (type == CGNS_ENUMV(LongInteger)) {
+        std::vector<long> numbers(values.values.size());
+        in.check(
+            cg_field_read(in.file, in.base, zone.number, s, of.data(), type, first.data(), last.data(), numbers.data()),
+            "field " + shown(values.name));
+        say_rounded(values.name, std::ranges::count_if(numbers, [](long x) { return !is_exact_double(x); }), in.notes);
+      }
       const auto same = std::ranges::find_if(
           result, [&](const CgnsValues& other) { return other.name == values.name && other.on == values.on; });
       if (same != result.end())

@@ -27,7 +27,7 @@ struct TextsWritten {
 }  // namespace
 
 std::string exodus_name(const std::string& name) {
-  return name.substr(0, 255);
+  return std::string(trimmed(trimmed(name).substr(0, 255)));  // readers cut blanks around it
 }
 
 ExodusValues::ExodusValues(const Mesh& mesh, std::vector<std::string>& notices)

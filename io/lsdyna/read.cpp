@@ -213,7 +213,7 @@ class DynaReader {
           members.push_back(first);
       }
     }
-    group.hexes_only = true;
+    group.hexes_only = group.is_own = true;
     group.empty_node_set = of_nodes, group.empty_block = of_solids, group.empty_side_set = of_segments;
     return true;
   }

@@ -2,6 +2,7 @@
 // groups is a family.
 #include "hextwist/base/replacement.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/med/med_internal.h"
 #include "hextwist/io/others.h"
 
@@ -22,6 +23,7 @@ class MedWriter {
                     med_text("hextwist", MED_COMMENT_SIZE + 1).c_str(), med_text("", MED_SNAME_SIZE + 1).c_str(),
                     MED_SORT_DTIT, MED_CARTESIAN, axes("x", "y", "z").c_str(), axes("", "", "").c_str()));
     check(MEDfamilyCr(file_.id(), mesh_name, "FAMILLE_ZERO", 0, 0, ""));
+    name_groups();
     nodes();
     hexes();
     quads();
@@ -45,18 +47,60 @@ class MedWriter {
     return result;
   }
 
-  /// Names of groups: 80 characters.
-  template <class Groups>
-  std::vector<std::string> names(const char* kind, const Groups& groups) {
+  /// Names of groups have 80 characters, readers cut blanks around them. Who is in no family is not in the file.
+  template <class Groups, class Has>
+  std::vector<std::string> names(const char* kind, const Groups& groups, Has&& has_members) {
     std::vector<std::string> result;
+    std::set<std::string> taken;
     for (const auto& group : groups) {
-      std::string name = group.name.empty() ? std::string(kind) + "_" + std::to_string(group.id)
-                                            : group.name.substr(0, MED_LNAME_SIZE);
-      if (!group.name.empty())
-        say_renamed(std::string(kind) + " " + std::to_string(group.id), group.name, name, notices_);
-      result.push_back(std::move(name));
+      if (!has_members(group)) {
+        notices_.push_back("MED has no empty groups: " + std::string(kind) + " " + std::to_string(group.id) +
+                           (group.name.empty() ? "" : " '" + group.name + "'") + " is left out");
+        result.emplace_back();
+        continue;
+      }
+      const std::string line = one_line(group.name);
+      result.push_back(distinct_name(kind, group.id, group.name,
+                                     std::string(trimmed(trimmed(line).substr(0, MED_LNAME_SIZE))), MED_LNAME_SIZE,
+                                     taken, notices_));
     }
     return result;
+  }
+
+  void name_groups() {
+    node_set_names_ = names("nodeset", mesh_.node_sets, [](const NodeSet& set) { return !set.nodes.empty(); });
+    block_names_ = names("block", mesh_.blocks, [&](const Block& block) {
+      return !block.hexes.empty() ||
+             std::ranges::any_of(others_of_block(mesh_, block.id), [&](Index e) { return has_kind(e); });
+    });
+    side_set_names_ = names("sideset", mesh_.side_sets, [](const SideSet& set) { return !set.sides.empty(); });
+    // Readers number groups in the order of their names, whatever they are of.
+    std::vector<std::string> all;
+    for (const auto* list : {&node_set_names_, &block_names_, &side_set_names_})
+      std::ranges::copy_if(*list, std::back_inserter(all), [](const std::string& name) { return !name.empty(); });
+    sort_unique(all);
+    NewIds ids;
+    const auto add = [&](const char* kind, const auto& groups, const std::vector<std::string>& own) {
+      std::vector<std::string> sorted = own;
+      std::erase(sorted, "");
+      std::ranges::sort(sorted);
+      std::vector<int> wishes;
+      for (const std::string& name : sorted) wishes.push_back(static_cast<int>(position_in(all, name)) + 1);
+      const std::vector<int> when_read = ids_by_name(kind, sorted, wishes);
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (const Index at = position_in(sorted, own[g]); at >= 0)
+          ids.add(kind, groups[g].id, groups[g].name, when_read[static_cast<std::size_t>(at)]);
+    };
+    add("block", mesh_.blocks, block_names_);
+    add("nodeset", mesh_.node_sets, node_set_names_);
+    add("sideset", mesh_.side_sets, side_set_names_);
+    ids.tell("MED", notices_);
+  }
+  /// Has the file elements like this one?
+  bool has_kind(Index e) const {
+    return std::ranges::any_of(med_others, [&](const MedOther& type) {
+      return is_of(*mesh_.others, e, type) && (type.type != MED_QUAD4 || !second_);
+    });
   }
 
   /// Families for the classes of items; their numbers per item. sign: 1 of nodes, -1 of elements.
@@ -99,8 +143,7 @@ class MedWriter {
                                   coordinates(std::span(mesh_.points)).data()));
     std::vector<std::span<const Index>> members;
     for (const NodeSet& set : mesh_.node_sets) members.emplace_back(set.nodes);
-    entities(MED_NODE, MED_NONE, families(mesh_.points.size(), members, names("nodeset", mesh_.node_sets), 1),
-             mesh_.node_ids);
+    entities(MED_NODE, MED_NONE, families(mesh_.points.size(), members, node_set_names_, 1), mesh_.node_ids);
   }
 
   void elements(med_geometry_type type, std::size_t n, const std::vector<med_int>& connectivity) {
@@ -119,7 +162,7 @@ class MedWriter {
     elements(type_, mesh_.hexes.size(), connectivity);
     std::vector<std::span<const Index>> members;
     for (const Block& block : mesh_.blocks) members.emplace_back(block.hexes);
-    entities(MED_CELL, type_, families(mesh_.hexes.size(), members, names("block", mesh_.blocks), -1), mesh_.hex_ids);
+    entities(MED_CELL, type_, families(mesh_.hexes.size(), members, block_names_, -1), mesh_.hex_ids);
   }
 
   void quads() {
@@ -142,7 +185,7 @@ class MedWriter {
       for (const std::size_t i : {0, 3, 2, 1}) connectivity.push_back(mesh_.others->nodes_of(e)[i] + 1);
     elements(type, plan.sides.size() + beside.size(), connectivity);
     const std::vector<std::span<const Index>> members(plan.members.begin(), plan.members.end());
-    std::vector<med_int> family = families(plan.sides.size(), members, names("sideset", mesh_.side_sets), -1);
+    std::vector<med_int> family = families(plan.sides.size(), members, side_set_names_, -1);
     if (!beside.empty()) {
       const std::vector<med_int> more = families_of_others(beside, 0);
       family.insert(family.end(), more.begin(), more.end());
@@ -199,7 +242,7 @@ class MedWriter {
         if (const Index at = position_in(written, e); at >= 0) list.push_back(static_cast<Index>(before) + at);
     }
     const std::vector<std::span<const Index>> members(lists.begin(), lists.end());
-    return families(before + written.size(), members, names("block", mesh_.blocks), -1);
+    return families(before + written.size(), members, block_names_, -1);
   }
 
   void fields() {
@@ -235,6 +278,7 @@ class MedWriter {
   MedFile file_;
   med_geometry_type type_ = MED_HEXA8;
   med_int n_families_ = 0;
+  std::vector<std::string> node_set_names_, block_names_, side_set_names_;  // empty: not in the file
 };
 
 }  // namespace

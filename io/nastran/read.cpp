@@ -1,5 +1,7 @@
 // Nastran .bdf: GRID, CHEXA, elements beside them, PLOAD4 and SET1. Properties are blocks.
 #include <limits>
+#include <map>
+#include <set>
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/nastran/nastran_internal.h"
@@ -101,13 +103,17 @@ class NastranReader {
         cursor_.fail_at(card.at, "element " + std::to_string(element) + " has " + std::to_string(i) + " of 8 corners");
       nodes.push_back(integer(card, 2 + i, "a node", i >= 8));
     }
-    listing_.add_hex(element, card[1].empty() ? 0 : id(card, 1, "a property"), nodes, nastran_middles, card.at);
+    const int part = card[1].empty() ? 0 : id(card, 1, "a property");
+    parts_of_hexes_.insert(part);
+    listing_.add_hex(element, part, nodes, nastran_middles, card.at);
   }
 
   /// Kept with all its fields.
   void beside(const NastranCard& card, const NastranOther& of) {
     const std::int64_t element = integer(card, 0, "an element id");
-    const int part = of.property == 0 || card[of.property].empty() ? 0 : id(card, of.property, "a property");
+    int part = of.property == 0 || card[of.property].empty() ? 0 : id(card, of.property, "a property");
+    if (const auto found = block_of_other_.find(element); found != block_of_other_.end() && part == 0)
+      part = found->second;
     std::vector<std::int64_t> nodes;
     std::size_t n = of.n_nodes[0];
     if (of.shape == OtherShape::connector) {
@@ -153,19 +159,29 @@ class NastranReader {
     }
   }
 
-  /// Of our own: "$ hextwist block 3 name".
+  /// Of our own: "$ hextwist block 3 name", "$ hextwist others 3 101 102".
   void comment(std::string_view text, const char* at) {
     constexpr std::string_view mark = "$ hextwist ";
     if (!text.starts_with(mark)) return;
     text = trimmed(text.substr(mark.size()));
     const auto word = text.substr(0, text.find(' '));
-    if (word != "block" && word != "nodeset" && word != "sideset") return;
+    if (word != "block" && word != "nodeset" && word != "sideset" && word != "others") return;
     std::string_view rest = text.substr(std::min(word.size() + 1, text.size()));
     int group = 0;
     const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), group);
     if (error != std::errc{} || group < 0)
       cursor_.fail_at(at, std::string(word) + " without an id between 0 and 2147483647");
     rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
+    if (word == "others") {  // of block 2: their ids
+      while (!(rest = trimmed(rest)).empty()) {
+        std::int64_t element = 0;
+        const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + rest.size(), element);
+        if (wrong != std::errc{}) cursor_.fail_at(at, "expected an element id, found " + shown(rest));
+        block_of_other_[element] = group;
+        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+      }
+      return;
+    }
     names_[{std::string(word), group}] = std::string(trimmed(rest));
     if (word == "block") listing_.name_part(group, std::string(trimmed(rest)));
   }
@@ -175,9 +191,25 @@ class NastranReader {
       const auto found = names_.find({kind, group});
       return found == names_.end() ? "" : found->second;
     };
-    for (auto& [group, nodes] : node_sets_) listing_.add_group(group, name("nodeset", group)).nodes = std::move(nodes);
-    for (auto& [group, sides] : side_sets_)
-      listing_.add_group(group, name("sideset", group)).opposite = std::move(sides);
+    // Our comments tell of empty ones too.
+    for (const auto& [which, text] : names_) {
+      if (which.first == "nodeset") node_sets_[which.second];
+      if (which.first == "sideset") side_sets_[which.second];
+      if (which.first == "block" && !parts_of_hexes_.contains(which.second)) {
+        Listing::Group& empty = listing_.add_group(which.second, text);
+        empty.is_own = empty.empty_block = true;
+      }
+    }
+    for (auto& [group, nodes] : node_sets_) {
+      Listing::Group& set = listing_.add_group(group, name("nodeset", group));
+      set.is_own = set.empty_node_set = true;
+      set.nodes = std::move(nodes);
+    }
+    for (auto& [group, sides] : side_sets_) {
+      Listing::Group& set = listing_.add_group(group, name("sideset", group));
+      set.is_own = set.empty_side_set = true;
+      set.opposite = std::move(sides);
+    }
   }
 
   Cursor cursor_;
@@ -185,6 +217,8 @@ class NastranReader {
   std::map<int, std::vector<std::int64_t>> node_sets_;
   std::map<int, std::vector<std::pair<std::int64_t, std::array<std::int64_t, 2>>>> side_sets_;
   std::map<std::pair<std::string, int>, std::string> names_;
+  std::set<int> parts_of_hexes_;
+  std::map<std::int64_t, int> block_of_other_;  // of elements without a property, by our comments
   std::int64_t n_other_ = 0;
   std::string first_other_;
   bool ended_ = false, had_bulk_ = false;

@@ -99,9 +99,17 @@ void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::in
   const bool same_nodes = node_ids.data() == mesh.node_ids.data();
   std::map<std::string, std::int64_t> n_lost, n_made;
   std::vector<int> block_of(static_cast<std::size_t>(others.size()), 0);
+  std::vector<std::uint8_t> not_there(block_of.size(), 0);
   for (const Block& block : mesh.blocks)
     for (const Index e : others_of_block(mesh, block.id))
-      if (block_of[e] == 0) block_of[e] = block.id;
+      if (block_of[e] == 0 && block.id > 0)
+        block_of[e] = block.id;
+      else
+        not_there[e] = 1;
+  if (const auto n = std::ranges::count(not_there, 1))
+    notices.push_back(counted(n, "other element") + " of several blocks, or of block 0: only in the first above 0");
+  std::map<int, std::vector<std::int64_t>> without_property;  // by block
+  std::vector<std::pair<std::string, std::vector<std::string>>> cards;
   for (Index e = 0; e < others.size(); ++e) {
     const OtherType& type = others.type_of(e);
     const std::string name = own ? type.name : usual_card(type);
@@ -110,6 +118,7 @@ void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::in
       ++n_lost[type.name];
       continue;
     }
+    if (card->property == 0 && block_of[e] > 0) without_property[block_of[e]].push_back(ids[e]);
     std::vector<std::string> fields = own && !others.heads->rest.empty()
                                           ? nastran_fields_of(others.heads->rest[others.of[e]])
                                           : std::vector<std::string>();
@@ -133,14 +142,27 @@ void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::in
         if (error == std::errc{} && stop == field.data() + field.size()) field = nastran_real(value, 16);
       }
     if (!own) ++n_made[name];
-    write_nastran_card(out, name, fields);
+    cards.emplace_back(name, std::move(fields));
   }
+  // Before the cards, since these have no room for it: masses, springs, rigid elements.
+  for (const auto& [block, elements] : without_property)
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      out << (i % 6 == 0 ? "$ hextwist others " + std::to_string(block) : "") << ' ' << elements[i]
+          << (i % 6 == 5 || i + 1 == elements.size() ? "\n" : "");
+  for (const auto& [name, fields] : cards) write_nastran_card(out, name, fields);
   for (const auto& [type, n] : n_lost)
     notices.push_back("left out " + counted(n, "other element of type ", "other elements of type ") + type +
                       ", which Nastran has nothing like here");
   for (const auto& [name, n] : n_made)
     notices.push_back(counted(n, "other element") + " written as " + name +
                       ": properties and the like are yours to add");
+}
+
+/// "$ hextwist block 3 name".
+void write_label(Output& out, const char* kind, int id, const std::string& name, std::vector<std::string>& notices) {
+  const std::string line = one_line(name), written(trimmed(line));
+  say_renamed(std::string(kind) + " " + std::to_string(id), name, written, notices);
+  out << "$ hextwist " << kind << ' ' << id << ' ' << written << '\n';
 }
 
 }  // namespace
@@ -171,7 +193,7 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
   out << "$ hextwist mesh " << mesh.points.size() << ' ' << mesh.hexes.size() << "\nBEGIN BULK\n";
   for (const Block& block : mesh.blocks)
     if (block.id > 0) {
-      out << "$ hextwist block " << block.id << ' ' << one_line(block.name) << '\n';
+      write_label(out, "block", block.id, block.name, notices);
       if (block.hexes.empty() && !others_of_block(mesh, block.id).empty()) continue;  // the property is no solid's
       SmallFields card(out, "PSOLID");
       card.add(block.id);
@@ -197,14 +219,14 @@ void write_nastran(Output& out, const Mesh& mesh, const Association&, const Writ
     write_nastran_others(out, mesh, node_ids, other_ids_in_file(mesh, hex_ids, highest_number, limit, notices),
                          notices);
   for (const NodeSet& set : mesh.node_sets) {
-    out << "$ hextwist nodeset " << set.id << ' ' << one_line(set.name) << '\n';
+    write_label(out, "nodeset", set.id, set.name, notices);
     SmallFields card(out, "SET1");
     card.add(set.id);
     for (const Index n : set.nodes) card.add(id_of(node_ids, n));
     card.finish();
   }
   for (const SideSet& set : mesh.side_sets) {
-    out << "$ hextwist sideset " << set.id << ' ' << one_line(set.name) << '\n';
+    write_label(out, "sideset", set.id, set.name, notices);
     for (const Side& side : set.sides) {
       const Quad q = face_nodes(mesh.hexes[side.hex], side.face);
       SmallFields card(out, "PLOAD4");

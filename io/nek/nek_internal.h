@@ -7,6 +7,8 @@
 // writes: sides have the code MSH and the number of their set as the fifth number.
 #pragma once
 
+#include <functional>
+
 #include "hextwist/io/middles.h"
 
 namespace hextwist::io {
@@ -20,6 +22,10 @@ inline constexpr const MiddleOrder& nek_edges = vtk_middles;
 inline constexpr std::array<int, 6> nek_sides = {
     face_of_file_corners({1, 2, 6, 5}), face_of_file_corners({2, 3, 7, 6}), face_of_file_corners({3, 4, 8, 7}),
     face_of_file_corners({4, 1, 5, 8}), face_of_file_corners({1, 2, 3, 4}), face_of_file_corners({5, 6, 7, 8})};
+
+/// Of corners, eight of each element in the order of the files: per corner the first that it is one node with, by their
+/// places. crowded: called with a corner where too many are near to tell.
+std::vector<Index> one_by_place(std::span<const Vec3> corners, const std::function<void(Index)>& crowded);
 
 /// Solvers know groups up to this.
 inline constexpr int nek_highest_group = 10;

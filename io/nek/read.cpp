@@ -42,8 +42,10 @@ class MergedCorners {
     std::vector<Place> places;
     for (std::size_t s = 0; s + 1 < starts_.size(); ++s) {
       gather({order_.data() + starts_[s], starts_[s + 1] - starts_[s]}, places);
-      if (places.size() > most_around) crowded(places[0].corners[0]);
-      if (places.size() > 1) unite(places);
+      if (places.size() > most_around)
+        crowded(places[0].corners[0]);
+      else if (places.size() > 1)
+        unite(places);
       for (const Place& place : places)
         for (const Index corner : place.corners) first[corner] = place.corners[0];
     }
@@ -205,15 +207,7 @@ class NekReader {
   }
 
   void merge() {
-    std::vector<double> reach(corners_.size());
-    for (std::size_t e = 0; e < n_; ++e)
-      for (std::size_t c = 0; c < 8; ++c) {
-        double shortest = std::numeric_limits<double>::max();
-        for (const std::size_t other : {c / 4 * 4 + (c + 1) % 4, c / 4 * 4 + (c + 3) % 4, (c + 4) % 8})
-          shortest = std::min(shortest, largest_offset(corners_[8 * e + c], corners_[8 * e + other]));
-        reach[8 * e + c] = near_part * shortest;
-      }
-    const auto first = MergedCorners(corners_, reach).first_of_same([&](Index corner) {
+    const auto first = one_by_place(corners_, [&](Index corner) {
       cursor_.fail_at(cursor_.at, "too many corners lie too near to one of element " + std::to_string(corner / 8 + 1) +
                                       " to tell which are one");
     });
@@ -360,6 +354,18 @@ class NekReader {
 };
 
 }  // namespace
+
+std::vector<Index> one_by_place(std::span<const Vec3> corners, const std::function<void(Index)>& crowded) {
+  std::vector<double> reach(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t first = i / 8 * 8, c = i % 8;
+    double shortest = std::numeric_limits<double>::max();
+    for (const std::size_t other : {c / 4 * 4 + (c + 1) % 4, c / 4 * 4 + (c + 3) % 4, (c + 4) % 8})
+      shortest = std::min(shortest, largest_offset(corners[i], corners[first + other]));
+    reach[i] = near_part * shortest;
+  }
+  return MergedCorners(corners, reach).first_of_same(crowded);
+}
 
 MeshFile read_nek(const Bytes& bytes) {
   return NekReader(bytes).result();

@@ -21,6 +21,7 @@ class NekWriter {
       notices_.push_back(counted(std::ssize(mesh_.node_sets), "node set") + " left out: .re2 has none");
     if (mesh_.n_hexes() > 999'999'999) throw Error("more hexes than nine digits can count");
     order();
+    tell_joined();
     header();
     elements();
     curves();
@@ -46,6 +47,26 @@ class NekWriter {
     if (n_fluid_ == 0) n_fluid_ = hexes_.size();
     place_.resize(hexes_.size());
     for (std::size_t i = 0; i < hexes_.size(); ++i) place_[hexes_[i]] = static_cast<Index>(i);
+  }
+
+  /// Nodes at one place, as those of a crack, are one to whoever reads the file.
+  void tell_joined() {
+    std::vector<Vec3> corners;
+    std::vector<Index> nodes;
+    for (const Index h : hexes_)
+      for (const int c : file_corner) {
+        nodes.push_back(mesh_.hexes[h][c]);
+        corners.push_back(mesh_.points[nodes.back()]);
+      }
+    bool is_crowded = false;
+    std::vector<Index> first = one_by_place(corners, [&](Index) { is_crowded = true; });
+    if (is_crowded)
+      notices_.emplace_back("too many corners lie too near to one to tell which are one when the file is read");
+    sort_unique(nodes), sort_unique(first);
+    if (const std::int64_t n = std::ssize(nodes) - std::ssize(first); n > 0)
+      notices_.push_back(counted(n, "node") + (n == 1 ? " is" : " are") +
+                         " joined with others when the file is read: .re2 knows nodes by their places, and these lie "
+                         "at one, or nearly");
   }
 
   void header() {

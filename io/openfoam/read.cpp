@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/openfoam/openfoam_internal.h"
 
 namespace hextwist::io {
@@ -68,6 +69,15 @@ class FoamCursor {
     expect("(");
     return size;
   }
+  /// A number, or 0 and 1 as words.
+  std::int64_t number_or_flag(const char* what) {
+    const FoamCursor before = *this;
+    const std::string_view word = token();
+    if (word == "true" || word == "on" || word == "yes") return 1;
+    if (word == "false" || word == "off" || word == "no") return 0;
+    *this = before;
+    return integer(what);
+  }
   /// List<label> n(...), n{value} or nothing.
   std::vector<std::int64_t> labels(const char* what) {
     std::string_view word = token();
@@ -80,11 +90,11 @@ class FoamCursor {
     std::vector<std::int64_t> result(in_.check_count(n, 1, what));
     const std::string_view open = token();
     if (open == "{") {
-      const std::int64_t value = integer(what);
+      const std::int64_t value = number_or_flag(what);
       std::ranges::fill(result, value);
       expect("}");
     } else if (open == "(") {
-      for (std::int64_t& value : result) value = integer(what);
+      for (std::int64_t& value : result) value = number_or_flag(what);
       expect(")");
     } else if (!result.empty()) {
       fail("expected '(', found " + shown(open));
@@ -153,35 +163,53 @@ class FoamReader {
     faces();
     cells();
     boundary();
-    zones("cellZones", "cellLabels", [&](int id, const std::string& name, const std::vector<std::int64_t>& labels) {
-      Block block = named(out_.mesh.blocks, "block", id, name);
-      for (const std::int64_t label : labels) {
-        if (label < 0 || label >= n_cells_) fail("cell zone " + name + " names cell " + std::to_string(label));
+    zones("cellZones", "cellLabels", [&](const Zone& zone) {
+      Block block{0, zone.name, {}};
+      for (const std::int64_t label : zone.labels) {
+        if (label < 0 || label >= n_cells_) fail("cell zone " + zone.name + " names cell " + std::to_string(label));
         block.hexes.push_back(static_cast<Index>(label));
       }
       sort_unique(block.hexes);
       out_.mesh.blocks.push_back(std::move(block));
     });
-    zones("faceZones", "faceLabels", [&](int, const std::string& name, const std::vector<std::int64_t>& labels) {
-      SideSet set = named(out_.mesh.side_sets, "sideset", free_id(out_.mesh.side_sets), name);
-      for (const std::int64_t label : labels) {
+    zones("faceZones", "faceLabels", [&](const Zone& zone) {
+      SideSet set{0, zone.name, {}};
+      if (!zone.flips.empty() && zone.flips.size() != zone.labels.size())
+        fail("face zone " + zone.name + " has " + std::to_string(zone.flips.size()) + " flips for " +
+             counted(std::ssize(zone.labels), "face"));
+      for (std::size_t i = 0; i < zone.labels.size(); ++i) {
+        const std::int64_t label = zone.labels[i];
         if (label < 0 || label >= static_cast<std::int64_t>(owner_.size()))
-          fail("face zone " + name + " names face " + std::to_string(label));
-        set.sides.push_back(side_of_face_[static_cast<std::size_t>(label)]);
+          fail("face zone " + zone.name + " names face " + std::to_string(label));
+        // Flipped: its normal is that of the neighbour, which faces at the boundary have not.
+        const auto f = static_cast<std::size_t>(label);
+        const bool flipped = !zone.flips.empty() && zone.flips[i] && side_of_neighbour_[f].hex >= 0;
+        set.sides.push_back(flipped ? side_of_neighbour_[f] : side_of_face_[f]);
       }
       sort_unique(set.sides);
       out_.mesh.side_sets.push_back(std::move(set));
+      patch_numbers_.push_back(-1);
     });
-    zones("pointZones", "pointLabels", [&](int id, const std::string& name, const std::vector<std::int64_t>& labels) {
-      NodeSet set = named(out_.mesh.node_sets, "nodeset", id, name);
-      for (const std::int64_t label : labels) {
+    zones("pointZones", "pointLabels", [&](const Zone& zone) {
+      NodeSet set{0, zone.name, {}};
+      for (const std::int64_t label : zone.labels) {
         if (label < 0 || label >= out_.mesh.n_nodes())
-          fail("point zone " + name + " names point " + std::to_string(label));
+          fail("point zone " + zone.name + " names point " + std::to_string(label));
         set.nodes.push_back(static_cast<Index>(label));
       }
       sort_unique(set.nodes);
       out_.mesh.node_sets.push_back(std::move(set));
     });
+    const auto as_they_come = [](const auto& groups) {
+      std::vector<int> numbers(groups.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<int>(i) + 1;
+      return numbers;
+    };
+    number(out_.mesh.blocks, "block", as_they_come(out_.mesh.blocks));
+    number(out_.mesh.node_sets, "nodeset", as_they_come(out_.mesh.node_sets));
+    number(out_.mesh.side_sets, "sideset", patch_numbers_);
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      if (entries_[i] != "type patch;") out_.extras.patches[out_.mesh.side_sets[i].id] = entries_[i];
     std::ranges::sort(out_.mesh.blocks, {}, &Block::id);
     std::ranges::sort(out_.mesh.side_sets, {}, &SideSet::id);
     std::ranges::sort(out_.mesh.node_sets, {}, &NodeSet::id);
@@ -190,15 +218,16 @@ class FoamReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": " + what); }
+  /// By their names, and those that unnamed groups have are none.
   template <class Group>
-  static bool is_free(const std::vector<Group>& groups, int id) {
-    return std::ranges::find(groups, id, &Group::id) == groups.end();
-  }
-  /// Empty; of the id that it was written by, where its name is one that writers make and nobody else has it.
-  template <class Group>
-  static Group named(const std::vector<Group>& groups, const char* kind, int id, const std::string& name) {
-    const int own = generated_id(name, kind);
-    return own >= 0 && is_free(groups, own) ? Group{own, "", {}} : Group{id, name, {}};
+  static void number(std::vector<Group>& groups, const char* kind, const std::vector<int>& wishes) {
+    std::vector<std::string> names;
+    for (const Group& group : groups) names.push_back(group.name);
+    const std::vector<int> ids = ids_by_name(kind, names, wishes);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      groups[i].id = ids[i];
+      if (generated_id(groups[i].name, kind) == ids[i]) groups[i].name.clear();
+    }
   }
   std::filesystem::path file(const char* name) const {
     const auto path = folder_ / name;
@@ -282,6 +311,7 @@ class FoamReader {
     }
     out_.mesh.hexes.resize(static_cast<std::size_t>(n_cells_));
     side_of_face_.assign(faces_.size(), {});
+    side_of_neighbour_.assign(faces_.size(), {});
     for (Index c = 0; c < n_cells_; ++c) hex(c, faces_of[c]);
   }
 
@@ -316,7 +346,7 @@ class FoamReader {
       for (int face = 0; face < n_hex_faces; ++face) {
         if (ascending(face_nodes(out_.mesh.hexes[cell], face)) != ascending(faces_[f])) continue;
         found = true;
-        if (turns_out) side_of_face_[f] = {cell, face};
+        (turns_out ? side_of_face_ : side_of_neighbour_)[f] = {cell, face};
       }
       if (!found) wrong("is no hex: its faces do not fit together");
     }
@@ -350,8 +380,6 @@ class FoamReader {
           kept += ";";
         }
       }
-      set = named(out_.mesh.side_sets, "sideset", set.id, set.name);
-      if (!is_free(out_.mesh.side_sets, set.id)) set.id = free_id(out_.mesh.side_sets);
       if (first < 0 || n_faces < 0 || n_faces > std::ssize(faces_) || first > std::ssize(faces_) - n_faces)
         fail("patch " + set.name + " has " + std::to_string(n_faces) + " faces from " + std::to_string(first) +
              " on, of " + std::to_string(faces_.size()));
@@ -359,7 +387,8 @@ class FoamReader {
         set.sides.push_back(side_of_face_[static_cast<std::size_t>(f)]);
       sort_unique(set.sides);
       if (set.name == default_patch && kept == "type patch;") continue;
-      if (kept != "type patch;") out_.extras.patches[set.id] = kept;
+      entries_.push_back(kept);
+      patch_numbers_.push_back(set.id);
       out_.mesh.side_sets.push_back(std::move(set));
     }
   }
@@ -371,24 +400,30 @@ class FoamReader {
     in_file(folder_ / name, [&](FoamCursor& in) { zones_in(in, list, take); });
   }
 
+  struct Zone {
+    std::string name;
+    std::vector<std::int64_t> labels, flips;
+  };
   template <class Take>
   static void zones_in(FoamCursor& in, std::string_view list, Take&& take) {
     const std::size_t n = in.list("zones");
     for (std::size_t i = 0; i < n; ++i) {
-      const std::string zone(in.token());
+      Zone zone{std::string(in.token()), {}, {}};
       in.expect("{");
-      std::vector<std::int64_t> labels;
       for (std::string_view word = in.token(); word != "}"; word = in.token()) {
-        if (word.empty()) in.fail("the file ends inside of zone " + zone);
+        if (word.empty()) in.fail("the file ends inside of zone " + zone.name);
         if (word == list) {
-          labels = in.labels("a member");
+          zone.labels = in.labels("a member");
+          in.expect(";");
+        } else if (word == "flipMap") {
+          zone.flips = in.labels("a flip");
           in.expect(";");
         } else {
           for (word = in.token(); word != ";"; word = in.token())
-            if (word.empty()) in.fail("the file ends inside of zone " + zone);
+            if (word.empty()) in.fail("the file ends inside of zone " + zone.name);
         }
       }
-      take(static_cast<int>(i) + 1, zone, labels);
+      take(zone);
     }
   }
 
@@ -397,7 +432,9 @@ class FoamReader {
   MeshFile out_;
   std::vector<Quad> faces_;
   std::vector<Index> owner_, neighbour_;
-  std::vector<Side> side_of_face_;
+  std::vector<Side> side_of_face_, side_of_neighbour_;
+  std::vector<std::string> entries_;  // of patches that are side sets
+  std::vector<int> patch_numbers_;    // per side set; -1: a zone
   Index n_cells_ = 0;
 };
 

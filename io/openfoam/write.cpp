@@ -1,5 +1,8 @@
 // OpenFOAM's polyMesh, text. Faces inside come first, by owner and then by neighbour, as the solvers want them; then
 // those of each patch. A boundary face is in one patch: that of the first side set that has it.
+#include <map>
+
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/openfoam/openfoam_internal.h"
 #include "hextwist/mesh/topology.h"
 
@@ -32,6 +35,7 @@ class OpenfoamWriter {
     std::filesystem::create_directories(folder_, error);
     if (error) throw Error(folder_.string() + ": cannot be made (" + error.message() + ")");
     points(), faces(), boundary(), zones();
+    tell_ids();
     open(file_);  // empty: ParaView's name for the case
     // All are complete by now; what is left is to give them their names.
     for (const auto& out : outputs_) out->commit();
@@ -51,13 +55,27 @@ class OpenfoamWriter {
 
   /// Names are words there, unique.
   std::string word(const char* kind, int id, const std::string& name) {
-    std::string result = plain_name(name, 100);
-    if (result.empty()) result = std::string(kind) + "_" + std::to_string(id);
-    if (!name.empty()) say_renamed(std::string(kind) + " " + std::to_string(id), name, result, notices_);
-    while (std::ranges::find(words_, std::pair(std::string(kind), result)) != words_.end())
-      result += "_" + std::to_string(id);
-    words_.emplace_back(kind, result);
+    constexpr std::size_t longest = 100;
+    const std::string result =
+        distinct_name(kind, id, name, plain_name(name, longest), longest, words_[kind], notices_);
+    groups_[kind].push_back({id, name, result});
     return result;
+  }
+
+  /// Patches, cells and points are numbered as they come, zones of faces after the patches.
+  void tell_ids() {
+    NewIds ids;
+    for (const auto& [kind, groups] : groups_) {
+      std::vector<std::string> names;
+      std::vector<int> wishes;
+      for (const GroupInFile& group : groups) {
+        names.push_back(group.written);
+        wishes.push_back(kind == "sideset" && names.size() > n_patches_of_sets_ ? -1 : static_cast<int>(names.size()));
+      }
+      const std::vector<int> when_read = ids_by_name(kind, names, wishes);
+      for (std::size_t g = 0; g < groups.size(); ++g) ids.add(kind.c_str(), groups[g].id, groups[g].name, when_read[g]);
+    }
+    ids.tell("OpenFOAM", notices_);
   }
 
   void divide() {
@@ -92,6 +110,7 @@ class OpenfoamWriter {
     if (n_twice > 0)
       notices_.push_back("side sets overlap, and a face is in one patch only: " + counted(n_twice, "face") +
                          (n_twice == 1 ? " is" : " are") + " in the first of its sets");
+    n_patches_of_sets_ = patches_.size();
     Patch rest{default_patch, "type patch;", {}};
     for (std::size_t f = 0; f < all.nodes.size(); ++f) {
       const auto& [first, second] = all.sides[f];
@@ -115,11 +134,19 @@ class OpenfoamWriter {
     std::ranges::sort(number_of_face_);
     for (const SideSet* set : inner) {
       Zone zone{word("sideset", set->id, set->name), {}, {}};
+      std::int64_t n_both = 0;
       for (const Side& side : set->sides) {
         const Index f = all.of_hex[side.hex][side.face];
+        if (all.sides[f][0] != side && std::ranges::binary_search(set->sides, all.sides[f][0])) {
+          ++n_both;
+          continue;
+        }
         zone.members.push_back(std::ranges::lower_bound(number_of_face_, std::pair(f, Index{0}))->second);
         zone.flips.push_back(all.sides[f][0] != side);
       }
+      if (n_both > 0)
+        notices_.push_back("sideset " + std::to_string(set->id) + " has both sides of " + counted(n_both, "face") +
+                           ", and a face zone has a face once: that of the lower cell is in the file");
       face_zones_.push_back(std::move(zone));
     }
   }
@@ -214,7 +241,13 @@ class OpenfoamWriter {
   std::vector<Patch> patches_;
   std::vector<Zone> face_zones_;
   std::vector<std::pair<Index, Index>> number_of_face_;
-  std::vector<std::pair<std::string, std::string>> words_;
+  struct GroupInFile {
+    int id;
+    std::string name, written;
+  };
+  std::map<std::string, std::vector<GroupInFile>> groups_;  // by kind, in the order of the files
+  std::map<std::string, std::set<std::string>> words_ = {{"sideset", {default_patch}}};
+  std::size_t n_patches_of_sets_ = 0;
   std::vector<std::unique_ptr<Output>> outputs_;
 };
 

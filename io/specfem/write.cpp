@@ -1,5 +1,6 @@
 // SPECFEM3D's mesh folder. All six files of sides are written, so that none of another mesh stays.
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/specfem/specfem_internal.h"
 
 namespace hextwist::io {
@@ -117,10 +118,19 @@ class SpecfemWriter {
     if (!others.empty())
       notices_.push_back("side sets left out, because SPECFEM3D knows " + joined(specfem_surfaces, ", ") +
                          " only: " + joined(others, ", "));
-    for (const std::string name : specfem_surfaces) {
+    NewIds ids;
+    for (int file = 0; file < std::ssize(specfem_surfaces); ++file) {
+      const std::string name = specfem_surfaces[file];
       std::vector<Side> sides;
+      std::vector<int> together;
       for (const SideSet& set : mesh_.side_sets)
-        if (set.name == name) sides.insert(sides.end(), set.sides.begin(), set.sides.end());
+        if (set.name == name) {
+          sides.insert(sides.end(), set.sides.begin(), set.sides.end());
+          together.push_back(set.id);
+          ids.add("sideset", set.id, name, file + 1);
+        }
+      if (together.size() > 1)
+        notices_.push_back("sidesets " + joined(together, ", ") + " are one in the file, which all are called " + name);
       sort_unique(sides);
       Output& out = open(folder_ / name);
       out << sides.size() << '\n';
@@ -135,6 +145,7 @@ class SpecfemWriter {
         out << '\n';
       }
     }
+    ids.tell("SPECFEM3D", notices_);
   }
 
   const std::filesystem::path file_, folder_;

@@ -144,6 +144,12 @@ class UnvReader {
                         ", which are neither nodes nor elements: left out");
       }
       if (n > 0) cursor_.line();
+      if (n > 0) continue;
+      group.empty_block = generated_id(group.name, "block") >= 0;
+      group.empty_node_set = generated_id(group.name, "nodeset") >= 0;
+      group.empty_side_set = generated_id(group.name, "sideset") >= 0;
+      if (!group.empty_block && !group.empty_node_set && !group.empty_side_set)
+        listing_.note("group " + std::to_string(id) + " '" + group.name + "' is empty: left out");
     }
   }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/listing.h"
 #include "hextwist/io/others.h"
 #include "hextwist/io/unv/unv_internal.h"
@@ -43,10 +44,13 @@ class Groups {
     out_ << field(number);
     for (int i = 0; i < 6; ++i) out_ << field(0);
     out_ << field(static_cast<std::int64_t>(n)) << '\n';
-    std::string line = name.empty() ? std::string(kind) + "_" + std::to_string(id) : one_line(name);
-    if (line.size() > 40) line.resize(40);
-    say_renamed(std::string(kind) + " " + std::to_string(id), name, name.empty() ? name : line, notices_);
-    out_ << line << '\n';
+    const std::string line = one_line(name);
+    std::set<std::string> alike;  // are told apart by their numbers
+    out_ << distinct_name(kind, id, name, std::string(trimmed(trimmed(line).substr(0, 40))), 40, alike, notices_)
+         << '\n';
+    if (n == 0 && !name.empty())
+      notices_.push_back(".unv does not say what an empty group is of: " + std::string(kind) + " " +
+                         std::to_string(id) + " '" + name + "' will not be read");
     for (std::size_t i = 0; i < n; ++i)
       out_ << field(type) << field(member(i)) << field(0) << field(0) << (i % 2 == 1 || i + 1 == n ? "\n" : "");
   }

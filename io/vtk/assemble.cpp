@@ -181,6 +181,15 @@ class VtkAssembly {
     return nullptr;
   }
   bool is_made(std::string_view name) const { return std::ranges::find(made_, name) != made_.end(); }
+  /// An array of ours by its usual name; null where it is not there.
+  const VtkArray* find_made(VtkArray::On on, std::string_view usual) const {
+    for (const std::string& name : made_) {
+      std::string_view plain = name;
+      while (plain != usual && plain.starts_with(made_prefix)) plain.remove_prefix(made_prefix.size());
+      if (plain == usual) return find(on, name);
+    }
+    return nullptr;
+  }
 
   /// What write_vtu() says beyond fields. Such arrays may have been edited by other programs: all is checked.
   void ours() {
@@ -200,7 +209,7 @@ class VtkAssembly {
     if (!only_hexes_ && cell_of_hex(n_hexes - 1) != n_hexes - 1)
       fail("groups cannot be kept: there are other cells between the hexes");
     const auto column = [&](VtkArray::On on, const char* name, std::size_t n) {
-      const VtkArray* array = is_made(name) ? find(on, name) : nullptr;
+      const VtkArray* array = find_made(on, name);
       return array && array->is_integer() && array->size() == n ? array : nullptr;
     };
     mesh.node_ids = ids(column(VtkArray::On::node, "node_id", n_nodes), "node");
@@ -526,11 +535,16 @@ class VtkAssembly {
       Field field{array.name, node ? Field::On::node : Field::On::hex, array.components, {}, array.is_integer()};
       const std::size_t n_kept = node ? n : out_.mesh.hexes.size();
       reserve_large(field.values, n_kept * width);
+      std::int64_t n_rounded = 0;
       array.visit([&](auto numbers) {
         for (std::size_t i = 0; i < n_kept; ++i)
-          for (std::size_t c = 0; c < width; ++c)
-            field.values.push_back(static_cast<double>(numbers[(node ? i : cell_of_hex(i)) * width + c]));
+          for (std::size_t c = 0; c < width; ++c) {
+            const auto number = numbers[(node ? i : cell_of_hex(i)) * width + c];
+            n_rounded += !is_exact_double(number);
+            field.values.push_back(static_cast<double>(number));
+          }
       });
+      say_rounded(array.name, n_rounded, out_.notices);
       out_.mesh.fields.push_back(std::move(field));
     }
   }
@@ -538,10 +552,15 @@ class VtkAssembly {
   void field_of_others(const VtkArray& array) {
     OtherField field{array.name, array.components, {}, false, array.is_integer()};
     const auto width = static_cast<std::size_t>(array.components);
+    std::int64_t n_rounded = 0;
     array.visit([&](auto numbers) {
       for (const std::size_t cell : other_cells_)
-        for (std::size_t c = 0; c < width; ++c) field.values.push_back(static_cast<double>(numbers[cell * width + c]));
+        for (std::size_t c = 0; c < width; ++c) {
+          n_rounded += !is_exact_double(numbers[cell * width + c]);
+          field.values.push_back(static_cast<double>(numbers[cell * width + c]));
+        }
     });
+    say_rounded(array.name, n_rounded, out_.notices);
     if (std::ranges::any_of(field.values, [](double x) { return !std::isnan(x); }))
       heads_.fields.push_back(std::move(field));
   }

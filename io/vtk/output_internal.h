@@ -79,37 +79,39 @@ class VtkOutput {
         options_(options),
         others_(others && mesh.others ? others : nullptr),
         n_cells_(mesh.hexes.size() + (others_ ? others_->types.size() : 0)) {
-    // Arrays that we make ourselves give way to fields of the same name.
-    const auto made = [&](const char* name, Field::On on) {
-      return std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == on; });
+    // Fields keep their names, wherever they are: arrays that we make ourselves have another then, which readers find.
+    const auto is_field = [&](const std::string& name) {
+      return std::ranges::find(mesh.fields, name, &Field::name) != mesh.fields.end() ||
+             (others_ && std::ranges::find(mesh.others->heads->fields, name, &OtherField::name) !=
+                             mesh.others->heads->fields.end());
     };
-    node_ids_ = made("node_id", Field::On::node);
-    owners_ =
-        !association.node_owner.empty() && made("owner_dim", Field::On::node) && made("owner_id", Field::On::node);
-    hex_ids_ = made("hex_id", Field::On::hex);
-    volumes_ = !association.hex_volume.empty() && made("volume", Field::On::hex);
-    block_ids_ = !mesh.blocks.empty() && made("block", Field::On::hex);
-    shape_ = options.write_quality && made("shape", Field::On::hex);
-    jacobian_ = options.write_quality && made("scaled_jacobian", Field::On::hex);
-    for (const auto& [name, there] :
-         {std::pair("node_id", node_ids_), std::pair("owner_dim", owners_), std::pair("owner_id", owners_),
-          std::pair("hex_id", hex_ids_), std::pair("volume", volumes_), std::pair("block", block_ids_),
-          std::pair("shape", shape_), std::pair("scaled_jacobian", jacobian_)})
-      if (there) names_ += std::string(" ") + name;
-    block_of_cell_.resize(block_ids_ ? n_cells_ : 0, 0);
+    const auto make = [&](std::string& name, const char* usual, bool wanted = true) {
+      if (!wanted) return;
+      for (name = usual; is_field(name);) name.insert(0, made_prefix);
+      names_ += " " + name;
+    };
+    make(node_ids_, "node_id");
+    make(owner_dims_, "owner_dim", !association.node_owner.empty());
+    make(owner_ids_, "owner_id", !association.node_owner.empty());
+    make(hex_ids_, "hex_id");
+    make(volumes_, "volume", !association.hex_volume.empty());
+    make(block_ids_, "block", !mesh.blocks.empty());
+    make(shape_, "shape", options.write_quality && !is_field("shape"));
+    make(jacobian_, "scaled_jacobian", options.write_quality && !is_field("scaled_jacobian"));
+    block_of_cell_.resize(block_ids_.empty() ? 0 : n_cells_, 0);
     const auto put = [&](std::size_t cell, int id) {
       if (block_of_cell_[cell] == 0) block_of_cell_[cell] = id;
     };
     for (const Block& block : mesh.blocks) {
-      if (!block_ids_) break;
+      if (block_ids_.empty()) break;
       for (const Index h : block.hexes) put(static_cast<std::size_t>(h), block.id);
       if (others_)
         for (const Index e : others_of_block(mesh, block.id))
           put(mesh.hexes.size() + static_cast<std::size_t>(e), block.id);
     }
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (shape_) shapes_ = quality(Metric::shape, mesh), shapes_.resize(n_cells_, none);
-    if (jacobian_) jacobians_ = quality(Metric::scaled_jacobian, mesh), jacobians_.resize(n_cells_, none);
+    if (!shape_.empty()) shapes_ = quality(Metric::shape, mesh), shapes_.resize(n_cells_, none);
+    if (!jacobian_.empty()) jacobians_ = quality(Metric::scaled_jacobian, mesh), jacobians_.resize(n_cells_, none);
   }
 
   template <class Arrays>
@@ -120,33 +122,31 @@ class VtkOutput {
   template <class Arrays>
   void point_data(Arrays& arrays) const {
     const auto n_nodes = mesh_.points.size();
-    if (node_ids_)
-      arrays.add_each("node_id", n_nodes, 1,
-                      [this](std::size_t i) { return id_of(mesh_.node_ids, static_cast<Index>(i)); });
-    if (owners_) {
-      arrays.add_each("owner_dim", n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].dim; });
-      arrays.add_each("owner_id", n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].id; });
+    arrays.add_each(node_ids_, n_nodes, 1,
+                    [this](std::size_t i) { return id_of(mesh_.node_ids, static_cast<Index>(i)); });
+    if (!owner_dims_.empty()) {
+      arrays.add_each(owner_dims_, n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].dim; });
+      arrays.add_each(owner_ids_, n_nodes, 1, [this](std::size_t i) { return association_.node_owner[i].id; });
     }
     fields(arrays, Field::On::node);
   }
   template <class Arrays>
   void block_data(Arrays& arrays) const {
-    if (block_ids_) arrays.template add<int>("block", block_of_cell_, 1);
+    if (!block_ids_.empty()) arrays.template add<int>(block_ids_, block_of_cell_, 1);
   }
   /// blocks: false where they have been written before.
   template <class Arrays>
   void cell_data(Arrays& arrays, bool blocks = true) const {
-    if (hex_ids_)
-      arrays.add_each("hex_id", n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
-        return i < n_hexes ? id_of(mesh_.hex_ids, static_cast<Index>(i)) : others_->ids[i - n_hexes];
-      });
-    if (volumes_)
-      arrays.add_each("volume", n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
+    arrays.add_each(hex_ids_, n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
+      return i < n_hexes ? id_of(mesh_.hex_ids, static_cast<Index>(i)) : others_->ids[i - n_hexes];
+    });
+    if (!volumes_.empty())
+      arrays.add_each(volumes_, n_cells_, 1, [this, n_hexes = mesh_.hexes.size()](std::size_t i) {
         return i < n_hexes ? association_.hex_volume[i] : 0;
       });
     if (blocks) block_data(arrays);
-    if (shape_) arrays.template add<double>("shape", shapes_, 1);
-    if (jacobian_) arrays.template add<double>("scaled_jacobian", jacobians_, 1);
+    if (!shape_.empty()) arrays.template add<double>(shape_, shapes_, 1);
+    if (!jacobian_.empty()) arrays.template add<double>(jacobian_, jacobians_, 1);
     fields(arrays, Field::On::hex);
   }
   int nodes_per_hex() const { return options_.second ? options_.second->nodes_per_hex : 8; }
@@ -174,7 +174,7 @@ class VtkOutput {
       if (field.on != on) continue;
       if (beside) {
         field_beside(arrays, field);
-      } else if (field.integer) {
+      } else if (is_whole(field)) {
         arrays.add_each(field.name, field.values.size(), field.components,
                         [&values = field.values](std::size_t i) { return static_cast<std::int64_t>(values[i]); });
       } else {
@@ -198,7 +198,7 @@ class VtkOutput {
       return theirs ? value_beside(*theirs, i - values.size()) : no_value;
     };
     const std::size_t n = n_cells_ * static_cast<std::size_t>(field.components);
-    if (field.integer)
+    if (is_whole(field))
       arrays.add_each(field.name, n, field.components, [value](std::size_t i) { return whole_number(value(i)); });
     else
       arrays.add_each(field.name, n, field.components, value);
@@ -215,9 +215,8 @@ class VtkOutput {
   const WriteOptions& options_;
   const OtherCells* others_;
   std::size_t n_cells_;
-  bool node_ids_ = false, owners_ = false, hex_ids_ = false, volumes_ = false, block_ids_ = false, shape_ = false,
-       jacobian_ = false;
-  std::string names_;  // of arrays that are made here
+  // Names of arrays that are made here, empty: not there; and all of them.
+  std::string node_ids_, owner_dims_, owner_ids_, hex_ids_, volumes_, block_ids_, shape_, jacobian_, names_;
   std::vector<int> block_of_cell_;
   std::vector<double> shapes_, jacobians_;
 };

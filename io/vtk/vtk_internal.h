@@ -120,6 +120,9 @@ struct VtkContents {
   bool old_lagrange = false;
 };
 
+/// Before the name of an array of ours, as often as a field is called like it: "hextwist_hex_id".
+inline constexpr std::string_view made_prefix = "hextwist_";
+
 /// A cell type for other elements of a shape with so many nodes; 0: none.
 int vtk_type_of(OtherShape shape, std::size_t n_nodes);
 /// The other way round. Pixels are quads with their last two nodes exchanged.

@@ -38,6 +38,81 @@ TEST(hdf_files, a_mesh_with_sets_and_fields_comes_back_bit_for_bit) {
     }
 }
 
+/// Also in .vtu, whose arrays are the same.
+TEST(hdf_files, fields_named_like_ids_and_owners_displace_nothing) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(4, 3, 3);
+  const Association tags = test::brick_association(mesh, Vec3(4, 3, 3));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.node_ids.push_back(10 + 2 * static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < mesh.hexes.size(); ++i) mesh.hex_ids.push_back(8 + static_cast<std::int64_t>(i));
+  mesh.blocks = {{3, "b", {0, 1}}};
+  // On what our own arrays of these names are, and on the other.
+  for (const char* name : {"node_id", "hex_id", "hextwist_hex_id", "owner_dim", "owner_id", "volume", "block", "shape"})
+    for (const Field::On on : {Field::On::node, Field::On::hex}) {
+      const std::size_t n = on == Field::On::node ? mesh.points.size() : mesh.hexes.size();
+      mesh.fields.push_back({name, on, 1, std::vector<double>(n, static_cast<double>(mesh.fields.size())), true});
+    }
+  std::vector<std::string> names = {"a.vtu"};
+  for (const std::string& name : files())
+    if (name != "a.cgns") names.push_back(name);
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    write_mesh(folder / name, mesh, &tags);
+    const MeshFile read = read_mesh(folder / name);
+    EXPECT_TRUE(test::same_owners(tags, read.tags));
+    EXPECT_EQ(read.mesh.node_ids, mesh.node_ids);
+    EXPECT_EQ(read.mesh.hex_ids, mesh.hex_ids);
+    EXPECT_EQ(read.mesh.blocks, mesh.blocks);
+    EXPECT_EQ(read.mesh.fields.size(), mesh.fields.size());
+    for (const Field& field : mesh.fields)
+      EXPECT_NE(std::ranges::find(read.mesh.fields, field), read.mesh.fields.end()) << field.name;
+  }
+}
+
+TEST(hdf_files, integers_that_fields_can_not_hold_are_told) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(2, 1, 1);
+  // The next number, which is no double, is put where the first stands.
+  const std::int64_t good = (std::int64_t{1} << 54) + 4 * 123456789, bad = good + 1;
+  const auto value = static_cast<double>(good);
+  mesh.fields = {{"numbers", Field::On::hex, 1, {value, -value}, true}};
+  const std::string from(reinterpret_cast<const char*>(&good), 8), to(reinterpret_cast<const char*>(&bad), 8);
+  std::vector<std::string> names = files();
+  names.emplace_back("a.vtu");
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    write_mesh(folder / name, mesh, nullptr);
+    const MeshFile exact = read_mesh(folder / name);
+    EXPECT_EQ(exact.mesh.fields, mesh.fields);
+    EXPECT_FALSE(test::told(exact.notices, "rounded"));
+    const auto data = std::filesystem::path(folder / name)
+                          .replace_extension(name == "a.xdmf"  ? ".h5"
+                                             : name == "a.vtu" ? ".vtu"
+                                                               : name.substr(1));
+    std::string bytes = test::text_of(data);
+    std::size_t n = 0;
+    for (auto at = bytes.find(from); at != std::string::npos; at = bytes.find(from, at + 8), ++n)
+      bytes.replace(at, 8, to);
+    ASSERT_EQ(n, 1U);
+    test::write_text(data, bytes);
+    EXPECT_TRUE(test::told(read_mesh(folder / name).notices,
+                           "field 'numbers': 1 integer is rounded, because fields have 53 bits of a number"));
+  }
+}
+
+/// What no integer of 64 bits is stays what it is.
+TEST(hdf_files, numbers_too_large_for_integers_are_written_as_others) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.fields = {{"large", Field::On::hex, 1, {0x1p63, 1}, true}};
+  std::vector<std::string> names = files();
+  names.emplace_back("a.vtu");
+  for (const std::string& name : names) {
+    write_mesh(folder / name, mesh, nullptr);
+    EXPECT_EQ(read_mesh(folder / name).mesh.fields.at(0).values, mesh.fields[0].values) << name;
+  }
+}
+
 TEST(hdf_files, every_shipped_model_comes_back) {
   const auto folder = test::output_folder();
   int n = 0;

@@ -88,6 +88,39 @@ TEST(nek_files, solid_elements_come_last_and_back) {
   EXPECT_EQ(back.side_sets, (std::vector<SideSet>{{7, "", {{1, 0}}}, {8, "O", {{0, 1}}}, {9, "W", {{0, 4}, {1, 4}}}}));
 }
 
+/// A crack along a face, closed or nearly: readers know nodes by their places.
+TEST(nek_files, nodes_at_one_place_are_told) {
+  const auto folder = test::output_folder();
+  for (const double opening : {0., 1e-4, 0.2}) {
+    Mesh mesh = test::grid(2, 2, 1);
+    for (Index& node : mesh.hexes[0])
+      if (mesh.points[node].x() == 1 && mesh.points[node].y() == 0) {
+        mesh.points.push_back(mesh.points[node] - Vec3(opening, 0, 0));
+        node = mesh.n_nodes() - 1;
+      }
+    const auto notices = write_mesh(folder / "a.re2", mesh, nullptr);
+    const bool joined = read_mesh(folder / "a.re2").mesh.n_nodes() != mesh.n_nodes();
+    EXPECT_EQ(joined, opening < 0.1);
+    EXPECT_EQ(test::told(notices, "2 nodes are joined with others when the file is read"), joined) << opening;
+    EXPECT_EQ(test::told(notices, "joined"), joined) << opening;
+  }
+}
+
+/// Three hundred unit cubes, each with corners of its own, all within a hundredth of an edge.
+TEST(nek_files, corners_too_near_to_tell_apart_are_told) {
+  const auto file = test::output_folder() / "a.re2";
+  Mesh mesh;
+  for (int h = 0; h < 300; ++h) {
+    Hex& hex = mesh.hexes.emplace_back();
+    for (int c = 0; c < 8; ++c) {
+      hex[static_cast<std::size_t>(c)] = mesh.n_nodes();
+      mesh.points.emplace_back((c & 1) + 1e-5 * h, c >> 1 & 1, c >> 2 & 1);
+    }
+  }
+  EXPECT_TRUE(test::told(write_mesh(file, mesh, nullptr), "too many corners lie too near to one"));
+  EXPECT_NE(test::refusal(file).find("too many corners lie too near to one of element"), std::string::npos);
+}
+
 TEST(nek_files, what_is_wrong_is_said_with_its_byte) {
   const auto folder = test::output_folder();
   const std::string good = nek_cubes(2, false);

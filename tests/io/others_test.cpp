@@ -206,6 +206,27 @@ TEST(others_in_abaqus, elements_and_the_cards_about_them_stay) {
   EXPECT_EQ(elements(read_mesh(out).mesh, true), now);
 }
 
+/// As docs/formats has it.
+TEST(others_in_files, wedges_are_kept_or_told) {
+  const auto folder = test::output_folder();
+  const auto inp = test::write_text(folder / "a.inp",
+                                    "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+                                    "9,2,0,0\n10,2,0,1\n*ELEMENT, TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n"
+                                    "*ELEMENT, TYPE=C3D6, ELSET=GLUE\n2,2,9,3,6,10,7\n");
+  const Mesh mesh = read_mesh(inp).mesh;
+  for (const std::string name : {"b.inp", "b.e", "b.msh", "b.vtu"}) {
+    write_mesh(folder / name, mesh, nullptr);
+    const MeshFile read = read_mesh(folder / name);
+    EXPECT_TRUE(others_text(read.mesh).starts_with("1 wedge")) << name;
+    EXPECT_EQ(shapes(read.mesh, true), shapes(mesh, true)) << name;
+  }
+  for (const std::string name : {"b.vtkhdf", "b.xdmf", "b.cgns"}) try {
+      EXPECT_TRUE(test::told(write_mesh(folder / name, mesh, nullptr), "1 wedge")) << name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("built without"), std::string::npos) << error.what();
+    }
+}
+
 TEST(others_in_abaqus, mistakes_are_named_with_their_line) {
   const auto says = [&](const std::string& more, const std::string& what) {
     const auto file = test::write_text(test::output_folder() / "a.inp", mixed_inp + more);

@@ -177,6 +177,24 @@ TEST(Sizing, hexes_in_a_field_above_below_and_top) {
             "there is no such hex: none of the 64 hexes has such values");
 }
 
+TEST(Sizing, components_of_fields_go_by_the_names_that_files_have_for_them) {
+  Fixture f;
+  MeshedModel meshed = test::brick(2, 2, 1);
+  meshed.mesh.fields.push_back({"err", Field::On::hex, 2, {1, -9, 2, -8, 3, -7, 4, -6}});
+  meshed.mesh.fields.push_back({"v", Field::On::hex, 3, {1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0}});
+  f.session.take(meshed.mesh, meshed.model);
+  const auto hexes = [&](const std::string& range) {
+    f.session.run("delete block all; block 1 hex " + range);
+    return f.mesh().blocks.front().hexes;
+  };
+  f.session.run("block 1 hex 1");
+  EXPECT_EQ(hexes("in field \"err_1\" above 2.5"), (std::vector<Index>{2, 3}));
+  EXPECT_EQ(hexes("in field \"err_2\" below -7.5"), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(hexes("in field \"v_z\" above 0"), (std::vector<Index>{2}));
+  EXPECT_EQ(hexes("in field \"v\" above 1.5"), (std::vector<Index>{1, 2}));
+  EXPECT_EQ(f.error("refine hex in field \"err_3\" above 1"), "there is no field 'err_3' of hexes; there are err, v");
+}
+
 TEST(Sizing, graded_refinement_keeps_levels_within_one) {
   Fixture f;
   take_fields(f.session);
