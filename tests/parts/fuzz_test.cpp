@@ -94,11 +94,11 @@ std::string random_ids(Random& random, std::int64_t low, std::int64_t high) {
       return list.empty() ? " " + std::to_string(low) : list;
     }
     case 2: {
-      const auto [first, last] = std::minmax(id(), id());
+      const auto [first, last] = std::minmax({id(), id()});
       return " " + std::to_string(first) + " to " + std::to_string(last);
     }
     default: {
-      const auto [first, last] = std::minmax(id(), id());
+      const auto [first, last] = std::minmax({id(), id()});
       return " " + std::to_string(first) + " to " + std::to_string(last) + " by " +
              std::to_string(random.number(1, 17));
     }
@@ -118,7 +118,7 @@ std::string random_entity(Random& random, const Model& model) {
 /// there those that are not come more often.
 std::string random_sizes(Random& random, const MeshedModel& meshed, bool by_ranks) {
   const double edge = std::cbrt(average_volume(meshed.mesh));
-  const auto size = [&] { return short_number(edge * random.number(2, 10) / 10); };
+  const auto size = [&] { return short_number(edge * random.number(4, 12) / 10); };
   const auto growth = [&] { return "1." + std::to_string(random.number(2, 9)); };
   const auto entity = [&] { return random_entity(random, *meshed.model); };
   std::string command;
