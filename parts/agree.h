@@ -6,7 +6,8 @@
 // a say was not the same there before that pass; it lies in the halo, and its owner, who had made no mistake so far,
 // had it right. So the two have it differently: where all parts agree about the first enough_rings rings, with all that
 // happened in them pass by pass, they are right. Whatever is decided otherwise says so (Report::by_whole), and is done
-// by parts that have the whole mesh only.
+// with the whole mesh only. What is decided by numbers of all parts (sizing/among_parts.h) is right where these are: so
+// all that was counted is compared, too, be it taken or not.
 #pragma once
 
 #include "hextwist/parts/local_mesh.h"

@@ -34,7 +34,7 @@ struct Numbered {
 
 /// A command that all parts have done.
 struct Done {
-  OfWhole whole;             ///< before it
+  OfWhole whole;               ///< before it
   int n_rings = 0;             ///< that stay
   std::vector<Bounds> bounds;  ///< of all parts, by freedom of lifting
   Approach approach = Approach::trisect;

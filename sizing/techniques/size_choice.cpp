@@ -83,11 +83,11 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
 }
 
 /// Sum of |log(ratio)|, in units so small that the order does not matter: a part adds up to what the whole does.
-constexpr double unit = 1e-8;
+constexpr double distance_unit = 1e-8;
 std::int64_t distances(const SizeReport& sizes) {
   constexpr double most = 1000;
   std::int64_t sum = 0;
-  for (const double ratio : sizes.ratio) sum += std::llround(std::min(std::abs(std::log(ratio)), most) / unit);
+  for (const double ratio : sizes.ratio) sum += std::llround(std::min(std::abs(std::log(ratio)), most) / distance_unit);
   return sum;
 }
 
@@ -114,7 +114,7 @@ void judge_among(Candidate& candidate, const State& state) {
       among.all({{std::ssize(sizes.ratio), distances(sizes), sizes.n_coarser, std::ssize(own), !is_sound},
                  own.empty() ? PartNumbers().least : summarize(quality(Metric::shape, mesh, own)).min});
   const auto n = static_cast<double>(all.sum[0]);
-  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(all.sum[1]) / n;
+  candidate.distance = n == 0 ? 0 : distance_unit * static_cast<double>(all.sum[1]) / n;
   candidate.met = n == 0 ? 1 : 1 - static_cast<double>(all.sum[2]) / n;
   candidate.n_hexes = static_cast<Index>(std::min<std::int64_t>(all.sum[3], std::numeric_limits<Index>::max()));
   candidate.worst_shape = all.least;
@@ -125,7 +125,7 @@ void judge(Candidate& candidate, const State& state) {
   if (state.among) return judge_among(candidate, state);
   const SizeReport none, &here = *candidate.report.sizes, &outside = state.part ? state.part->outside : none;
   const auto n = static_cast<double>(here.ratio.size() + outside.ratio.size());
-  candidate.distance = n == 0 ? 0 : unit * static_cast<double>(distances(here) + distances(outside)) / n;
+  candidate.distance = n == 0 ? 0 : distance_unit * static_cast<double>(distances(here) + distances(outside)) / n;
   candidate.met = n == 0 ? 1 : 1 - (here.n_coarser + here.n_finer + outside.n_coarser + outside.n_finer) / n;
   const Mesh& mesh = candidate.result.refined.mesh;
   candidate.n_hexes = mesh.n_hexes() + n_outside(state);
