@@ -95,6 +95,22 @@ void refuse_inverted(const MeshedModel& meshed) {
               "and say 'import mesh'");
 }
 
+AssociateResult on_model(const Execution& run, const FillResult& filled, const Model& model,
+                         std::span<const int> volumes) {
+  try {
+    return associate(filled.mesh, model, &filled.tags,
+                     {.relative_tolerance = std::max(run.state.tolerance, AssociateOptions().relative_tolerance)});
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    std::string text;
+    for (const int volume : volumes) text += (text.empty() ? "" : ", ") + std::to_string(volume);
+    throw Error((volumes.size() == 1 ? "volume " : "volumes ") + text +
+                ": filled as coarsely as this the mesh leaves the CAD (" + error.what() +
+                "). Try a smaller 'size' or a larger 'interval', or mesh it elsewhere and say 'import mesh'");
+  }
+}
+
 }  // namespace
 
 void do_mesh(Execution& run) {
@@ -118,9 +134,7 @@ void do_mesh(Execution& run) {
   FillResult filled = fill_volumes(*model, options);
   for (const std::string& line : filled.notices) run.note(line);
   run.stage("associate");
-  AssociateResult associated =
-      associate(filled.mesh, *model, &filled.tags,
-                {.relative_tolerance = std::max(state.tolerance, AssociateOptions().relative_tolerance)});
+  AssociateResult associated = on_model(run, filled, *model, options.volumes);
   for (const std::string& line : associated.notices) run.note(line);
   MeshedModel meshed{std::move(filled.mesh), model, std::move(associated.association)};
   improve(run, meshed);
