@@ -264,6 +264,11 @@ void Finder::find_curves() {
 
 }  // namespace
 
+Vec3 FacetMiddles::middle(std::span<const Vec3> points, std::int32_t a, std::int32_t b) const {
+  const Index edge = position_in(edges, std::array{std::min(a, b), std::max(a, b)});
+  return edge < 0 ? Vec3((points[a] + points[b]) / 2) : edge_points[edge];
+}
+
 SkinFeatures find_skin_features(std::span<const Vec3> points, std::span<const QuadNodes> quads,
                                 std::span<const std::array<int, 2>> quad_volumes, double feature_angle,
                                 const FacetLabels* labels, const FacetMiddles* middles) {
