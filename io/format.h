@@ -228,6 +228,8 @@ static_assert(in_file_order({0, 1, 2, 3, 4, 5, 6, 7}) == file_corner);
 
 // ---- fields ----
 
+/// What component c of n is called where scalars stand for it.
+std::string component_name(const std::string& name, int c, int n);
 /// Fields for formats that know scalars only: a vector's components become name_x name_y name_z, any other number of
 /// components name_1 .. name_n, which is told of the latter. merge_components() puts neighbours with such names
 /// together again.

@@ -120,13 +120,9 @@ Classes classify(const std::vector<int>& key_of_item, std::span<const std::span<
   return sorted;
 }
 
-namespace {
-
 std::string component_name(const std::string& name, int c, int n) {
   return name + "_" + (n == 3 ? std::string(1, static_cast<char>('x' + c)) : std::to_string(c + 1));
 }
-
-}  // namespace
 
 std::span<const std::int64_t> ids_in_file(const std::vector<std::int64_t>& ids, const char* kind, const char* many,
                                           std::int64_t highest, const char* limit, std::vector<std::string>& notices) {

@@ -255,9 +255,8 @@ void PartCommands::add(const Statement& statement) {
   name = command.spec->name;
   const bool makes_group = name == "create" && (command.has("group") || command.has("block"));
   if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
-    throw error_at(
-        statement, statement.tokens.front(),
-        "'" + name + "' is for sessions of hextwist: here " + "the mesh is read first and written in the end");
+    throw error_at(statement, statement.tokens.front(),
+                   "'" + name + "' is for sessions of hextwist: here the mesh is read first and written in the end");
   if (name == "sizing") {
     check_function(command);
     functions_.push_back({commands_.size(), std::move(command)});

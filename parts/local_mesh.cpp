@@ -7,6 +7,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/patch/patch.h"
+#include "hextwist/sizing/size_report.h"
 
 namespace hextwist {
 
@@ -33,9 +34,8 @@ void SizeCounts::add(const SizeCounts& more) {
 std::string text_of(const SizeCounts& counts) {
   if (counts.hexes == 0) return {};
   const double met = 1 - static_cast<double>(counts.coarser + counts.finer) / static_cast<double>(counts.hexes);
-  return "actual / wished size of " + counted(counts.hexes, "hex", "hexes") + ": " + short_number(100 * met) +
-         "% within a factor of sqrt(3), " + std::to_string(counts.coarser) + " coarser, " +
-         std::to_string(counts.finer) + " finer (" + std::to_string(counts.much_finer) + " by more than 3)" +
+  return "actual / wished size of " + counted(counts.hexes, "hex", "hexes") + ": " +
+         text_of_sizes(met, counts.coarser, counts.finer, counts.much_finer) +
          (counts.unmet > 0 ? ", " + std::to_string(counts.unmet) + " still too large" : "");
 }
 

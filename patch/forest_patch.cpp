@@ -29,12 +29,6 @@ void add_faces_seen_from_outside(const Forest& forest, const Rings& rings, Assoc
     std::ranges::sort(nodes);
     return nodes;
   };
-  const auto surface_of = [&](Side side) {
-    const auto found = std::ranges::lower_bound(whole.surface_faces, side);
-    return found != whole.surface_faces.end() && *found == side
-               ? whole.face_surface[static_cast<std::size_t>(found - whole.surface_faces.begin())]
-               : 0;
-  };
   std::vector<std::pair<Side, int>> faces;
   for (std::size_t i = 0; i < rings.hexes.size(); ++i) {
     const Index h = rings.hexes[i];
@@ -47,23 +41,28 @@ void add_faces_seen_from_outside(const Forest& forest, const Rings& rings, Assoc
           continue;
         for (int g = 0; g < n_hex_faces; ++g)
           if (sorted_face({other, g}) == nodes)
-            if (const int surface = surface_of({other, g})) faces.emplace_back(Side{static_cast<Index>(i), f}, surface);
+            if (const int surface = value_of(whole.surface_faces, whole.face_surface, Side{other, g}))
+              faces.emplace_back(Side{static_cast<Index>(i), f}, surface);
       }
     }
   }
   if (faces.empty()) return;
   for (std::size_t i = 0; i < part.surface_faces.size(); ++i)
     faces.emplace_back(part.surface_faces[i], part.face_surface[i]);
-  std::ranges::sort(faces);
-  part.surface_faces.clear();
-  part.face_surface.clear();
-  for (const auto& [side, surface] : faces) {
-    part.surface_faces.push_back(side);
-    part.face_surface.push_back(surface);
-  }
+  set_surface_faces(part, std::move(faces));
 }
 
 }  // namespace
+
+void set_surface_faces(Association& association, std::vector<std::pair<Side, int>> faces) {
+  std::ranges::sort(faces);
+  association.surface_faces.clear();
+  association.face_surface.clear();
+  for (const auto& [side, surface] : faces) {
+    association.surface_faces.push_back(side);
+    association.face_surface.push_back(surface);
+  }
+}
 
 Forest bare_forest(Forest forest) {
   const Mesh& base = forest.base->mesh;

@@ -59,6 +59,9 @@ class LocalCells {
   std::span<const Index> roots_;
 };
 
+/// Sides on surfaces, in any order, with the ids of these.
+void set_surface_faces(Association& association, std::vector<std::pair<Side, int>> faces);
+
 /// Hexes of the mesh that lie in the roots; ascending.
 std::vector<Index> hexes_in(const HandedHexes& hexes, std::span<const Index> roots);
 

@@ -49,13 +49,7 @@ void keep_border_faces(const MeshedModel& before, std::span<const std::uint8_t> 
     if (is_border[side.hex] && now_of[side.hex] >= 0)
       add({now_of[side.hex], side.face}, before.association.face_surface[i]);
   }
-  std::ranges::sort(faces);
-  association.surface_faces.clear();
-  association.face_surface.clear();
-  for (const auto& [side, surface] : faces) {
-    association.surface_faces.push_back(side);
-    association.face_surface.push_back(surface);
-  }
+  set_surface_faces(association, std::move(faces));
 }
 
 PatchNumbers numbers_of(const ForestPatch& made, const MeshedModel& input, const RefineResult& result,

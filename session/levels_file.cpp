@@ -119,54 +119,53 @@ struct Scratch {
   }
 };
 
-/// The skin that a mesh without CAD began with, which later refinements lie on.
-void write_skin(PieceWriter& out, const FacetSource& skin, const Association& association) {
-  out.add("skin_points", skin.points);
-  out.add("skin_quads", skin.quads);
-  out.add("skin_volumes", skin.quad_volumes);
-  out.add("skin_angle", std::vector<double>{skin.feature_angle});
+/// Each list of the skin that a mesh without CAD began with, and the name that it has here.
+template <class Skin, class F>
+void for_each_list(Skin& skin, const F& f) {
+  f("skin_points", skin.points);
+  f("skin_quads", skin.quads);
+  f("skin_volumes", skin.quad_volumes);
   if (skin.has_labels) {
-    out.add("skin_surfaces", skin.quad_labels);
-    out.add("skin_edges", skin.labelled_edges);
-    out.add("skin_curves", skin.edge_labels);
-    out.add("skin_vertices", skin.labelled_vertices);
+    f("skin_surfaces", skin.quad_labels);
+    f("skin_edges", skin.labelled_edges);
+    f("skin_curves", skin.edge_labels);
+    f("skin_vertices", skin.labelled_vertices);
   }
   if (skin.has_middles) {
-    out.add("skin_middle_edges", skin.middle_edges);
-    out.add("skin_edge_points", skin.edge_points);
-    out.add("skin_middle_faces", skin.middle_faces);
-    out.add("skin_face_points", skin.face_points);
+    f("skin_middle_edges", skin.middle_edges);
+    f("skin_edge_points", skin.edge_points);
+    f("skin_middle_faces", skin.middle_faces);
+    f("skin_face_points", skin.face_points);
   }
-  out.add("base_edges", association.curve_edges);
-  out.add("base_edge_curves", association.edge_curve);
-  out.add("base_faces", association.surface_faces);
-  out.add("base_face_surfaces", association.face_surface);
-  out.add("base_volumes", association.hex_volume);
+}
+/// The same of what is said of the base beside its nodes.
+template <class Owners, class F>
+void for_each_owner_list(Owners& association, const F& f) {
+  f("base_edges", association.curve_edges);
+  f("base_edge_curves", association.edge_curve);
+  f("base_faces", association.surface_faces);
+  f("base_face_surfaces", association.face_surface);
+  f("base_volumes", association.hex_volume);
+}
+
+/// Later refinements lie on the skin.
+void write_skin(PieceWriter& out, const FacetSource& skin, const Association& association) {
+  const auto write = [&](const char* name, const auto& list) { out.add(name, list); };
+  out.add("skin_angle", std::vector<double>{skin.feature_angle});
+  for_each_list(skin, write);
+  for_each_owner_list(association, write);
 }
 
 /// The base on the skin of the file.
 MeshedModel on_skin(const PieceReader& in, Mesh mesh) {
+  const auto read = [&]<class T>(const char* name, std::vector<T>& list) { list = in.get<T>(name); };
   FacetSource skin;
-  skin.points = in.get<Vec3>("skin_points");
-  skin.quads = in.get<std::array<std::int32_t, 4>>("skin_quads");
-  skin.quad_volumes = in.get<std::array<int, 2>>("skin_volumes");
   const auto angle = in.get<double>("skin_angle");
   if (angle.size() != 1) in.fail("has no skin_angle");
   skin.feature_angle = angle[0];
   skin.has_labels = in.has("skin_surfaces");
-  if (skin.has_labels) {
-    skin.quad_labels = in.get<int>("skin_surfaces");
-    skin.labelled_edges = in.get<std::array<std::int32_t, 2>>("skin_edges");
-    skin.edge_labels = in.get<int>("skin_curves");
-    skin.labelled_vertices = in.get<std::int32_t>("skin_vertices");
-  }
   skin.has_middles = in.has("skin_edge_points");
-  if (skin.has_middles) {
-    skin.middle_edges = in.get<std::array<std::int32_t, 2>>("skin_middle_edges");
-    skin.edge_points = in.get<Vec3>("skin_edge_points");
-    skin.middle_faces = in.get<std::array<std::int32_t, 4>>("skin_middle_faces");
-    skin.face_points = in.get<Vec3>("skin_face_points");
-  }
+  for_each_list(skin, read);
   MeshedModel base{std::move(mesh), nullptr, {}};
   try {
     base.model = facet_model(skin).model;
@@ -176,11 +175,7 @@ MeshedModel on_skin(const PieceReader& in, Mesh mesh) {
   Association& association = base.association;
   for (const OwnerRow row : in.get<OwnerRow>("base_owners")) association.node_owner.push_back({row.dim, row.id});
   association.node_parameters = in.get<Parameters>("base_parameters");
-  association.curve_edges = in.get<Edge>("base_edges");
-  association.edge_curve = in.get<int>("base_edge_curves");
-  association.surface_faces = in.get<Side>("base_faces");
-  association.face_surface = in.get<int>("base_face_surfaces");
-  association.hex_volume = in.get<int>("base_volumes");
+  for_each_owner_list(association, read);
   for (const std::string& line : check_association(base.mesh, association, *base.model))
     in.fail("has owners that do not fit its mesh: " + line);
   return base;

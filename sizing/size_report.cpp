@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/sizing/targets.h"
 
@@ -42,6 +43,11 @@ DirectionSizes direction_sizes(const Mesh& mesh, std::span<const Index> hexes, c
       sizes.n_shorter += length < wished[i] / std::numbers::sqrt3;
     }
   return sizes;
+}
+
+std::string text_of_sizes(double met, std::int64_t coarser, std::int64_t finer, std::int64_t much_finer) {
+  return short_number(100 * met) + "% within a factor of sqrt(3), " + std::to_string(coarser) + " coarser, " +
+         std::to_string(finer) + " finer (" + std::to_string(much_finer) + " by more than 3)";
 }
 
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish) {

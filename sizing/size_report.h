@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hextwist/sizing/fields/size_field.h"
@@ -27,6 +28,9 @@ inline bool is_coarser(double ratio) {
 inline bool is_finer(double ratio) {
   return ratio < 1 / std::numbers::sqrt3;
 }
+
+/// "66% within a factor of sqrt(3), 12 coarser, ..." met: the part of all.
+std::string text_of_sizes(double met, std::int64_t coarser, std::int64_t finer, std::int64_t much_finer);
 
 /// Fills hexes, ratio and the counts.
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish);

@@ -12,6 +12,7 @@
 #include "hextwist/command/reader.h"
 #include "hextwist/command/select/nothing_left_internal.h"
 #include "hextwist/command/select/shapes.h"
+#include "hextwist/io/format.h"
 
 namespace hextwist {
 namespace {
@@ -331,8 +332,7 @@ class Evaluation {
   /// The component of a field that files call by this name: its own with _x, _y, _z, or _1, _2, ...; -1: none.
   static int component_called(const Field& field, const std::string& name) {
     for (int c = 0; field.components > 1 && c < field.components; ++c)
-      if (name == field.name + "_" + (field.components == 3 ? std::string(1, "xyz"[c]) : std::to_string(c + 1)))
-        return c;
+      if (name == io::component_name(field.name, c, field.components)) return c;
     return -1;
   }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "hextwist/io/gmsh/others.h"
 #include "hextwist/io/gmsh/plan_internal.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/mesh/topology.h"
@@ -79,18 +80,13 @@ std::vector<Index> lines_anywhere(const NodeSet& set, const Edges& all, Cover co
   return lines;
 }
 
-/// Is the element beside the hexes in this group of the file that it came from?
-bool is_in_group(const OtherElements& others, Index element, int group) {
-  const OtherHeads& heads = *others.heads;
-  if (heads.format != "gmsh" || heads.rest.empty()) return false;
-  const std::string text = " " + heads.rest[others.of[element]] + " ";
-  return text.find(" " + std::to_string(group) + " ") != std::string::npos;
-}
 /// Lines beside the hexes that a group has, too.
 void add_other_lines(const Mesh& mesh, int group, Cover& cover) {
   if (!mesh.others) return;
   for (Index e = 0; e < mesh.others->size(); ++e) {
-    if (mesh.others->type_of(e).shape != OtherShape::line || !is_in_group(*mesh.others, e, group)) continue;
+    if (mesh.others->type_of(e).shape != OtherShape::line) continue;
+    const std::vector<int> groups = gmsh_groups_of(*mesh.others, e);
+    if (std::ranges::find(groups, group) == groups.end()) continue;
     const auto nodes = mesh.others->nodes_of(e);
     if (const Edge edge{nodes[0], nodes[1]}; cover.has(edge)) cover.add(edge);
   }

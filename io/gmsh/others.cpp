@@ -156,6 +156,19 @@ void GmshOthersFound::merge_copies() {
   entities = std::move(kept_entities), groups = std::move(kept_groups);
 }
 
+std::vector<int> gmsh_groups_of(const OtherElements& others, Index element) {
+  std::vector<int> groups;
+  if (others.heads->rest.empty() || others.heads->format != "gmsh") return groups;
+  std::string_view text = others.heads->rest[others.of[element]];
+  while (!text.empty()) {
+    int id = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error == std::errc{} && id > 0) groups.push_back(id);
+    text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(stop - text.data()) + 1));
+  }
+  return groups;
+}
+
 std::vector<GmshOther> gmsh_others(const Mesh& mesh, std::vector<PlannedGroup>& group_names,
                                    std::vector<std::string>& notices) {
   std::vector<GmshOther> result;
@@ -188,15 +201,7 @@ std::vector<GmshOther> gmsh_others(const Mesh& mesh, std::vector<PlannedGroup>& 
     other.nodes.resize(n);
     for (std::size_t i = 0; i < n; ++i)
       other.nodes[known && !known->order.empty() ? static_cast<std::size_t>(known->order[i]) : i] = all[i];
-    if (!others.heads->rest.empty() && others.heads->format == "gmsh") {
-      std::string_view text = others.heads->rest[others.of[e]];
-      while (!text.empty()) {
-        int id = 0;
-        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), id);
-        if (error == std::errc{} && id > 0) other.physicals.push_back(id);
-        text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(stop - text.data()) + 1));
-      }
-    }
+    other.physicals = gmsh_groups_of(others, e);
     place[e] = static_cast<int>(result.size());
     result.push_back(std::move(other));
   }

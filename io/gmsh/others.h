@@ -30,6 +30,9 @@ struct GmshOthersFound {
   void merge_copies();
 };
 
+/// Physical groups of dimensions 0 and 1 that an element was in, in the file of Gmsh that it came from.
+std::vector<int> gmsh_groups_of(const OtherElements& others, Index element);
+
 /// One to be written.
 struct GmshOther {
   int type = 0, dim = 0, entity = 0;

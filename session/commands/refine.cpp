@@ -8,6 +8,7 @@
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
+#include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/stop_at.h"
 #include "hextwist/sizing/targets.h"
 
@@ -49,9 +50,8 @@ std::optional<Sizes> sizes_of(const Execution& run) {
 std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
   std::string text =
       "actual / wished size of " + counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
-      counted(sizes.n_passes, "pass") + ": " + short_number(100 * sizes.met()) + "% within a factor of sqrt(3), " +
-      std::to_string(sizes.n_coarser) + " coarser, " + std::to_string(sizes.n_finer) + " finer (" +
-      std::to_string(sizes.n_much_finer) + " by more than 3)\n" + histogram(sizes.ratio);
+      counted(sizes.n_passes, "pass") + ": " +
+      text_of_sizes(sizes.met(), sizes.n_coarser, sizes.n_finer, sizes.n_much_finer) + "\n" + histogram(sizes.ratio);
   if (text.ends_with('\n')) text.pop_back();
   if (sizes.directions)
     text += "\nof the " + std::to_string(3 * sizes.hexes.size()) + " directions of these hexes " +
