@@ -143,10 +143,10 @@ void run_levels(State& state, KnownLevels& known) {
   LevelRun run(state);
   run.options.graded = &known.graded;
   LevelStep step = run.change(known.wished);
-  if (state.part) state.report.sizes = level_size_report(step.mesh.mesh, step.origin, state);
   known.is_repaired = step.is_repaired;
   step.n_forced = known.n_forced;
   run.adopt(std::move(step), known.is_bare);
+  if (state.part) state.report.sizes = level_size_report(state.result(), state);
 }
 
 void run_levels(State& state) {
@@ -156,10 +156,10 @@ void run_levels(State& state) {
   if (std::holds_alternative<Sizes>(state.request.how)) sizes.emplace(run.from.forest, state);
   LevelStep step = run.change(sizes ? sizes->wishes(run.options)
                                     : wishes_of(run.from.forest, state.input, state.request, state.report.notices));
-  if (sizes) state.report.sizes = sizes->report(step);
   run.adopt(std::move(step));
-  if (!state.part) return;
   const RefineResult& result = state.result();
+  if (sizes) state.report.sizes = sizes->report(result);
+  if (!state.part) return;
   for (std::size_t h = 0; h < result.origin.size(); ++h)
     if (result.came_from.kind[h] != HexOrigin::same) state.part->note_cut(result.origin[h]);
 }

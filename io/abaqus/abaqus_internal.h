@@ -48,7 +48,8 @@ struct AbaqusSet {
   std::vector<std::array<std::int64_t, 3>> ranges = {};                    ///< first, last, step of GENERATE
   std::vector<AbaqusMember> members = {};                                  ///< names of sets, or Instance.17
   std::vector<std::pair<AbaqusMember, std::string>> surface_members = {};  ///< set or element, face label
-  std::string elset = {};  ///< of node sets: the nodes of these elements as well
+  std::string elset = {};    ///< of node sets: the nodes of these elements as well
+  std::string combine = {};  ///< of surfaces: UNION, INTERSECTION or DIFFERENCE of the members, which are surfaces
 };
 
 /// Words of a card that name parts of the mesh.

@@ -432,8 +432,15 @@ class Parser {
                   .name = required(keyword, "NAME"),
                   .at = keyword.at};
     if (const std::string* instance = keyword.find("INSTANCE")) set.instance = *instance;
+    if (const std::string* combine = keyword.find("COMBINE")) set.combine = upper_case(*combine);
     bool ignored = false;
     while (data_line(cursor, ignored)) {
+      if (!set.combine.empty()) {
+        each_word(cursor, [&](std::string_view word, const char* at) {
+          if (!word.empty()) set.members.push_back({unquoted(word), at});
+        });
+        continue;
+      }
       AbaqusMember member;
       std::string face;
       int i = 0;

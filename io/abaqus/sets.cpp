@@ -4,6 +4,7 @@
 // surfaces of elements side sets; ids count them in the order of the file. Sets of a part or an instance are named
 // instance.set, as Abaqus names them from outside.
 #include <limits>
+#include <map>
 #include <set>
 
 #include "hextwist/base/sorted.h"
@@ -14,11 +15,15 @@ namespace {
 
 using Reference = AbaqusCard::Reference;
 
+/// A set at its place.
+using Placed = std::pair<const AbaqusPlaced*, const AbaqusSet*>;
+
 /// Members of a set: indices of the mesh, others by their place among the other elements.
 struct Members {
   std::vector<Index> nodes, hexes, others;
   std::vector<Side> sides;
   std::vector<std::pair<Index, std::string>> other_sides;
+  std::set<Placed> from = {};  ///< sets that are in already: naming one again and again costs nothing
 };
 
 class Sets {
@@ -127,9 +132,26 @@ class Sets {
 
   static bool of_nodes(AbaqusSet::Kind kind) { return kind == AbaqusSet::nodes || kind == AbaqusSet::node_surface; }
 
-  /// Members of a set with the sets that it names, to any depth.
-  void resolve(const AbaqusPlaced& placed, const AbaqusSet& set, Members& to, int depth = 0) {
-    if (depth > 50) in_.fail(set.at, "set " + shown(set.name) + " contains itself");
+  bool is_open(const Placed& set) const { return std::ranges::find(open_, set) != open_.end(); }
+  /// A set whose members are looked for, as long as this lives.
+  struct Open {
+    std::vector<Placed>& all;
+    Open(Sets& sets, const Placed& set) : all(sets.open_) {
+      constexpr std::size_t most = 50;
+      if (sets.is_open(set)) sets.in_.fail(set.second->at, "set " + shown(set.second->name) + " contains itself");
+      if (all.size() == most)
+        sets.in_.fail(set.second->at,
+                      "set " + shown(set.second->name) + " is in sets in sets, " + std::to_string(most) + " of them");
+      all.push_back(set);
+    }
+    ~Open() { all.pop_back(); }
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+  };
+
+  /// Members of a set with the sets that it names.
+  void resolve(const AbaqusPlaced& placed, const AbaqusSet& set, Members& to) {
+    const Open here(*this, {&placed, &set});
     const AbaqusPlaced* home = &placed;
     if (!set.instance.empty()) {
       home = find_instance(set.instance);
@@ -137,10 +159,10 @@ class Sets {
     }
     for (const std::int64_t id : set.ids) add(*home, of_nodes(set.kind), id, to);
     for (const auto& range : set.ranges) add_range(*home, of_nodes(set.kind), range, to);
-    for (const AbaqusMember& member : set.members) resolve_member(*home, of_nodes(set.kind), member, to, depth);
+    for (const AbaqusMember& member : set.members) resolve_member(*home, of_nodes(set.kind), member, to);
     if (!set.elset.empty()) {
       Members elements;
-      resolve_member(*home, false, {set.elset, set.at}, elements, depth);
+      resolve_member(*home, false, {set.elset, set.at}, elements);
       for (const Index h : elements.hexes)
         to.nodes.insert(to.nodes.end(), out_.mesh.hexes[h].begin(), out_.mesh.hexes[h].end());
       for (const Index e : elements.others) {
@@ -162,7 +184,7 @@ class Sets {
     if (error != std::errc{} || stop != text.data() + text.size()) return {};
     return id;
   }
-  void resolve_member(const AbaqusPlaced& placed, bool nodes, const AbaqusMember& member, Members& to, int depth) {
+  void resolve_member(const AbaqusPlaced& placed, bool nodes, const AbaqusMember& member, Members& to) {
     const auto place = split(placed, member.text);
     const AbaqusPlaced& home = *place.first;
     const std::string& name = place.second;
@@ -172,7 +194,7 @@ class Sets {
       for (const AbaqusSet& other : scope.sets)
         if (other.kind == (nodes ? AbaqusSet::nodes : AbaqusSet::elements) && same_word(other.name, name)) {
           found = true;
-          resolve(home, other, to, depth + 1);
+          if (is_open({&home, &other}) || to.from.insert({&home, &other}).second) resolve(home, other, to);
         }
     });
     if (!found) in_.fail(member.at, "there is no set " + shown(member.text));
@@ -185,10 +207,7 @@ class Sets {
   void add_set(const AbaqusPlaced& placed, const AbaqusSet& set) {
     current_ = &set;
     Members members;
-    if (set.kind == AbaqusSet::surface)
-      for (const auto& [member, face] : set.surface_members) add_surface(placed, set, member, face, members);
-    else
-      resolve(placed, set, members);
+    resolve_any(placed, set, members);
     current_ = nullptr;
     const std::string name = full_name(placed, set.name), key = upper_case(name);
     // The sets of everything that we write ourselves.
@@ -203,12 +222,72 @@ class Sets {
     to.members.other_sides.insert(to.members.other_sides.end(), members.other_sides.begin(), members.other_sides.end());
   }
 
+  /// Of any kind, surfaces made of others as well.
+  void resolve_any(const AbaqusPlaced& placed, const AbaqusSet& set, Members& to) {
+    if (!set.combine.empty()) return combine(placed, set, to);
+    if (set.kind != AbaqusSet::surface) return resolve(placed, set, to);
+    std::set<std::pair<std::string, std::string>> done;  // a set with a face that is named again adds nothing
+    for (const auto& [member, face] : set.surface_members)
+      if (number(member.text) || done.emplace(upper_case(member.text), face).second)
+        add_surface(placed, set, member, face, to);
+  }
+
+  /// A surface made of others (Abaqus Keywords Reference, *SURFACE, COMBINE).
+  void combine(const AbaqusPlaced& placed, const AbaqusSet& set, Members& to) {
+    const Open here(*this, {&placed, &set});
+    const bool is_union = set.combine == "UNION", is_difference = set.combine == "DIFFERENCE";
+    if (!is_union && !is_difference && set.combine != "INTERSECTION")
+      in_.fail(set.at, "COMBINE=" + set.combine + "; known are UNION, INTERSECTION and DIFFERENCE");
+    if (set.members.empty() || (!is_union && set.members.size() != 2))
+      in_.fail(set.at, "COMBINE=" + set.combine + " of " + counted(set.members.size(), "surface"));
+    for (const AbaqusMember& member : set.members) {
+      const Members& next = surface_of(placed, set, member);
+      const auto put = [&](auto list) {
+        auto& own = to.*list;
+        const auto& other = next.*list;
+        std::remove_reference_t<decltype(own)> both;
+        if (&member == &set.members.front())
+          both = other;
+        else if (is_union)
+          std::ranges::set_union(own, other, std::back_inserter(both));
+        else if (is_difference)
+          std::ranges::set_difference(own, other, std::back_inserter(both));
+        else
+          std::ranges::set_intersection(own, other, std::back_inserter(both));
+        own = std::move(both);
+      };
+      put(&Members::nodes);
+      put(&Members::sides);
+      put(&Members::other_sides);
+    }
+  }
+  /// What a surface of that name and of the set's kind has, sorted.
+  const Members& surface_of(const AbaqusPlaced& placed, const AbaqusSet& set, const AbaqusMember& member) {
+    const auto place = split(placed, member.text);
+    const AbaqusPlaced& home = *place.first;
+    const AbaqusSet* found = nullptr;
+    each_scope(home, [&](const AbaqusScope& scope) {
+      for (const AbaqusSet& other : scope.sets)
+        if (!found && other.kind == set.kind && same_word(other.name, place.second)) found = &other;
+    });
+    if (!found)
+      in_.fail(member.at, "there is no surface " + shown(member.text) +
+                              (set.kind == AbaqusSet::surface ? " of elements" : " of nodes"));
+    if (const auto known = surfaces_.find({&home, found}); known != surfaces_.end()) return known->second;
+    Members result;
+    resolve_any(home, *found, result);
+    sort_unique(result.nodes);
+    sort_unique(result.sides);
+    sort_unique(result.other_sides);
+    return surfaces_.emplace(Placed(&home, found), std::move(result)).first->second;
+  }
+
   void add_surface(const AbaqusPlaced& placed, const AbaqusSet& set, const AbaqusMember& member,
                    const std::string& face, Members& to) {
     const AbaqusPlaced* home = set.instance.empty() ? &placed : find_instance(set.instance);
     if (!home) in_.fail(set.at, "there is no instance " + shown(set.instance));
     Members elements;
-    resolve_member(*home, false, member, elements, 0);
+    resolve_member(*home, false, member, elements);
     for (const Index e : elements.others) to.other_sides.emplace_back(e, face);
     if (elements.hexes.empty()) return;
     if (face.empty()) {
@@ -430,6 +509,8 @@ class Sets {
   std::map<std::pair<AbaqusSet::Kind, std::string>, Collected> sets_;
   std::optional<std::vector<Side>> skin_;
   const AbaqusSet* current_ = nullptr;
+  std::vector<Placed> open_;            // sets in which the one at hand is
+  std::map<Placed, Members> surfaces_;  // that others are made of
   std::uint64_t n_missing_ = 0;
   std::string first_missing_;
   std::int64_t n_numbers_ = 0;

@@ -149,6 +149,11 @@ class ExodusReader {
         if (!point.allFinite()) fail("a coordinate of node " + std::to_string(map[first + i]) + " is not finite");
       }
     });
+    // The library takes the file's first variable for none, so x = 0 where that is what is first.
+    if (init_.num_elem > 0 && n > 0 && std::ranges::all_of(out_.mesh.points, [](const Vec3& p) { return p.x() == 0; }))
+      fail(
+          "x is 0 at all nodes, or the file's first variable, which the Exodus library can't read: copy it with "
+          "'ncks' or 'io_shell'");
     nodes_ = Ids(std::move(map), "node", [&](std::size_t, const std::string& what) { fail(what); });
     nodes_.sort(out_.mesh.points);
     out_.mesh.node_ids = nodes_.stored();

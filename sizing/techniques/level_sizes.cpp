@@ -30,8 +30,10 @@ std::vector<std::int8_t> regular_levels(const Mesh& mesh, const LevelPieces& pie
 }
 
 /// in_zone, in_report: per hex that the mesh came from.
-SizeReport report_on(const Mesh& mesh, const LevelOrigin& origin, const SizeWish& wish,
-                     std::span<const std::uint8_t> in_zone, std::span<const std::uint8_t> in_report) {
+SizeReport report_on(const RefineResult& made, const SizeWish& wish, std::span<const std::uint8_t> in_zone,
+                     std::span<const std::uint8_t> in_report) {
+  const Mesh& mesh = made.refined.mesh;
+  const LevelOrigin& origin = made.came_from;
   std::vector<std::uint8_t> zone(mesh.hexes.size()), reported(mesh.hexes.size());
   parallel_each(zone.size(), [&](std::size_t i) {
     const auto h = static_cast<Index>(i);
@@ -125,18 +127,18 @@ LevelMarks LevelSizes::wishes(LevelOptions& options) {
   return forest.wished;
 }
 
-SizeReport LevelSizes::report(const LevelStep& step) const {
-  SizeReport result = report_on(step.mesh.mesh, step.origin, *wish_, in_zone_, in_report_);
+SizeReport LevelSizes::report(const RefineResult& made) const {
+  SizeReport result = report_on(made, *wish_, in_zone_, in_report_);
   result.n_passes = n_levels_;
   return result;
 }
 
-SizeReport level_size_report(const Mesh& mesh, const LevelOrigin& origin, const State& state) {
+SizeReport level_size_report(const RefineResult& made, const State& state) {
   const std::shared_ptr<const SizeWish> wish = size_wish(state);
   const std::vector<std::uint8_t> in_zone = wish->zone(state.input.mesh, state.part->region);
   std::vector<std::uint8_t> in_report(in_zone.size(), 0);
   for (const Index h : state.part->region) in_report[h] = 1;
-  return report_on(mesh, origin, *wish, in_zone, in_report);
+  return report_on(made, *wish, in_zone, in_report);
 }
 
 }  // namespace hextwist

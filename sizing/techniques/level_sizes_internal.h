@@ -7,9 +7,9 @@
 
 namespace hextwist {
 
-/// How well sizes are met by a mesh by levels, before nodes are moved for its shapes. origin: in the input of the
-/// state.
-SizeReport level_size_report(const Mesh& mesh, const LevelOrigin& origin, const State& state);
+/// How well sizes are met by a mesh by levels, whose nodes are where earlier smoothing had moved them, before any are
+/// moved again. made: of the input of the state.
+SizeReport level_size_report(const RefineResult& made, const State& state);
 
 class LevelSizes {
  public:
@@ -21,8 +21,8 @@ class LevelSizes {
   /// transition is cut. What would stay too coarse that way is cut as a whole at its own level, and looked at again.
   /// options.reuse: what was built on the way.
   LevelMarks wishes(LevelOptions& options);
-  /// How well they were met by the mesh of the step that was made of these wishes.
-  SizeReport report(const LevelStep& step) const;
+  /// The same, of what was made of these wishes.
+  SizeReport report(const RefineResult& made) const;
 
  private:
   LevelMarks more(const Mesh& mesh, const LevelPieces& pieces, std::span<const std::uint8_t> in_zone) const;

@@ -177,6 +177,51 @@ TEST(abaqus_files, other_peoples_files_are_understood) {
   EXPECT_EQ(read.notices, std::vector<std::string>{});
 }
 
+TEST(abaqus_files, surfaces_may_be_made_of_others) {
+  const auto folder = test::output_folder();
+  const std::string text = std::string(cube_nodes) +
+                           "*ELEMENT, TYPE=C3D8, ELSET=A\n4, 1,2,3,4,5,6,7,8\n"
+                           "*SURFACE, NAME=BOTH, COMBINE=UNION\ntwo, THREE\n"
+                           "*SURFACE, NAME=TWO\nA, S1\nA, S2\nA, S1\n*SURFACE, NAME=THREE\nA, S2\n4, S3\n"
+                           "*SURFACE, NAME=SHARED, COMBINE=INTERSECTION\nTWO, THREE\n"
+                           "*SURFACE, NAME=REST, TYPE=ELEMENT, COMBINE=DIFFERENCE\nBOTH,\nSHARED\n";
+  const auto read = read_mesh(test::write_text(folder / "a.inp", text));
+  const auto sides = [&](const std::string& name) {
+    const auto set = std::ranges::find(read.mesh.side_sets, name, &SideSet::name);
+    return set == read.mesh.side_sets.end() ? std::vector<Side>{{-1, 0}} : set->sides;
+  };
+  const Side first = sides("TWO").at(0), second = sides("SHARED").at(0), third = sides("THREE").at(0);
+  EXPECT_EQ(sides("TWO"), (std::vector<Side>{first, second}));
+  EXPECT_EQ(sides("SHARED"), (std::vector<Side>{second}));
+  auto both = sides("BOTH"), rest = sides("REST");
+  EXPECT_EQ(both.size(), 3U);
+  std::erase(both, second);
+  EXPECT_EQ(rest, both);
+  EXPECT_TRUE(std::ranges::find(rest, third) != rest.end());
+  const auto says = [&](const std::string& more, const std::string& expected) {
+    EXPECT_NE(test::refusal(test::write_text(folder / "bad.inp", text + more)).find(expected), std::string::npos)
+        << more;
+  };
+  says("*SURFACE, NAME=X, COMBINE=UNION\nNO,\n", "there is no surface 'NO' of elements");
+  says("*SURFACE, NAME=X, COMBINE=SUM\nTWO,\n", "COMBINE=SUM; known are UNION, INTERSECTION and DIFFERENCE");
+  says("*SURFACE, NAME=X, COMBINE=DIFFERENCE\nTWO,\n", "COMBINE=DIFFERENCE of 1 surface");
+  says("*SURFACE, NAME=X, COMBINE=UNION\nY,\n*SURFACE, NAME=Y, COMBINE=UNION\nX\n", "set 'X' contains itself");
+}
+
+TEST(abaqus_files, sets_named_again_and_again_take_the_time_of_one) {
+  const auto folder = test::output_folder();
+  std::string text =
+      std::string(cube_nodes) + "*ELEMENT, TYPE=C3D8, ELSET=E0\n4, 1,2,3,4,5,6,7,8\n*SURFACE, NAME=S0\nE0\n";
+  for (int i = 1; i < 45; ++i) {
+    const std::string before = std::to_string(i - 1), name = std::to_string(i);
+    text += "*ELSET, ELSET=E" + name + "\nE" + before + ", E" + before + "\n";
+    text += "*SURFACE, NAME=S" + name + ", COMBINE=UNION\nS" + before + ", S" + before + "\n";
+  }
+  const auto read = read_mesh(test::write_text(folder / "a.inp", text));
+  EXPECT_EQ(read.mesh.blocks.size(), 45U);
+  EXPECT_EQ(read.mesh.side_sets.back().sides.size(), 6U);
+}
+
 TEST(abaqus_files, instances_are_placed_side_by_side) {
   const auto file = test::write_text(
       test::output_folder() / "a.inp",
