@@ -1,4 +1,5 @@
-// One file of a mesh that is split into several: Exodus II with what Nemesis adds to it (name.e.N.i).
+// One file of a mesh that is split into several: Exodus II with what Nemesis adds to it (name.e.N.i), or .msh as Gmsh
+// splits meshes (name_1.msh, name_2.msh, ...), which says less: nodes of the same id are one node.
 //
 // Each part has its own hexes and all nodes of these; node and hex ids are those of the whole. Nodes and faces that
 // parts share are listed in communication maps, one per neighbour, in the same order on both sides.
@@ -43,20 +44,22 @@ struct FilePart {
   std::vector<SharedSides> sides;
 };
 
-/// name.e.8.0: as many digits as the number of parts has.
+/// name.e.8.0: as many digits as the number of parts has. name_1.msh of name.msh and the number 0.
 std::filesystem::path part_name(const std::filesystem::path& name, int n_parts, int number);
 
-/// Writes a part to the temporary file of `to`, which the caller commits. The mesh has all groups of the whole, in the
-/// same order, with what the part has of them. Throws Error naming the file.
+/// Writes a part as Exodus to the temporary file of `to`, which the caller commits. The mesh has all groups of the
+/// whole, in the same order, with what the part has of them. Throws Error naming the file.
 void write_part(const Replacement& to, const Mesh& mesh, const FilePart& part, std::vector<std::string>& notices);
 
 /// What a file says about the whole that it is a part of. n_parts 0: it is none.
 struct PartHead {
   int n_parts = 0;
-  std::int64_t n_nodes = 0, n_hexes = 0;
+  std::int64_t n_nodes = 0, n_hexes = 0;  ///< 0: that is not said
   auto operator<=>(const PartHead&) const = default;
 };
 /// Throws Error naming the file.
 PartHead read_part_head(const std::filesystem::path& file);
+/// The partition that all hexes of a .msh file are in, from 0; -1 where Gmsh has not split it.
+int gmsh_part_number(const std::filesystem::path& file);
 
 }  // namespace hextwist

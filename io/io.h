@@ -73,6 +73,8 @@ struct MeshFile {
 /// the form of HDF5 are read, by a library that damaged files can crash. Default: in this process.
 MeshFile read_mesh(const std::filesystem::path& file, std::string_view format = {}, const Fence& fence = {});
 
+struct FilePart;
+
 /// How a file is written; what its format does not have is ignored.
 struct WriteOptions {
   bool binary = true;                  ///< where the format has both
@@ -89,6 +91,7 @@ struct WriteOptions {
   int nodes_per_hex = 0;  ///< of order 2: 20 or 27; 0: as `extras` say, else what the format has, 20 where it has both
   const Model* skin = nullptr;          ///< what the mesh lies on where `model` is null: for middle nodes
   const SecondOrder* second = nullptr;  ///< made by write_mesh() itself
+  const FilePart* part = nullptr;       ///< .msh 4.1: one of the files that a mesh is split into (file_part.h)
 };
 
 /// Writes by extension, to a temporary name in the same folder that is renamed when complete: the file is there whole

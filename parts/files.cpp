@@ -8,6 +8,7 @@
 #include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/own_part.h"
 #include "hextwist/parts/split.h"
 
 namespace hextwist {
@@ -36,6 +37,16 @@ void refuse_others(const Mesh& mesh, const std::filesystem::path& path) {
 }  // namespace
 
 SplitName split_name(const std::filesystem::path& part) {
+  if (lower_case(part.extension().string()) == ".msh") {
+    const std::string stem = part.stem().string();
+    const std::size_t at = stem.rfind('_');
+    if (at == std::string::npos || !std::filesystem::is_regular_file(part)) return {};
+    const int number = gmsh_part_number(part);
+    if (number < 0 || stem.substr(at + 1) != std::to_string(number + 1)) return {};
+    std::filesystem::path name = part;
+    name.replace_filename(stem.substr(0, at) + part.extension().string());
+    return {name, read_part_head(part).n_parts};
+  }
   std::string text = part.string();
   std::size_t dot = 0;
   const int number = number_behind_dot(text, dot);
@@ -58,12 +69,18 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
   if (head.n_parts != n_parts)
     throw Error(file.string() + ": is one of " + std::to_string(head.n_parts) + " parts, not of " +
                 std::to_string(n_parts));
+  if (head.n_hexes == 0)
+    if (const int number = gmsh_part_number(file); number != p)
+      throw Error(
+          file.string() +
+          (number < 0 ? std::string(": is no single partition") : ": is partition " + std::to_string(number + 1)) +
+          " of " + std::to_string(n_parts) + ", by its name it would be " + std::to_string(p + 1));
   if (first.n_parts == 0) first = head;
   if (head != first)
     throw Error(file.string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
                 std::to_string(head.n_nodes) + " nodes, " + part_name(split.name, n_parts, 0).string() + " of one of " +
                 std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
-  MeshFile read = read_mesh(file, "exodus", fence);
+  MeshFile read = read_mesh(file, head.n_hexes > 0 ? "exodus" : "gmsh", fence);
   refuse_second_order(read, file);
   refuse_others(read.mesh, file);
   for (std::string& line : read.notices)
@@ -73,12 +90,17 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
       notices.push_back(file.string() + ": parts are joined without " + lost);
   read.mesh.results = nullptr;
   read.mesh.file_hexes.clear();
-  return std::move(read.mesh);
+  // Gmsh's files have the nodes of ghosts, and may have some of no hex at all.
+  const MeshedModel part{std::move(read.mesh), nullptr, {}};
+  const Splitting all(part, std::vector<int>(part.mesh.hexes.size(), 0), 1);
+  return all.n_loose_nodes() > 0 ? all.part(0).mesh : part.mesh;
 }
 
 MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
   const SplitName split = split_name(any_part);
-  if (split.n_parts == 0) throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...");
+  if (split.n_parts == 0)
+    throw Error(any_part.string() +
+                ": parts are called name.e.8.0, name.e.8.1, ..., or name_1.msh, ... as Gmsh splits meshes");
   std::vector<MeshedModel> pieces;
   MeshFile result;
   PartHead head;
@@ -87,7 +109,7 @@ MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
   result.mesh = join(pieces, [&](std::size_t p) {
                   return part_name(split.name, split.n_parts, static_cast<int>(p)).string();
                 }).mesh;
-  if (result.mesh.n_hexes() != head.n_hexes || result.mesh.n_nodes() != head.n_nodes)
+  if (head.n_hexes > 0 && (result.mesh.n_hexes() != head.n_hexes || result.mesh.n_nodes() != head.n_nodes))
     throw Error(split.name.string() + ": its parts have " + std::to_string(result.mesh.n_hexes()) + " hexes and " +
                 std::to_string(result.mesh.n_nodes()) + " nodes together, and say " + std::to_string(head.n_hexes) +
                 " and " + std::to_string(head.n_nodes));
@@ -111,33 +133,23 @@ void need_ids(Mesh& mesh) {
     for (Index h = 0; h < mesh.n_hexes(); ++h) mesh.hex_ids.push_back(h + 1);
 }
 
-PartFiles::PartFiles(const std::filesystem::path& name, int n_parts) {
-  for (int p = 0; p < n_parts; ++p) files_.push_back(std::make_unique<Replacement>(part_name(name, n_parts, p), true));
-}
-
-void PartFiles::commit() {
-  for (const auto& file : files_) file->commit();
-}
-
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence) {
   MeshFile file = split_name(mesh).n_parts ? read_parts(mesh, fence) : read_mesh(mesh, {}, fence);
   refuse_second_order(file, mesh);
   std::vector<std::string> notices = std::move(file.notices);
-  if (!file.tags.empty()) notices.push_back("Exodus files have no place for owners: left out");
+  if (!file.tags.empty()) notices.push_back("parts are made without the owners that the file names: left out");
   const MeshedModel whole{std::move(file.mesh), nullptr, {}};
   const std::vector<int> part_of_hex = partition(whole.mesh, n_parts, by);
   const Splitting splitting(whole, part_of_hex, n_parts);
   if (splitting.n_loose_nodes())
     notices.push_back("left out " + counted(splitting.n_loose_nodes(), "node") + " of no hex");
-  PartFiles files(name, n_parts);
+  PartOutput files(name, n_parts);
   std::int64_t largest = 0, n_shared = 0;
   for (int p = 0; p < n_parts; ++p) {
-    const MeshPart part = splitting.part(p);
-    std::vector<std::string> told;
-    write_part(files[p], part.mesh, part.file, told);
-    for (std::string& line : told)
-      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
+    MeshPart split = splitting.part(p);
+    const OwnPart part{std::move(split.mesh), {}, std::move(split.file), {}};
+    files.write(part, notices);
     largest = std::max<std::int64_t>(largest, part.mesh.n_hexes());
     for (const auto& shared : part.file.sides) n_shared += std::ssize(shared.sides);
   }

@@ -14,7 +14,8 @@
 
 namespace hextwist {
 
-/// The name of a split mesh from that of any of its parts: "mesh.e" of "mesh.e.8.3". n_parts 0: it is no such name.
+/// The name of a split mesh from that of any of its parts: "mesh.e" of "mesh.e.8.3", "mesh.msh" of "mesh_2.msh" where
+/// Gmsh has put one part into that. n_parts 0: it is no such file.
 struct SplitName {
   std::filesystem::path name;
   int n_parts = 0;
@@ -35,19 +36,8 @@ void check_part(const Mesh& part, const std::string& name);
 /// Fills in ids that were left out.
 void need_ids(Mesh& mesh);
 
-/// Files that are written together: all are renamed when all are complete.
-class PartFiles {
- public:
-  PartFiles(const std::filesystem::path& name, int n_parts);
-  const Replacement& operator[](int part) const { return *files_[part]; }
-  void commit();
-
- private:
-  std::vector<std::unique_ptr<Replacement>> files_;
-};
-
-/// Reads a mesh and writes it in parts name.n.0, name.n.1, ... Returns what is to be said, one line each; throws Error,
-/// then no part was written.
+/// Reads a mesh and writes it in parts, as PartOutput names them. Returns what is to be said, one line each; throws
+/// Error, then no part was written.
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence = {});
 /// Reads parts and writes one file.

@@ -117,7 +117,7 @@ class OnDisk {
     for (const std::string& line : notices) say_(line);
     n_nodes_ = n_nodes - shared_.finish();
     n_hexes_ = n_hexes;
-    if (n_nodes_ != head.n_nodes || n_hexes_ != head.n_hexes)
+    if (head.n_hexes > 0 && (n_nodes_ != head.n_nodes || n_hexes_ != head.n_hexes))
       throw Error(split_.name.string() + ": its parts have " + std::to_string(n_hexes_) + " hexes and " +
                   std::to_string(n_nodes_) + " nodes together, and say " + std::to_string(head.n_hexes) + " and " +
                   std::to_string(head.n_nodes));

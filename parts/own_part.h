@@ -26,8 +26,8 @@ std::vector<std::int64_t> block_shares(const OwnPart& part, std::span<const std:
 void fill_in_whole(OwnPart& part, std::span<const std::int64_t> counts, std::span<const std::int64_t> shares,
                    std::int64_t highest_id);
 
-/// Files that parts are written to, which are there when all are complete: NAME.n.i (Exodus), or, where NAME ends in
-/// .pvtu, NAME_i.vtu and the file NAME that lists them.
+/// Files that parts are written to, which are there when all are complete: NAME.n.i (Exodus); where NAME ends in .msh,
+/// NAME_i.msh, i from 1, as Gmsh splits meshes; where it ends in .pvtu, NAME_i.vtu and the file NAME that lists them.
 class PartOutput {
  public:
   PartOutput(std::filesystem::path name, int n_parts);
@@ -41,6 +41,7 @@ class PartOutput {
 
  private:
   std::filesystem::path piece(int part) const;
+  void write_list(const std::filesystem::path& first_piece);
   std::filesystem::path name_;
   int n_parts_;
   bool is_vtk_;

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
 #include "hextwist/parts/own_part.h"
 
@@ -48,6 +49,7 @@ PartOutput::~PartOutput() {
 }
 
 std::filesystem::path PartOutput::piece(int part) const {
+  if (!is_vtk_) return part_name(name_, n_parts_, part);
   const std::string of = std::to_string(n_parts_), i = std::to_string(part);
   std::filesystem::path file = name_;
   file.replace_filename(name_.stem().string() + "_" + std::string(of.size() - std::min(of.size(), i.size()), '0') + i +
@@ -57,27 +59,31 @@ std::filesystem::path PartOutput::piece(int part) const {
 
 void PartOutput::write(const OwnPart& part, std::vector<std::string>& notices) {
   std::vector<std::string> told;
-  if (!is_vtk_) {
-    files_.push_back(std::make_unique<Replacement>(part_name(name_, n_parts_, part.file.number), true));
-    write_part(*files_.back(), part.mesh, part.file, told);
-  } else {
-    const std::filesystem::path to = piece(part.file.number);
+  const std::filesystem::path to = piece(part.file.number), extension = to.extension();
+  if (extension == ".vtu" || lower_case(extension.string()) == ".msh") {
     std::filesystem::path from = to;
-    from.replace_filename("." + to.stem().string() + ".part.vtu");
+    from.replace_filename("." + to.stem().string() + ".part" + extension.string());
     renamed_.push_back({from, to});
-    told = write_mesh(from, part.mesh, &part.association, {});
-    if (part.file.number == 0) {
-      std::vector<std::string> names;
-      for (int p = 0; p < n_parts_; ++p) names.push_back(piece(p).filename().string());
-      files_.push_back(std::make_unique<Replacement>(name_, true));
-      std::ofstream list(files_.back()->temporary(), std::ios::binary);
-      list << list_of_pieces(from, names);
-      list.close();
-      if (!list) files_.back()->fail("cannot be written (disk full?)");
-    }
+    WriteOptions options;
+    options.part = &part.file;
+    told = write_mesh(from, part.mesh, &part.association, options);
+    if (is_vtk_ && part.file.number == 0) write_list(from);
+  } else {
+    files_.push_back(std::make_unique<Replacement>(to, true));
+    write_part(*files_.back(), part.mesh, part.file, told);
   }
   for (std::string& line : told)
     if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
+}
+
+void PartOutput::write_list(const std::filesystem::path& first_piece) {
+  std::vector<std::string> names;
+  for (int p = 0; p < n_parts_; ++p) names.push_back(piece(p).filename().string());
+  files_.push_back(std::make_unique<Replacement>(name_, true));
+  std::ofstream list(files_.back()->temporary(), std::ios::binary);
+  list << list_of_pieces(first_piece, names);
+  list.close();
+  if (!list) files_.back()->fail("cannot be written (disk full?)");
 }
 
 void PartOutput::commit() {

@@ -3,6 +3,7 @@
 
 #include <exodusII.h>
 
+#include "hextwist/io/file_part.h"
 #include "hextwist/io/middles.h"
 #include "hextwist/io/results.h"
 
@@ -62,6 +63,9 @@ bool is_classic_netcdf(const Bytes& file);
 /// Throws Error unless all that the header announces lies within the file: then the library takes no more memory than a
 /// small multiple of its size.
 void check_classic_netcdf(const Bytes& file);
+
+/// What Nemesis says. Throws Error naming the file.
+PartHead read_exodus_head(const std::filesystem::path& file);
 
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";

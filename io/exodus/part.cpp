@@ -5,8 +5,7 @@
 #include "hextwist/io/exodus/write_internal.h"
 #include "hextwist/io/file_part.h"
 
-namespace hextwist {
-namespace io {
+namespace hextwist::io {
 namespace {
 
 using Int64s = std::vector<std::int64_t>;
@@ -75,16 +74,9 @@ void write_exodus_part(const ExodusTarget& to, const FilePart& part, const Exodu
   ex_set_int64_status(to.file, status & EX_ALL_INT64_API);
 }
 
-}  // namespace io
-
-std::filesystem::path part_name(const std::filesystem::path& name, int n_parts, int number) {
-  const std::string of = std::to_string(n_parts), i = std::to_string(number);
-  return name.string() + "." + of + "." + std::string(of.size() - std::min(of.size(), i.size()), '0') + i;
-}
-
-PartHead read_part_head(const std::filesystem::path& file) {
-  const io::Bytes bytes = io::read_bytes(file);
-  if (io::is_classic_netcdf(bytes)) io::check_classic_netcdf(bytes);
+PartHead read_exodus_head(const std::filesystem::path& file) {
+  const Bytes bytes = read_bytes(file);
+  if (is_classic_netcdf(bytes)) check_classic_netcdf(bytes);
   ex_opts(0);
   int memory = 8, disk = 0;
   float version = 0;
@@ -106,4 +98,4 @@ PartHead read_part_head(const std::filesystem::path& file) {
   return head;
 }
 
-}  // namespace hextwist
+}  // namespace hextwist::io

@@ -56,6 +56,9 @@ class GmshAssembly {
     fields();
     for (const auto& [name, n] : in_.n_dropped)
       notice("dropped " + std::to_string(n) + " elements of type " + name + ", which have no place here");
+    if (in_.n_ghosts > 0) notice("left out " + counted(in_.n_ghosts, "element") + " of other partitions (ghosts)");
+    if (in_.has_groups_between)
+      notice("what lies between partitions is in no group here; in the file it is in those of what was divided");
     tidy(file_.tags);
     file_.extras.periodic = std::move(in_.periodic);
     if (in_.middles.any()) take_middles(file_, in_.middles);

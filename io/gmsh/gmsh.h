@@ -54,7 +54,12 @@ struct GmshContents {
   FoundMiddles middles;                                ///< of these
   std::map<Owner, std::vector<int>> entity_physicals;  ///< 4.1 only
   std::map<Owner, std::string> physical_names;
-  std::map<Owner, Owner> parents;  ///< of entities that are parts of others, or only carry a group ("nobody")
+  std::map<Owner, Owner> parents;   ///< of entities that are parts of others, or only carry a group ("nobody")
+  int n_partitions = 0;             ///< into which Gmsh has divided the mesh, 0: it has not
+  std::vector<int> partitions;      ///< those that volumes of the file are in, ascending
+  std::vector<int> ghosts;          ///< volumes that hold hexes of other partitions
+  std::int64_t n_ghosts = 0;        ///< elements of these, which were left out
+  bool has_groups_between = false;  ///< partitions: entities there have the groups of what they divide
   std::vector<std::pair<Owner, std::vector<std::int64_t>>> more_members;  ///< element tags of physical groups
   std::vector<GmshData> data;
   std::vector<PeriodicPairs> periodic;
@@ -69,9 +74,13 @@ struct GmshContents {
   }
   /// The CAD entity that an entity of the file stands for.
   Owner owner(Owner entity) const {
-    if (entity.id <= 0) return {};
-    const auto parent = parents.find(entity);
-    return parent == parents.end() ? entity : parent->second;
+    constexpr int most_parents = 4;  // a partition's part of a group's part of a volume
+    for (int i = 0; i < most_parents && entity.id > 0; ++i) {
+      const auto parent = parents.find(entity);
+      if (parent == parents.end()) break;
+      entity = parent->second;
+    }
+    return entity.id > 0 ? entity : Owner{};
   }
 };
 
@@ -124,6 +133,13 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source);
 void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on);
 void read_gmsh_parts(GmshContents& contents, Cursor& cursor);
 void read_gmsh_periodic(GmshContents& contents, GmshSource& source);
+
+/// Into how many partitions Gmsh has divided a mesh, and which of them the hexes of this file are in. n 0: it has not.
+struct GmshPartition {
+  int n = 0;
+  std::vector<int> partitions;  ///< ascending, from 1
+};
+GmshPartition gmsh_partition(const Bytes& bytes);
 
 /// Sections to a mesh.
 MeshFile assemble_gmsh(GmshContents&& contents, const Cursor& cursor);

@@ -1,5 +1,6 @@
 #include "hextwist/io/gmsh/plan_internal.h"
 
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -309,6 +310,28 @@ std::size_t GmshPlan::n_elements() const {
   for (const auto& of_dim : elements) n += of_dim.size;
   for (const PlannedOthers& of_entity : others) n += of_entity.tags.size();
   return n;
+}
+
+int GmshPlan::file_tag(int tag) const {
+  if (n_parts == 0) return tag;
+  constexpr std::int64_t above_whole_entities = std::int64_t{1} << 24;
+  const std::int64_t result = above_whole_entities + std::int64_t{tag} * n_parts + part;
+  if (tag >= above_whole_entities || result > std::numeric_limits<std::int32_t>::max())
+    throw Error("entity " + std::to_string(tag) + " in " + std::to_string(n_parts) +
+                " parts: Gmsh has no number for it");
+  return static_cast<int>(result);
+}
+
+void take_part(GmshPlan& plan, const FilePart& part) {
+  plan.n_parts = part.n_parts;
+  plan.part = part.number;
+  // Beside the hexes: numbers that no other part can have, as a hex has 6 faces, 12 edges and 8 corners.
+  constexpr std::int64_t most_beside_hex = 26;
+  std::int64_t next = part.highest_id + 1 + part.number * most_beside_hex * part.n_hexes;
+  for (int dim = 0; dim < 3; ++dim) {
+    plan.elements[dim].first_tag = next;
+    next += static_cast<std::int64_t>(plan.elements[dim].size);
+  }
 }
 
 GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,

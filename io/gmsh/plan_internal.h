@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "hextwist/io/file_part.h"
 #include "hextwist/io/middles.h"
 
 namespace hextwist::io {
@@ -57,8 +58,12 @@ struct GmshPlan {
   std::array<PlannedElements, 4> elements;
   std::vector<PlannedGroup> groups;
   std::vector<PlannedOthers> others;
-  int nobody = 0;  ///< volume entity for nodes without owner, 0 when there are none
+  int nobody = 0;             ///< volume entity for nodes without owner, 0 when there are none
+  int n_parts = 0, part = 0;  ///< the file is one of so many, from 0; 0: the file is all
 
+  /// Of an entity that has nodes or elements. In a part that is what the part has of the entity, with a tag that no
+  /// other part and no whole entity has.
+  int file_tag(int tag) const;
   PlannedEntity& entity(int dim, int tag);
   std::size_t n_elements() const;
   /// Tag of element k of a dimension; hexes have their own ids.
@@ -128,5 +133,7 @@ int group_tag(const std::vector<Group>& groups, const Group& group) {
 /// split: divide volumes and surfaces so that every entity is wholly in or out of each group (version 4.1).
 GmshPlan plan_gmsh(const Mesh& mesh, const Association& association, bool split, const Model* model,
                    const FileExtras* extras, Index n_corners);
+/// Makes it the plan of a part.
+void take_part(GmshPlan& plan, const FilePart& part);
 
 }  // namespace hextwist::io

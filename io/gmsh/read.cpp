@@ -78,7 +78,34 @@ bool read_section(GmshContents& contents, Cursor& cursor, std::string_view name)
   return true;
 }
 
+/// The name of the section that begins here, of which the cursor has passed the first line; empty: there is none.
+std::string_view begin_section(Cursor& cursor) {
+  return cursor.more() && *cursor.at == '$' ? trimmed(cursor.line()).substr(1) : std::string_view();
+}
+
 }  // namespace
+
+GmshPartition gmsh_partition(const Bytes& bytes) {
+  Cursor cursor(bytes);
+  GmshContents contents;
+  for (;;) {
+    const char* start = cursor.at;
+    const std::string_view name = begin_section(cursor);
+    if (name == "MeshFormat")
+      read_format(contents, cursor);
+    else if (name.empty() || contents.version != 41 || name == "Nodes" || name == "Elements")
+      return {};
+    else if (name == "PartitionedEntities")
+      break;
+    else
+      skip_section(cursor, name, start);
+    cursor.skip_blanks();
+    cursor.line();  // "$End..."
+  }
+  GmshSource source{cursor};
+  read_gmsh_entities_4(contents, source, true);
+  return {contents.n_partitions, std::move(contents.partitions)};
+}
 
 const GmshType* gmsh_type(int type) {
   static constexpr std::array<GmshType, 32> types = {{

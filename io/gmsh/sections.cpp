@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/io/gmsh/gmsh.h"
 
 namespace hextwist::io {
@@ -123,9 +124,14 @@ void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool parti
   };
   const auto nothing = [](int) {};
   if (partitioned) {
-    source.large("the number of partitions");
+    contents.n_partitions = static_cast<int>(
+        std::clamp<std::int64_t>(source.large("the number of partitions"), 0, std::numeric_limits<int>::max()));
     const auto n_ghosts = cursor.check_count(source.large("the number of ghost entities"), 4, "ghost entities");
-    for (std::size_t i = 0; i < 2 * n_ghosts; ++i) source.integer("a ghost entity");
+    for (std::size_t i = 0; i < n_ghosts; ++i) {
+      contents.ghosts.push_back(source.integer("a ghost entity"));
+      source.integer("a partition");
+    }
+    sort_unique(contents.ghosts);
   }
   std::array<std::size_t, 4> n_entities;
   for (auto& n : n_entities)
@@ -133,17 +139,27 @@ void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool parti
   for (int dim = 0; dim < 4; ++dim)
     for (std::size_t i = 0; i < n_entities[dim]; ++i) {
       const Owner entity{dim, source.integer("an entity")};
+      bool is_between = false;  // partitions
       if (partitioned) {
         const int parent_dim = source.integer("a parent's dimension");
         const int parent = source.integer("a parent");
         if (parent_dim >= 0 && parent > 0) contents.parents[entity] = {parent_dim, parent};
-        list("partitions", nothing);
+        is_between = parent_dim > dim;
+        list("partitions", [&](int partition) {
+          if (dim == 3) contents.partitions.push_back(partition);
+        });
       }
       for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) source.real("a box");
       auto& physicals = contents.entity_physicals[entity];
-      list("physical groups", [&](int tag) { physicals.push_back(positive(tag)); });
+      list("physical groups", [&](int tag) {
+        if (is_between)
+          contents.has_groups_between = true;
+        else
+          physicals.push_back(positive(tag));
+      });
       if (dim > 0) list("bounding entities", nothing);
     }
+  sort_unique(contents.partitions);
 }
 
 void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
@@ -216,7 +232,12 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
     cursor.skip_text_blanks();
     const char* first = cursor.at;
     const std::int64_t first_tag = source.large("an element");
-    const int dim = check_gmsh_type(contents, cursor, first, type, first_tag, static_cast<std::int64_t>(size));
+    const bool is_ghost = entity_dim == 3 && std::ranges::binary_search(contents.ghosts, entity);
+    int dim = check_gmsh_type(contents, cursor, first, type, first_tag, static_cast<std::int64_t>(size));
+    if (is_ghost) {
+      contents.n_ghosts += static_cast<std::int64_t>(size);
+      dim = -1;
+    }
     cursor.at = first;
     const int n_nodes = gmsh_type(type)->n_nodes;
     if (dim >= 0) {

@@ -92,13 +92,28 @@ void write_parts(Output& out, const GmshPlan& plan) {
   out << "$EndHextwistParts\n";
 }
 
-void write_entities_4(const Writer& to, const GmshPlan& plan) {
-  to.out << "$Entities\n";
+/// partitioned: what a part has of them.
+void write_entities_4(const Writer& to, const GmshPlan& plan, bool partitioned) {
+  const char* const name = partitioned ? "PartitionedEntities\n" : "Entities\n";
+  const auto tag_of = [&](int tag) { return partitioned ? plan.file_tag(tag) : tag; };
+  to.out << '$' << name;
+  if (partitioned) {
+    to.large(static_cast<std::size_t>(plan.n_parts));
+    to.end_line();
+    to.large(0);  // no hexes of others
+    to.end_line();
+  }
   for (const auto& entities : plan.entities) to.large(entities.size());
   to.end_line();
   for (int dim = 0; dim < 4; ++dim)
     for (const PlannedEntity& entity : plan.entities[dim]) {
-      to.integer(entity.tag);
+      to.integer(tag_of(entity.tag));
+      if (partitioned) {
+        to.integer(dim);
+        to.integer(entity.tag);
+        to.large(1);
+        to.integer(plan.part + 1);
+      }
       const Box box = entity.box.empty() ? Box{Vec3::Zero(), Vec3::Zero()} : entity.box;
       for (const double x : box.min) to.real(x);
       if (dim > 0)
@@ -107,12 +122,12 @@ void write_entities_4(const Writer& to, const GmshPlan& plan) {
       for (const int id : entity.physicals) to.integer(id);
       if (dim > 0) {
         to.large(entity.boundary.size());
-        for (const int tag : entity.boundary) to.integer(tag);
+        for (const int tag : entity.boundary) to.integer(tag < 0 ? -tag_of(-tag) : tag_of(tag));
       }
       to.end_line();
     }
   if (to.binary) to.out << '\n';
-  to.out << "$EndEntities\n";
+  to.out << "$End" << name;
 }
 
 /// The nodes and hexes of the file, ascending.
@@ -183,7 +198,7 @@ void write_nodes_4(const Writer& to, const Mesh& mesh, const Association& associ
   to.end_line();
   for (const auto& run : order.runs) {
     to.integer(run.owner.dim);
-    to.integer(run.owner.id);
+    to.integer(plan.file_tag(run.owner.id));
     to.integer(0);
     to.large(run.n);
     to.end_line();
@@ -234,7 +249,7 @@ void write_elements_4(const Writer& to, const Mesh& mesh, const GmshPlan& plan, 
   const PlannedElements& elements = plan.elements[dim];
   for (const auto& run : elements.runs) {
     to.integer(dim);
-    to.integer(run.entity);
+    to.integer(plan.file_tag(run.entity));
     to.integer(element_type(dim, nodes_per_hex));
     to.large(run.n);
     to.end_line();
@@ -452,6 +467,7 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   const int nodes_per_hex = second ? second->nodes_per_hex : 8;
   GmshPlan plan =
       plan_gmsh(mesh, association, v4, options.model, options.extras, second ? second->n_corners : mesh.n_nodes());
+  if (options.part) take_part(plan, *options.part);
   if (mesh.others && !options.groups_only) plan_gmsh_others(mesh, v4, plan, notices);
   if (mesh.others && options.groups_only)
     notices.push_back("files of groups only have no other elements here: left out " + others_text(mesh));
@@ -480,7 +496,8 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   for (const Field& field : mesh.fields) say_renamed("field", field.name, plain(field.name), notices);
   write_names(out, plan);
   if (v4) {
-    write_entities_4(to, plan);
+    write_entities_4(to, plan, false);
+    if (options.part) write_entities_4(to, plan, true);
     write_nodes_4(to, mesh, association, plan, selection);
     const auto write = nodes_per_hex == 8    ? write_elements_4<8>
                        : nodes_per_hex == 20 ? write_elements_4<20>

@@ -44,7 +44,7 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
                   std::to_string(head.n_hexes) + " hexes and " + std::to_string(head.n_nodes) +
                   " nodes, others of one of " + std::to_string(n_hexes) + " and " + std::to_string(n_nodes));
   });
-  if (const std::int64_t n = ranks.sum(own.mesh.n_hexes()); n != n_hexes)
+  if (const std::int64_t n = ranks.sum(own.mesh.n_hexes()); n_hexes > 0 && n != n_hexes)
     throw Error(split.name.string() + ": its parts have " + std::to_string(n) + " hexes together, and say " +
                 std::to_string(n_hexes));
   for (const std::string& line : notices) say(line);

@@ -7,10 +7,13 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/own_part.h"
 #include "hextwist/parts/split.h"
+#include "hextwist/patch/patch.h"
 #include "io/io_support.h"
 #include "split_judge.h"
 #include "support/exodus_extras.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
@@ -32,11 +35,11 @@ std::string refusal_of(const F& f) {
 void write_parts(const Mesh& mesh, const std::filesystem::path& name, const std::vector<int>& part_of_hex, int n) {
   const MeshedModel whole{mesh, nullptr, {}};
   const Splitting splitting(whole, part_of_hex, n);
-  PartFiles files(name, n);
+  PartOutput files(name, n);
   std::vector<std::string> notices;
   for (int p = 0; p < n; ++p) {
     const MeshPart part = splitting.part(p);
-    write_part(files[p], part.mesh, part.file, notices);
+    files.write({part.mesh, {}, part.file, {}}, notices);
   }
   files.commit();
 }
@@ -48,6 +51,22 @@ TEST(SplitName, is_told_from_that_of_any_part) {
   EXPECT_EQ(split_name("a/mesh.e.16.03").n_parts, 16);
   for (const char* no : {"mesh.e", "mesh.e.8", "mesh.e.8.8", "mesh.e.0.0", "mesh.e.8.x", "8.0", ".8.0x", "mesh.e.8."})
     EXPECT_EQ(split_name(no).n_parts, 0) << no;
+}
+
+TEST(SplitName, is_that_of_a_gmsh_file_where_gmsh_has_split_it) {
+  const auto folder = test::output_folder();
+  EXPECT_EQ(part_name("a/mesh.msh", 8, 2), "a/mesh_3.msh");
+  write_parts(test::grid(3, 2, 2), folder / "mesh.msh", {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2}, 3);
+  EXPECT_EQ(split_name(folder / "mesh_2.msh").name, folder / "mesh.msh");
+  EXPECT_EQ(split_name(folder / "mesh_2.msh").n_parts, 3);
+  write_mesh(folder / "whole_2.msh", test::grid(2, 2, 2), nullptr);
+  for (const char* no : {"whole_2.msh", "mesh_4.msh", "mesh.msh"}) EXPECT_EQ(split_name(folder / no).n_parts, 0) << no;
+  std::filesystem::rename(folder / "mesh_1.msh", folder / "mesh_4.msh");
+  EXPECT_EQ(split_name(folder / "mesh_4.msh").n_parts, 0);
+  const auto refusal = [&] { return refusal_of([&] { read_parts(folder / "mesh_2.msh"); }); };
+  EXPECT_EQ(refusal(), (folder / "mesh_1.msh").string() + ": this part of 3 is missing");
+  std::filesystem::copy(folder / "mesh_3.msh", folder / "mesh_1.msh");
+  EXPECT_EQ(refusal(), (folder / "mesh_1.msh").string() + ": is partition 3 of 3, by its name it would be 1");
 }
 
 TEST(Partition, gives_every_hex_a_part_and_every_part_a_fair_share) {
@@ -92,6 +111,81 @@ TEST(Split, parts_are_right_for_others_and_joined_again_to_the_bit) {
         EXPECT_EQ(faults_text(name, n), "");
         EXPECT_TRUE(test::same_mesh(mesh, read_parts(part_name(name, n, 0)).mesh));
       }
+}
+
+TEST(Split, as_gmsh_does_and_joined_again_to_what_one_file_keeps) {
+  for (const unsigned seed : {1u, 2u})
+    for (const bool gaps : {false, true})
+      for (const int n : {2, 3, 8}) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(n) + " parts");
+        const Mesh mesh = test::rich_mesh(seed, gaps, {5, 4, 3});
+        std::mt19937 random(seed);
+        std::vector<int> part_of_hex(mesh.hexes.size());
+        for (int& p : part_of_hex) p = static_cast<int>(random() % static_cast<unsigned>(n));
+        std::iota(part_of_hex.begin(), part_of_hex.begin() + n, 0);
+        const auto folder = test::output_folder();
+        write_mesh(folder / "whole.msh", mesh, nullptr);
+        write_parts(mesh, folder / "rich.msh", part_of_hex, n);
+        EXPECT_TRUE(test::same_mesh(read_mesh(folder / "whole.msh").mesh,
+                                    read_parts(folder / ("rich_" + std::to_string(n) + ".msh")).mesh));
+      }
+}
+
+TEST(Split, what_gmsh_divides_is_read_and_what_is_divided_here_gmsh_reads) {
+  if (std::system("/usr/bin/python3 -c 'import gmsh' > /dev/null 2>&1") != 0) GTEST_SKIP() << "no python3 with Gmsh";
+  const auto folder = test::output_folder();
+  const MeshedModel whole = test::shipped("inclusion");
+  write_mesh(folder / "whole.msh", whole.mesh, &whole.association);
+  const std::string judge = "/usr/bin/python3 '" HEXTWIST_SOURCE_DIR "/tests/parts/gmsh_parts.py' ";
+  const auto quoted = [&](const std::string& name) { return "'" + (folder / name).string() + "' "; };
+  ASSERT_EQ(std::system((judge + "divide " + quoted("whole.msh") + "3 " + quoted("theirs")).c_str()), 0);
+  for (const std::string kind : {"00", "01", "10", "11"}) {
+    SCOPED_TRACE(kind);
+    MeshFile read = read_parts(folder / ("theirs" + kind + "_2.msh"));
+    if (kind[1] == '0') {  // text, of 16 digits
+      ASSERT_EQ(read.mesh.n_nodes(), whole.mesh.n_nodes());
+      for (Index n = 0; n < whole.mesh.n_nodes(); ++n)
+        EXPECT_NEAR((read.mesh.points[n] - whole.mesh.points[n]).norm(), 0, 1e-13);
+      read.mesh.points = whole.mesh.points;
+    }
+    EXPECT_TRUE(test::same_mesh(whole.mesh, read.mesh));
+  }
+  // Of parts with owners, as refined parts have.
+  std::vector<int> part_of_hex = partition(whole.mesh, 3, PartitionBy::slabs);
+  const Splitting splitting(whole, part_of_hex, 3);
+  PartOutput output(folder / "ours.msh", 3);
+  std::vector<std::string> notices;
+  for (int p = 0; p < 3; ++p) {
+    std::vector<Index> own;
+    for (Index h = 0; h < whole.mesh.n_hexes(); ++h)
+      if (part_of_hex[h] == p) own.push_back(h);
+    const MeshPart part = splitting.part(p);
+    output.write({part.mesh, make_patch(whole, own).meshed.association, part.file, {}}, notices);
+  }
+  output.commit();
+  EXPECT_EQ(notices, std::vector<std::string>());
+  EXPECT_TRUE(test::same_mesh(whole.mesh, read_parts(folder / "ours_1.msh").mesh));
+  std::string expected;
+  const std::string parts = quoted("ours_1.msh") + quoted("ours_2.msh") + quoted("ours_3.msh");
+  ASSERT_EQ(std::system((judge + "count " + parts + "> " + quoted("found.txt")).c_str()), 0);
+  std::istringstream found(test::text_of(folder / "found.txt"));
+  std::int64_t n_nodes = 0, n_hexes = 0, n_different = 0, n_beside = 0, n_different_beside = 0;
+  found >> n_nodes >> n_hexes >> n_different >> n_beside >> n_different_beside;
+  EXPECT_EQ(n_nodes, whole.mesh.n_nodes());
+  EXPECT_EQ(n_hexes, whole.mesh.n_hexes());
+  EXPECT_EQ(n_different, n_hexes);
+  EXPECT_GT(n_beside, 0);
+  EXPECT_EQ(n_different_beside, n_beside);
+  for (const Block& block : whole.mesh.blocks) {
+    std::int64_t id = 0, n = 0;
+    found >> id >> n;
+    EXPECT_EQ(id, block.id);
+    EXPECT_EQ(n, std::ssize(block.hexes));
+  }
+  for (int p = 1, partition = 0; p <= 3; ++p) {
+    found >> partition;
+    EXPECT_EQ(partition, p);
+  }
 }
 
 TEST(Split, by_every_partition_of_a_file_and_back) {
