@@ -88,8 +88,11 @@ int read_view(int argc, char** argv, Options& options) {
 }
 
 int read_split(int argc, char** argv, Options& options) {
-  CLI::App app("Divides a mesh in parts: Exodus files NAME.N.0, NAME.N.1, ... with the communication maps of Nemesis.",
-               "hextwist split");
+  CLI::App app(
+      "Divides a mesh in parts: Exodus files NAME.N.0, NAME.N.1, ... with the communication maps of Nemesis; where "
+      "NAME "
+      "ends in .msh, NAME_1.msh, NAME_2.msh, ... as Gmsh splits meshes; in .pvtu, .vtu files.",
+      "hextwist split");
   app.add_option("MESH", options.mesh, "mesh to divide")->required();
   app.add_option("N", options.split, "number of parts")->required()->check(CLI::Range(1, 1000000));
   app.add_option("-o,--output", options.output, "NAME; default: MESH with .e, in this folder");
@@ -102,7 +105,8 @@ int read_split(int argc, char** argv, Options& options) {
 
 int read_join(int argc, char** argv, Options& options) {
   CLI::App app("Makes one mesh of its parts.", "hextwist join");
-  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0")->required();
+  app.add_option("PART", options.mesh, "any of the parts: NAME.N.0, or NAME_1.msh of a mesh that Gmsh has split")
+      ->required();
   app.add_option("-o,--output", options.output, "the mesh; format by extension")->required();
   options.join = true;
   return parsed(app, options, argc - 1, argv + 1);
@@ -114,14 +118,16 @@ int read_in_parts(int argc, char** argv, Options& options) {
       "only.",
       "hextwist refine-in-parts");
   std::vector<std::string> commands;
-  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0 ('hextwist split' makes them)")->required();
+  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0 or NAME_1.msh ('hextwist split' makes them)")
+      ->required();
   app.add_option("-c,--commands", commands, "refinements, separated by ';'")
       ->type_name("COMMANDS")
       ->allow_extra_args(false)
       ->take_all()
       ->required();
   app.add_option("-o,--output", options.output,
-                 "OUT: parts are written to OUT.N.i (Exodus), or, where it ends in .pvtu, to .vtu files")
+                 "OUT: parts are written to OUT.N.i (Exodus); where it ends in .msh, to OUT_i.msh as Gmsh splits "
+                 "meshes; in .pvtu, to .vtu files")
       ->required();
   app.add_option("--rings", options.rings,
                  "of hexes of others around a part, to begin with; default 6, fewer than 4 are 4")

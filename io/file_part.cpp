@@ -6,7 +6,9 @@
 namespace hextwist {
 namespace {
 
-bool is_msh(const std::filesystem::path& file) { return lower_case(file.extension().string()) == ".msh"; }
+bool is_msh(const std::filesystem::path& file) {
+  return lower_case(file.extension().string()) == ".msh";
+}
 
 }  // namespace
 

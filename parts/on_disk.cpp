@@ -56,7 +56,9 @@ class OnDisk {
         fence_(options.fence),
         aside_(options.folder.empty() ? output.parent_path() : options.folder) {
     if (split_.n_parts == 0)
-      throw Error(any_part.string() + ": parts are called name.e.8.0, name.e.8.1, ...; 'hextwist split' makes them");
+      throw Error(any_part.string() +
+                  ": parts are called name.e.8.0, name.e.8.1, ..., or name_1.msh, ... as Gmsh splits meshes; "
+                  "'hextwist split' makes them");
     n_rings_ = first_rings(options.n_rings, commands.depth(), commands.size());
   }
 

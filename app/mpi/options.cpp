@@ -14,7 +14,8 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
       "writes out.e.8.0 .. out.e.8.7, whose join is what hextwist writes. What can't be done in parts is done by the "
       "first process with the whole mesh, and said.",
       "hextwist-mpi");
-  app.add_option("MESH", options.mesh, "mesh to start from; of a split one, any part: mesh.e.8.0")->required();
+  app.add_option("MESH", options.mesh, "mesh to start from; of a split one, any part: mesh.e.8.0, mesh_1.msh")
+      ->required();
   app.add_option("-c,--commands", options.commands, "refinements and other changes of the mesh, separated by ';'")
       ->type_name("COMMANDS")
       ->allow_extra_args(false)
@@ -22,7 +23,8 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
       ->required();
   app.add_option("--cad", options.cad, "CAD that the mesh lies on (.step, .brep, .iges)");
   app.add_option("-o,--output", options.output,
-                 "OUT: each process writes its part to OUT.n.i (Exodus), or, where it ends in .pvtu, to a .vtu file");
+                 "OUT: each process writes its part to OUT.n.i (Exodus); where it ends in .msh, to OUT_i.msh as Gmsh "
+                 "splits meshes; in .pvtu, to a .vtu file");
   app.add_option(
          "--by", options.by,
          "how hexes are shared out: scotch (default, where it was built in), boxes, slabs, ids or random; parts of "
