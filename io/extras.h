@@ -22,7 +22,8 @@ struct AbaqusCard {
       node_set,  ///< by name
       side_set,  ///< by name, a surface
       node,      ///< by number
-      hex        ///< by number
+      hex,       ///< by number
+      faces      ///< an element set and the label of a face ("A, P2"): a side set, written by faces of elements
     };
     Kind kind;          ///< what `id` is an id of
     std::int64_t id;    ///< as the mesh has it

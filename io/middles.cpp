@@ -66,6 +66,54 @@ void FoundMiddles::add(std::size_t hex, std::span<const Index> in_file, const Mi
   nodes_per_hex = std::max(nodes_per_hex, 8 + static_cast<int>(in_file.size()));
 }
 
+namespace {
+
+/// Middle nodes are made anew when a file is written: in sets that have both ends of their edge, with values halfway.
+void say_what_middles_had(const Mesh& mesh, const Edges& edges, std::span<const Index> middle_of_edge,
+                          std::vector<std::string>& notices) {
+  const auto say = [&](std::vector<std::string> names, const std::string& what) {
+    constexpr std::size_t most = 3;
+    if (names.empty()) return;
+    const std::size_t n_more = names.size() - std::min(names.size(), most);
+    names.resize(names.size() - n_more);
+    notices.push_back(what + ": " + joined(names, ", ") +
+                      (n_more > 0 ? " and " + std::to_string(n_more) + " more" : ""));
+  };
+  std::vector<std::string> losing, gaining, bent;
+  std::vector<std::uint8_t> in_set(mesh.points.size(), 0);
+  for (const NodeSet& set : mesh.node_sets) {
+    for (const Index n : set.nodes) in_set[n] = 1;
+    bool loses = false, gains = false;
+    for (std::size_t e = 0; e < edges.nodes.size(); ++e) {
+      if (middle_of_edge[e] < 0) continue;
+      const bool has = in_set[middle_of_edge[e]] != 0, will = in_set[edges.nodes[e][0]] && in_set[edges.nodes[e][1]];
+      loses = loses || (has && !will);
+      gains = gains || (will && !has);
+    }
+    for (const Index n : set.nodes) in_set[n] = 0;
+    const std::string name = set.name.empty() ? std::to_string(set.id) : "'" + set.name + "'";
+    if (loses) losing.push_back(name);
+    if (gains) gaining.push_back(name);
+  }
+  for (const Field& field : mesh.fields) {
+    if (field.on != Field::On::node) continue;
+    const auto width = static_cast<std::size_t>(field.components);
+    bool is_halfway = true;
+    for (std::size_t e = 0; e < edges.nodes.size() && is_halfway; ++e)
+      for (std::size_t c = 0; c < width && is_halfway && middle_of_edge[e] >= 0; ++c) {
+        const auto at = [&](Index n) { return field.values[static_cast<std::size_t>(n) * width + c]; };
+        const double a = at(edges.nodes[e][0]), b = at(edges.nodes[e][1]);
+        is_halfway = !(std::abs(at(middle_of_edge[e]) - (a + b) / 2) > 1e-9 * (std::abs(a) + std::abs(b)));
+      }
+    if (!is_halfway) bent.push_back("'" + field.name + "'");
+  }
+  say(std::move(losing), "node sets without the middle nodes of edges that they do not have both ends of");
+  say(std::move(gaining), "node sets that have the middle nodes of all their edges, where the file leaves some out");
+  say(std::move(bent), "values at middle nodes are halfway between those at corners, and were others in the file, of");
+}
+
+}  // namespace
+
 void take_middles(MeshFile& file, const FoundMiddles& found) {
   Mesh& mesh = file.mesh;
   const Edges mesh_edges = edges(mesh);
@@ -103,6 +151,8 @@ void take_middles(MeshFile& file, const FoundMiddles& found) {
   const std::vector<Index> kept = indices_where(mesh.n_nodes(), [&](Index n) { return is_middle[n] == 0; });
   std::vector<Index> now(mesh.points.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i) now[kept[i]] = static_cast<Index>(i);
+
+  say_what_middles_had(mesh, mesh_edges, of_edge.nodes(), file.notices);
 
   MiddleNodes& middles = file.middles;
   middles.nodes_per_hex = file.extras.nodes_per_hex[0] = found.nodes_per_hex;

@@ -138,6 +138,10 @@ void move(Transaction& run, const Similarity& similarity) {
     run.note("fields keep their values: vectors among them are not turned");
   if (mesh.others && (turns || similarity.factor != 1))
     run.note("other elements keep what is said of them (thicknesses, directions) as it was");
+  if ((turns || similarity.factor != 1) && state.extras && !state.extras->cards.empty())
+    run.note(
+        "cards of the .inp file stay as they were read: directions, systems and lengths in them are of the place "
+        "before");
   if (!state.sizing.empty()) run.note("sizing functions stay where they are: they are of the place before");
   const Measured before = state.measured;
   replace_and_measure(run, std::move(meshed));

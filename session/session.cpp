@@ -127,6 +127,7 @@ AdaptOutcome adapt_session(Session::Core& core, const char* by, const auto& valu
     if (const auto& fixed = run.state.fixed_nodes)
       options.fixed.insert(options.fixed.end(), fixed->begin(), fixed->end());
     options.keep_jumps.insert(options.keep_jumps.end(), run.state.keep_jumps.begin(), run.state.keep_jumps.end());
+    if (!options.levelling) options.levelling = run.state.levelling;  // what there is to be coarsened
     Request request = adapt_request(run.meshed->mesh, values, options);
     if (request.target.ids.empty() && std::holds_alternative<Cuts>(request.how)) {  // no flag at all
       AdaptResult same = hextwist::adapt(*run.meshed, values, options);

@@ -9,6 +9,7 @@
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/mesh/periodic.h"
@@ -22,8 +23,10 @@
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/outcome.h"
+#include "hextwist/sizing/size_report.h"
 #include "hextwist/sizing/sizes_of_all.h"
 #include "hextwist/sizing/techniques/techniques_internal.h"
+#include "hextwist/sizing/techniques/wish_internal.h"
 
 namespace hextwist {
 namespace {
@@ -278,6 +281,35 @@ void State::close() {
   if (!report.off_nodes.empty()) report.off_nodes = still_off(result_.refined, report.off_nodes);
 }
 
+void State::tell_of_moved_nodes() {
+  const Mesh& now = mesh();
+  const std::vector<Index>& old = result_.old_node;
+  // What had been moved for better shapes goes back by levels, which is told; repeated surfaces are made exact.
+  const bool goes_back = result_.levelling && request.levelling && !request.levelling->overlay.nodes.empty();
+  if (request.finish.smooth || goes_back || request.finish.periodic) return;
+  Index n_moved = 0;
+  double farthest = 0;
+  for (Index n = 0; n < now.n_nodes(); ++n) {
+    const Index before = !old.empty() ? old[n] : n < input.mesh.n_nodes() ? n : -1;
+    if (before < 0 || now.points[n] == input.mesh.points[before]) continue;
+    ++n_moved;
+    farthest = std::max(farthest, (now.points[n] - input.mesh.points[before]).norm());
+  }
+  if (n_moved > 0)
+    note("moved " + counted(n_moved, "node") + " that had been there, by at most " + short_number(farthest) +
+         ": hexes would be inverted or flat otherwise");
+}
+
+void State::measure_sizes() {
+  if (!report.sizes || result_.smoothed.empty()) return;
+  const std::shared_ptr<const SizeWish> wish = size_wish(*this);
+  SizeReport now = size_report(mesh(), std::move(report.sizes->hexes), wish->field());
+  now.n_passes = report.sizes->n_passes;
+  now.unmet = std::move(report.sizes->unmet);
+  if (report.sizes->directions) now.directions = direction_sizes(mesh(), now.hexes, wish->field());
+  report.sizes = std::move(now);
+}
+
 void State::repeat_periodic() {
   begin("periodic");
   try {
@@ -315,6 +347,8 @@ RefineResult finish_passes(State& state) {
   if (!state.request.finish.dry_run) {
     if (state.request.finish.smooth) state.smooth_band();
     state.close();
+    state.measure_sizes();
+    state.tell_of_moved_nodes();
   }
   state.evaluate_fields();
   state.stages.begin("verify", 0.9);

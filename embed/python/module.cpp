@@ -372,7 +372,7 @@ void bind_session(py::module_& m) {
             return session.run([&](Session& s) { return s.import_mesh(file), true; });
           },
           "file"_a,
-          "Reads a mesh (.msh .e .exo .g .gen .vtk .vtu .inp .mesh, a name or a Path), as 'import mesh' does, in place "
+          "Reads a mesh (a name or a Path; format by its extension), as 'import mesh' does, in place "
           "of the one that is there: on the CAD of the session, or on its own skin where there is none. True, or "
           "raises Error, the session as it was: not hexes only, inverted beyond repair, not on the CAD, ...")
       .def(

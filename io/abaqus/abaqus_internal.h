@@ -54,10 +54,17 @@ struct AbaqusSet {
 
 /// Words of a card that name parts of the mesh.
 struct AbaqusNamed {
-  enum Kind { nodes, elements, surface } kind;
-  std::size_t begin, end;  ///< in the card's text
+  enum Kind { nodes, elements, surface, faces } kind;  ///< faces: elements, a comma, and a face of theirs
+  std::size_t begin, end;                              ///< in the card's text
   bool by_keyword;
 };
+/// "A, P2": the elements and the label of their face; its number, 1 to 6.
+struct AbaqusFaceLoad {
+  std::string elements, label;
+  int face = 0;
+};
+AbaqusFaceLoad abaqus_face_load(const std::string& text);
+
 /// A card that is no mesh, with its data lines.
 struct AbaqusRawCard {
   std::string keyword, text;
@@ -106,6 +113,7 @@ struct AbaqusContents {
   std::string heading;
   std::vector<std::string> notices;
   bool ours = false;
+  std::int64_t n_normals = 0, first_normal = 0;    ///< nodes with more than coordinates
   std::array<std::int64_t, 2> announced = {0, 0};  ///< nodes and hexes, where a comment of ours says so
 
   [[noreturn]] void fail(const char* at, const std::string& what) const;

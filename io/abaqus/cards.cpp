@@ -40,7 +40,27 @@ constexpr DataNames data_names[] = {{"BOUNDARY", AbaqusNamed::nodes},
                                     {"CONTACT INCLUSIONS", AbaqusNamed::surface, 2},
                                     {"CONTACT EXCLUSIONS", AbaqusNamed::surface, 2}};
 
+/// Cards whose data lines go on with a face of the elements: a letter and its number.
+struct FaceLetter {
+  std::string_view keyword;
+  char letter;
+};
+constexpr FaceLetter face_letters[] = {{"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}};
+
+bool is_face(std::string_view keyword, const std::string& label) {
+  const auto* of = std::ranges::find(face_letters, keyword, &FaceLetter::keyword);
+  return of != std::end(face_letters) && label.size() >= 2 && label[0] == of->letter && label[1] >= '1' &&
+         label[1] <= '6' && (label.size() == 2 || std::isalpha(static_cast<unsigned char>(label[2])));
+}
+
 }  // namespace
+
+AbaqusFaceLoad abaqus_face_load(const std::string& text) {
+  const std::size_t comma = text.rfind(',');
+  AbaqusFaceLoad load{std::string(trimmed(text.substr(0, comma))), std::string(trimmed(text.substr(comma + 1))), 0};
+  load.face = load.label[1] - '0';
+  return load;
+}
 
 bool depends_on_numbers(std::string_view keyword) {
   constexpr std::string_view cards[] = {"DISTRIBUTION", "NODAL THICKNESS", "NORMAL", "IMPERFECTION", "EQUATION", "MPC"};
@@ -75,6 +95,10 @@ void find_names(AbaqusRawCard& card) {
         }
       } else if (data != std::end(data_names) && column < data->n) {
         add(by_element ? AbaqusNamed::elements : data->kind, word, end, false);
+      } else if (column == 1 && !card.named.empty() && card.named.back().begin >= line &&
+                 is_face(card.keyword, upper_case(trimmed(std::string_view(text).substr(word, end - word))))) {
+        card.named.back().kind = AbaqusNamed::faces;
+        card.named.back().end = end;
       }
       word = end + 1;
     }

@@ -128,7 +128,7 @@ class Parser {
     if (words[0] == "end") ended_ = true;
     const auto first = number(words[1]);
     if (words[0] == "mesh") out_.announced = {first.value_or(0), number(words[2]).value_or(0)};
-    if (words[0] != "block" && words[0] != "nodeset" && words[0] != "sideset") return;
+    if (words[0] != "block" && words[0] != "nodeset" && words[0] != "sideset" && words[0] != "faces") return;
     if (!first || *first < 0 || *first > std::numeric_limits<int>::max())
       out_.fail(at, std::string(words[0]) + " id " + shown(words[1]) + " is not between 0 and 2147483647");
     out_.real_names[{std::string(words[0]), upper_case(words[2])}] = {static_cast<int>(*first), std::string(line)};
@@ -267,7 +267,7 @@ class Parser {
         more = comma(cursor);
       }
       if (!more && !line_ends(cursor)) cursor.fail("expected a comma, found " + shown(cursor.word()));
-      cursor.line();
+      if (!trimmed(cursor.line()).empty() && out_.n_normals++ == 0) out_.first_normal = to.node_ids.back();
       expected = cursor.at;
     }
     if (const std::string* set = keyword.find("NSET"))
@@ -278,7 +278,9 @@ class Parser {
   }
 
   void elements(Cursor& cursor, const Keyword& keyword) {
-    if (keyword.find("INPUT")) out_.fail(keyword.at, "*ELEMENT with INPUT= is not supported");
+    for (const char* parameter : {"INPUT", "OFFSET"})
+      if (keyword.find(parameter))
+        out_.fail(keyword.at, "*ELEMENT with " + std::string(parameter) + "= is not supported");
     const std::string type = upper_case(required(keyword, "TYPE"));
     const AbaqusElement element = abaqus_element(type);
     AbaqusScope& to = *scope_;

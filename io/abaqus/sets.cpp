@@ -9,6 +9,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/abaqus/abaqus_internal.h"
+#include "hextwist/io/others.h"
 
 namespace hextwist::io {
 namespace {
@@ -211,6 +212,7 @@ class Sets {
     current_ = nullptr;
     const std::string name = full_name(placed, set.name), key = upper_case(name);
     // The sets of everything that we write ourselves.
+    if (set.kind == AbaqusSet::elements && in_.real_names.contains({"faces", key})) return;  // of a load
     if (in_.ours && (key == "NALL" || key == "EALL") && !in_.real_names.contains({kind_words[set.kind], key})) return;
     auto& to = sets_[{set.kind, key}];
     if (to.order == 0) to = {sets_.size(), name, {}};
@@ -452,18 +454,78 @@ class Sets {
     if (n_numbers_ > 0)
       out_.notices.push_back("cards name nodes or elements by number, " + std::to_string(n_numbers_) +
                              " times, first at " + first_number_ + ": what a refinement adds is not among them");
+    if (!first_node_load_.empty())
+      out_.notices.push_back(first_node_load_ +
+                             ": a load on a node set is the same at each node: nodes that a refinement adds to the set "
+                             "have it too, so that the sum grows");
+    if (!load_sets_.empty()) {
+      std::vector<std::string> names;
+      for (const auto& [of, id] : load_sets_) names.push_back(group_of_id(out_.mesh.side_sets, id).name);
+      out_.notices.push_back("loads on faces of elements are on side sets here: " + joined(names, ", "));
+    }
+    if (in_.n_normals > 0)
+      out_.notices.push_back("more than coordinates of " + counted(in_.n_normals, "node") +
+                             " is left out (normals), first of node " + std::to_string(in_.first_normal));
+  }
+
+  /// The side set that a load on a face of elements is on; nothing where it stays with the elements.
+  std::optional<std::int64_t> loaded_faces(const AbaqusPlaced& placed, const AbaqusFaceLoad& load) {
+    Mesh& mesh = out_.mesh;
+    if (const auto own = in_.real_names.find({"faces", upper_case(load.elements)}); own != in_.real_names.end()) {
+      const bool is_there = std::ranges::find(mesh.side_sets, own->second.first, &SideSet::id) != mesh.side_sets.end();
+      return is_there ? std::optional<std::int64_t>(own->second.first) : std::nullopt;
+    }
+    const auto set = meaning(placed, AbaqusNamed::elements, load.elements).reference;
+    if (!set || set->first != Reference::block) return {};
+    const Block& block = *std::ranges::find(mesh.blocks, static_cast<int>(set->second), &Block::id);
+    if (block.hexes.empty() || !others_of_block(mesh, block.id).empty()) return {};
+    const auto [known, is_new] = load_sets_.try_emplace({block.id, load.face}, free_id(mesh.side_sets));
+    if (is_new) {
+      SideSet& to = group_of_id(mesh.side_sets, known->second);
+      to.name = load.elements + "_S" + std::to_string(load.face);
+      for (const Index h : block.hexes) to.sides.push_back({h, abaqus_face[load.face - 1]});
+      sort_unique(to.sides);
+    }
+    return known->second;
   }
 
   void add_card(const AbaqusPlaced& placed, const AbaqusRawCard& raw) {
     AbaqusCard card{raw.text, {}, in_.where(raw.at)};
-    std::vector<std::pair<std::size_t, std::size_t>> lost_lines;
+    std::vector<std::pair<std::size_t, std::size_t>> lost_lines, same_lines;
     std::string lost;
     for (const AbaqusNamed& named : raw.named) {
       std::string word = raw.text.substr(named.begin, named.end - named.begin);
+      std::size_t end = named.end;
+      auto kind = named.kind;
+      if (kind == AbaqusNamed::faces) {
+        const AbaqusFaceLoad load = abaqus_face_load(word);
+        if (const auto faces = loaded_faces(placed, load)) {
+          const AbaqusCard::Reference here{Reference::faces, *faces, named.begin, named.end, false};
+          const auto rest = [&](const AbaqusCard::Reference& of) {
+            const std::string label = abaqus_face_load(raw.text.substr(of.begin, of.end - of.begin)).label;
+            return label.substr(0, 1) + label.substr(2) +
+                   raw.text.substr(of.end, line_around(raw.text, of.end).second - of.end);
+          };
+          // One load is a line for each face of elements in a file of ours.
+          if (std::ranges::any_of(card.references, [&](const auto& of) {
+                return of.kind == Reference::faces && of.id == *faces && rest(of) == rest(here);
+              }))
+            same_lines.push_back(line_around(raw.text, named.begin));
+          else
+            card.references.push_back(here);
+          continue;
+        }
+        kind = AbaqusNamed::elements;
+        word = load.elements;
+        end = named.begin + raw.text.substr(named.begin).find_first_of(", \t");
+      }
       if (word.size() > 1 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
-      const auto [reference, gone] = meaning(placed, named.kind, word);
+      const auto [reference, gone] = meaning(placed, kind, word);
       if (reference)
-        card.references.push_back({reference->first, reference->second, named.begin, named.end, named.by_keyword});
+        card.references.push_back({reference->first, reference->second, named.begin, end, named.by_keyword});
+      if (reference && reference->first == Reference::node_set && first_node_load_.empty() &&
+          (raw.keyword == "CLOAD" || raw.keyword == "CFLUX"))
+        first_node_load_ = card.where + ": *" + raw.keyword;
       if (!gone) continue;
       lost += (lost.empty() ? "'" : ", '") + word + "'";
       if (named.by_keyword) {
@@ -474,7 +536,8 @@ class Sets {
       lost_lines.push_back(line_around(raw.text, named.begin));
     }
     sort_unique(lost_lines);
-    for (auto line = lost_lines.rbegin(); line != lost_lines.rend(); ++line) cut_out(card, line->first, line->second);
+    const auto cut = union_of(lost_lines, same_lines);
+    for (auto line = cut.rbegin(); line != cut.rend(); ++line) cut_out(card, line->first, line->second);
     if (!lost_lines.empty())
       out_.notices.push_back(card.where + ": lines of *" + raw.keyword + " about " + lost +
                              " are left out: nothing of that is kept");
@@ -509,8 +572,10 @@ class Sets {
   std::map<std::pair<AbaqusSet::Kind, std::string>, Collected> sets_;
   std::optional<std::vector<Side>> skin_;
   const AbaqusSet* current_ = nullptr;
-  std::vector<Placed> open_;            // sets in which the one at hand is
-  std::map<Placed, Members> surfaces_;  // that others are made of
+  std::vector<Placed> open_;                      // sets in which the one at hand is
+  std::map<Placed, Members> surfaces_;            // that others are made of
+  std::map<std::pair<int, int>, int> load_sets_;  // block and number of a face: side set
+  std::string first_node_load_;
   std::uint64_t n_missing_ = 0;
   std::string first_missing_;
   std::int64_t n_numbers_ = 0;

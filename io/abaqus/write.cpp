@@ -1,6 +1,7 @@
 // Abaqus .inp: nodes, elements, sets and surfaces, without parts, as Abaqus and CalculiX both read it, and the cards of
 // the file that was read. Comments keep ids and names that Abaqus has no room for. Fields and owners are left out.
 #include <limits>
+#include <map>
 #include <set>
 
 #include "hextwist/io/abaqus/abaqus_internal.h"
@@ -22,6 +23,11 @@ class Labels {
     while (!taken_.insert(upper_case(label)).second) label += "_" + std::to_string(id);
     if (!name.empty() && label != name) changed.push_back("'" + name + "' is " + label);
     return of_id_[id] = label;
+  }
+  /// One that no set has.
+  std::string another(std::string label) {
+    while (!taken_.insert(upper_case(label)).second) label += "_";
+    return label;
   }
   bool has(const char* label) const { return taken_.contains(label); }
   const std::string* of(std::int64_t id) const {
@@ -146,9 +152,41 @@ void write_abaqus_others(Output& out, const Mesh& mesh, std::span<const std::int
   }
 }
 
+/// Elements of a side set with a face of the same number, and what they are called.
+struct FacesOfLoad {
+  int face;
+  std::string label;
+};
+using FacesOfLoads = std::map<std::int64_t, std::vector<FacesOfLoad>>;  ///< by the id of the side set
+
+/// Element sets for the loads on faces, since these are said of elements there.
+FacesOfLoads write_faces_of_loads(Output& out, const Mesh& mesh, const FileExtras& extras,
+                                  std::span<const std::int64_t> hex_ids, const std::array<int, 6>& number,
+                                  AllLabels& labels) {
+  FacesOfLoads result;
+  for (const AbaqusCard& card : extras.cards)
+    for (const auto& reference : card.references)
+      if (reference.kind == AbaqusCard::Reference::faces) result[reference.id];
+  for (auto& [id, faces] : result) {
+    const auto set = std::ranges::find(mesh.side_sets, id, &SideSet::id);
+    if (set == mesh.side_sets.end()) continue;
+    std::array<std::vector<std::int64_t>, 7> elements;
+    for (const Side& side : set->sides) elements[number[side.face]].push_back(id_of(hex_ids, side.hex));
+    for (int face = 1; face <= 6; ++face) {
+      if (elements[face].empty()) continue;
+      const std::string label = labels[AbaqusCard::Reference::block].another(
+          *labels[AbaqusCard::Reference::side_set].of(id) + "_E" + std::to_string(face));
+      out << "** hextwist faces " << id << ' ' << label << "\n*ELSET, ELSET=" << label << '\n';
+      write_ids(out, elements[face].size(), [&](std::size_t i) { return elements[face][i]; });
+      faces.push_back({face, label});
+    }
+  }
+  return result;
+}
+
 /// Cards with the labels that their sets have now, without those and the lines that are about nothing any more.
 void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const AllLabels& labels,
-                 std::vector<std::string>& notices) {
+                 const FacesOfLoads& loads, std::vector<std::string>& notices) {
   using Reference = AbaqusCard::Reference;
   for (AbaqusCard card : extras.cards) {
     const std::string keyword = upper_case(card.text.substr(0, card.text.find_first_of(",\r\n")));
@@ -159,6 +197,17 @@ void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const 
       if (k >= card.references.size()) continue;  // its line is gone
       const Reference at = card.references[k];
       std::string now;
+      if (at.kind == Reference::faces) {
+        const auto [begin, end] = line_around(card.text, at.begin);
+        const AbaqusFaceLoad load = abaqus_face_load(card.text.substr(at.begin, at.end - at.begin));
+        for (const FacesOfLoad& of : loads.at(at.id))
+          now += card.text.substr(begin, at.begin - begin) + of.label + ", " + load.label[0] + std::to_string(of.face) +
+                 load.label.substr(2) + card.text.substr(at.end, end - at.end);
+        if (!now.empty()) {
+          card.text.replace(begin, end - begin, now);
+          continue;
+        }
+      }
       if (at.kind == Reference::node && find_node(mesh, at.id) >= 0) now = std::to_string(at.id);
       if (at.kind == Reference::hex && (find_hex(mesh, at.id) >= 0 || find_other(mesh, at.id) >= 0))
         now = std::to_string(at.id);
@@ -255,7 +304,8 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
     for (const auto& [element, side] : other_sides_of(mesh, set.id))
       out << other_ids[element] << (side.empty() ? "" : ", ") << side << '\n';
   }
-  write_cards(out, mesh, extras, labels, notices);
+  const FacesOfLoads loads = write_faces_of_loads(out, mesh, extras, hex_ids, number, labels);
+  write_cards(out, mesh, extras, labels, loads, notices);
   out << "** hextwist end\n";
 }
 

@@ -54,16 +54,16 @@ Asked in_order(AskedCells cells) {
   return result;
 }
 
-/// Leaves of each level with the finest level that any of their hexes asks for. asked(hex, level of its leaf): the
-/// level, or -1 to leave the hex out. Of hexes of the base, those in `whole` (ascending) are asked.
+/// Leaves of each level with the finest level that any of their hexes asks for. asked(hex, its leaf): the level, or -1
+/// to leave the hex out. Of hexes of the base, those in `whole` (ascending) are asked.
 template <class AskedLevel>
 std::vector<Asked> asked_of_leaves(const HandedHexes& hexes, std::span<const Index> whole, const AskedLevel& asked) {
   std::vector<std::array<AskedCells, 2>> cells(1);  // per level: whole ones, and those of which there are pieces
   for (const Index h : whole)
-    if (const int level = asked(h, 0); level >= 0) cells[0][0].emplace_back(hexes.leaf(h).cell, level);
+    if (const int level = asked(h, hexes.leaf(h)); level >= 0) cells[0][0].emplace_back(hexes.leaf(h).cell, level);
   for (std::size_t i = 0; i < hexes.cell.size(); ++i) {
     const LevelPieces::Leaf leaf = hexes.leaf_of_piece(i);
-    const int level = asked(hexes.n_whole() + static_cast<Index>(i), leaf.level);
+    const int level = asked(hexes.n_whole() + static_cast<Index>(i), leaf);
     if (level < 0) continue;
     if (cells.size() <= static_cast<std::size_t>(leaf.level)) cells.resize(leaf.level + std::size_t{1});
     cells[leaf.level][leaf.level != hexes.block(i)].emplace_back(leaf.cell, level);
@@ -74,7 +74,8 @@ std::vector<Asked> asked_of_leaves(const HandedHexes& hexes, std::span<const Ind
   return result;
 }
 
-/// Gives up cells of these roots (ascending) in which nobody asks to be finer than they are.
+/// Gives up cells of these roots (ascending) in which nobody asks to be finer than they are whole. What is left of a
+/// wished cell itself, and not of its children, are pieces of one that is cut at some corners only.
 LevelMarks without_given_up(const LevelMarks& wished, std::vector<Asked> leaves, std::span<const Index> roots) {
   LevelMarks rest(wished.size());
   leaves.resize(std::max(leaves.size(), wished.size()));
@@ -84,7 +85,7 @@ LevelMarks without_given_up(const LevelMarks& wished, std::vector<Asked> leaves,
     for (std::size_t i = 0; k < wished.size() && i < wished[k].size(); ++i) {
       const CellNumber cell = wished[k].cell[i];
       const int of_leaf = leaves[k].find(cell), of_inside = inside.find(cell);
-      if (!std::ranges::binary_search(roots, root_of({level, cell})) || of_leaf >= level || of_inside > level)
+      if (!std::ranges::binary_search(roots, root_of({level, cell})) || of_leaf > level || of_inside > level)
         rest[k].add(cell, wished[k].corners[i]);
     }
     Asked above;
@@ -164,12 +165,21 @@ LevelMarks wishes(const Forest& forest, std::span<const std::int8_t> change) {
       if (const Index root = hexes.root_of_piece(i); coarser.empty() || coarser.back() != root) coarser.push_back(root);
   sort_unique(coarser);
   const std::vector<Index> whole = indices_where(hexes.n_whole(), [&](Index h) { return change[h] > 0; });
-  const std::vector<Asked> leaves = asked_of_leaves(hexes, whole, [&](Index h, int level) {
-    const bool counts = change[h] != 0 || (!coarser.empty() && std::ranges::binary_search(coarser, hexes.root(h)));
-    return counts ? std::max(0, level + change[h]) : -1;
+  const auto finer = [&](Index h, const LevelPieces::Leaf& leaf) {
+    return change[h] > 0 ? leaf.level + change[h] : -1;
+  };
+  const LevelMarks wanted = needed(asked_of_leaves(hexes, whole, finer), forest.base->mesh.n_hexes(), false);
+  if (coarser.empty()) return united(forest.wished, wanted);
+  // Pieces of a cell that is wished to be cut at some corners are finer than the cell by what the wish makes of it.
+  const auto is_cut_by_wish = [&](const LevelPieces::Leaf& leaf) {
+    const auto level = static_cast<std::size_t>(leaf.level);
+    return level < forest.wished.size() && std::ranges::binary_search(forest.wished[level].cell, leaf.cell);
+  };
+  const std::vector<Asked> leaves = asked_of_leaves(hexes, whole, [&](Index h, const LevelPieces::Leaf& leaf) {
+    if (change[h] == 0 && !std::ranges::binary_search(coarser, hexes.root(h))) return -1;
+    return std::max(0, leaf.level + is_cut_by_wish(leaf) + change[h]);
   });
-  return united(coarser.empty() ? forest.wished : without_given_up(forest.wished, leaves, coarser),
-                needed(leaves, forest.base->mesh.n_hexes(), false));
+  return united(without_given_up(forest.wished, leaves, coarser), wanted);
 }
 
 LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change) {
@@ -182,7 +192,7 @@ LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> 
   const HandedHexes& hexes = forest.grown->hexes;
   check_values(hexes, levels.size());
   const std::vector<Index> whole = indices_where(hexes.n_whole(), [&](Index h) { return levels[h] > 0; });
-  const auto asked = [&](Index h, int) { return levels[h] > 0 ? levels[h] : -1; };
+  const auto asked = [&](Index h, const LevelPieces::Leaf&) { return levels[h] > 0 ? levels[h] : -1; };
   return needed(asked_of_leaves(hexes, whole, asked), forest.base->mesh.n_hexes(), true);
 }
 

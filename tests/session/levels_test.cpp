@@ -184,6 +184,41 @@ TEST(SessionLevels, sizes_are_met_without_bad_shapes) {
   EXPECT_EQ(f.session.records().back().sizes.coarser, 0);
 }
 
+/// Cells that sizes cut at some corners only go as others do, one level at a time.
+TEST(SessionLevels, what_sizes_made_can_be_coarsened_back_to_the_base) {
+  for (const std::string command :
+       {"refine hex 1 size 0.4", "refine curve 1 size 0.3 method single", "refine curve 2 size 0.1 bias 1.5",
+        "refine volume all sizing_function '0.2+0.4*abs(x)'", "refine vertex 3 size 0.05 bias 1.3"}) {
+    SCOPED_TRACE(command);
+    Fixture f;
+    f.session.run("create brick x 4 interval 4");
+    const Mesh base = mesh_of(f);
+    f.session.run(command);
+    ASSERT_GT(mesh_of(f).n_hexes(), base.n_hexes());
+    for (int step = 0; step < 8 && mesh_of(f).hexes != base.hexes; ++step) {
+      const Index n_before = mesh_of(f).n_hexes();
+      f.session.run("coarsen hex all");
+      EXPECT_LT(mesh_of(f).n_hexes(), n_before);
+      EXPECT_GE(worst(mesh_of(f)), least_on_cubes);
+    }
+    EXPECT_EQ(mesh_of(f).hexes, base.hexes);
+    EXPECT_EQ(mesh_of(f).points, base.points);
+  }
+}
+
+TEST(SessionLevels, wished_sizes_of_a_solver_make_coarser_too) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4");
+  const Mesh base = mesh_of(f);
+  f.session.run("refine hex 1 22");
+  const auto adapt = [&](double size) {
+    return f.session.adapt(std::vector<double>(mesh_of(f).hexes.size(), size), AdaptOptions()).report.hexes_after;
+  };
+  EXPECT_GT(adapt(0.4), 1000);
+  EXPECT_EQ(adapt(1), base.n_hexes());
+  EXPECT_EQ(mesh_of(f).points, base.points);
+}
+
 TEST(SessionLevels, changes_of_a_solver_go_both_ways_with_fields) {
   Fixture f;
   f.session.run("create brick x 4 interval 4");
