@@ -40,6 +40,7 @@ SizesRow sizes_row(const Mesh& mesh, const SizeReport& sizes) {
   row.much_finer = sizes.n_much_finer;
   row.passes = sizes.n_passes;
   row.met = sizes.met();
+  row.met_in_the_end = sizes.moved ? sizes.moved->met() : row.met;
   if (!sizes.ratio.empty()) {
     const auto [least, most] = std::ranges::minmax(sizes.ratio);
     row.smallest_ratio = least;

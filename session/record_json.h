@@ -21,6 +21,7 @@ inline Json sizes_json(const SizesRow& row) {
   return {{"hexes", row.hexes},
           {"passes", row.passes},
           {"met", row.met},
+          {"met_in_the_end", row.met_in_the_end},
           {"coarser", row.coarser},
           {"finer", row.finer},
           {"much_finer", row.much_finer},

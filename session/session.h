@@ -66,6 +66,7 @@ struct SizesRow {
   double smallest_ratio = 0;        ///< of actual size / wished size
   double largest_ratio = 0;         ///< likewise
   std::vector<std::int64_t> unmet;  ///< at most 1000 of them
+  double met_in_the_end = 1;        ///< as `met`, after nodes were moved for better shapes
 };
 
 /// What one command did. Of a command that changes nothing, before and after are the same.

@@ -302,12 +302,8 @@ void State::tell_of_moved_nodes() {
 
 void State::measure_sizes() {
   if (!report.sizes || result_.smoothed.empty()) return;
-  const std::shared_ptr<const SizeWish> wish = size_wish(*this);
-  SizeReport now = size_report(mesh(), std::move(report.sizes->hexes), wish->field());
-  now.n_passes = report.sizes->n_passes;
-  now.unmet = std::move(report.sizes->unmet);
-  if (report.sizes->directions) now.directions = direction_sizes(mesh(), now.hexes, wish->field());
-  report.sizes = std::move(now);
+  const SizeReport now = size_report(mesh(), report.sizes->hexes, size_wish(*this)->field());
+  report.sizes->moved = {static_cast<Index>(now.hexes.size()), now.n_coarser, now.n_finer, now.n_much_finer};
 }
 
 void State::repeat_periodic() {

@@ -78,7 +78,7 @@ class State {
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
-  /// After close(): nodes may have moved since sizes were measured, and old ones may have given way.
+  /// After close(): nodes may have moved since hexes were cut to size, and old ones may have given way.
   void measure_sizes();
   void tell_of_moved_nodes();
   /// After the last pass: hexes that came out flat are smoothed; fills in what the report says of flat and poor hexes

@@ -30,9 +30,21 @@ struct DirectionSizes {
   Index n_shorter = 0;  ///< by more than sqrt(3)
 };
 
-/// How well a request for sizes was met. The zone: the hexes at which it was wished for (with a bias: the hexes that it
-/// made and those at the target). The actual size of a hex is the cube root of its volume; the wished one that at its
-/// centroid.
+/// How many hexes of a zone are larger or smaller than wished.
+struct SizesMet {
+  Index n_hexes = 0;
+  Index n_coarser = 0;     ///< ratio above sqrt(3)
+  Index n_finer = 0;       ///< below 1 / sqrt(3)
+  Index n_much_finer = 0;  ///< below 1 / 3
+  /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
+  double met() const {
+    return n_hexes == 0 ? 1 : 1 - static_cast<double>(n_coarser + n_finer) / static_cast<double>(n_hexes);
+  }
+};
+
+/// How well a request for sizes was met, as hexes were cut. The zone: the hexes at which it was wished for (with a
+/// bias: the hexes that it made and those at the target). The actual size of a hex is the cube root of its volume; the
+/// wished one that at its centroid.
 struct SizeReport {
   int n_passes = 0;           ///< run, of those that Sizes::max_passes allows
   std::vector<Index> hexes;   ///< of the zone, ascending
@@ -43,6 +55,8 @@ struct SizeReport {
   std::vector<Index> unmet;   ///< hexes that would be cut again if there were passes left, ascending
   /// Of hexes that were too long in some directions only, when the request came.
   std::optional<DirectionSizes> directions;
+  /// Where nodes were moved for better shapes after that: the counts of the mesh as it is handed out.
+  std::optional<SizesMet> moved;
   /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
   double met() const {
     const auto n = static_cast<double>(hexes.size());

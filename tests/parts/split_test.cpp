@@ -265,7 +265,7 @@ TEST(Join, refuses_parts_that_do_not_belong_together) {
   split(test::grid(4, 2, 2), "a.e", 2);
   split(test::grid(5, 2, 2), "b.e", 2);
   split(test::grid(4, 2, 2), "c.e", 4);
-  EXPECT_EQ(said("a.e"), "a.e: parts are called name.e.8.0, name.e.8.1, ...");
+  EXPECT_EQ(said("a.e"), "a.e: parts are called name.e.8.0, name.e.8.1, ..., or name_1.msh, ... as Gmsh splits meshes");
   EXPECT_EQ(said("a.e.3.0"), "a.e.3.0: this part of 3 is missing");
   std::filesystem::copy(folder / "b.e.2.1", folder / "a.e.2.1", std::filesystem::copy_options::overwrite_existing);
   EXPECT_EQ(said("a.e.2.0"), "a.e.2.1: is part of a mesh of 20 hexes and 54 nodes, a.e.2.0 of one of 16 and 45");

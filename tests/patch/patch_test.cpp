@@ -69,6 +69,10 @@ void expect_same(const Report& a, const Report& b) {
     EXPECT_EQ(a.sizes->n_finer, b.sizes->n_finer);
     EXPECT_EQ(a.sizes->n_much_finer, b.sizes->n_much_finer);
     EXPECT_EQ(a.sizes->unmet, b.sizes->unmet);
+    ASSERT_EQ(a.sizes->moved.has_value(), b.sizes->moved.has_value());
+    if (a.sizes->moved) {
+      EXPECT_EQ(a.sizes->moved->met(), b.sizes->moved->met());
+    }
     EXPECT_EQ(a.sizes->directions.has_value(), b.sizes->directions.has_value());
     if (a.sizes->directions && b.sizes->directions) {
       EXPECT_EQ(a.sizes->directions->n_longer, b.sizes->directions->n_longer);

@@ -187,8 +187,9 @@ TEST(SessionLevels, sizes_are_met_without_bad_shapes) {
 /// Cells that sizes cut at some corners only go as others do, one level at a time.
 TEST(SessionLevels, what_sizes_made_can_be_coarsened_back_to_the_base) {
   for (const std::string command :
-       {"refine hex 1 size 0.4", "refine curve 1 size 0.3 method single", "refine curve 2 size 0.1 bias 1.5",
-        "refine volume all sizing_function '0.2+0.4*abs(x)'", "refine vertex 3 size 0.05 bias 1.3"}) {
+       {"refine hex 1 size 0.4", "refine curve 1 size 0.3 method single",
+        "refine curve 2 size 0.1 bias 1.5 transition regular", "refine volume all sizing_function '0.2+0.4*abs(x)'",
+        "refine vertex 3 size 0.05 bias 1.3 transition regular"}) {
     SCOPED_TRACE(command);
     Fixture f;
     f.session.run("create brick x 4 interval 4");

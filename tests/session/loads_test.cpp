@@ -49,6 +49,7 @@ Pressure pressure_of(const std::filesystem::path& file) {
     } else if (keyword == "*ELEMENT") {
       auto& nodes = hexes[std::stoi(words[0])];
       for (std::size_t i = 1; i < words.size(); ++i) nodes.push_back(std::stoi(words[i]));
+      sets[set].push_back(std::stoi(words[0]));
     } else if (keyword == "*ELSET") {
       for (const std::string& word : words)
         if (!word.empty()) sets[set].push_back(std::stoi(word));
@@ -85,8 +86,8 @@ TEST(FaceLoads, stay_on_their_faces) {
   };
   const Pressure before = judged(first);
   EXPECT_NEAR(before.area, 2 + 1 + 1, 1e-12);
-  for (const std::string commands : {"refine hex 1", "refine volume all", "refine node 9 numsplit 2", "refine surface 3 graded",
-                                     "refine hex 2 numsplit 2; coarsen hex all"}) {
+  for (const std::string commands : {"refine hex 1", "refine volume all", "refine node 9 numsplit 2",
+                                     "refine surface 3 graded", "refine hex 2 numsplit 2; coarsen hex all"}) {
     SCOPED_TRACE(commands);
     std::filesystem::path from = first;
     for (int round = 0; round < 2; ++round) {  // what was written is read like any other
@@ -107,7 +108,8 @@ TEST(FaceLoads, stay_on_their_faces) {
 
 TEST(FaceLoads, go_along_where_a_mesh_is_reflected) {
   const auto folder = test::folder();
-  const auto first = test::written("a.inp", std::string(two_hexes).replace(std::string(two_hexes).find("A,GRAV"), 23, ""));
+  const auto first =
+      test::written("a.inp", std::string(two_hexes).replace(std::string(two_hexes).find("A,GRAV"), 23, ""));
   const Pressure before = pressure_of(first);
   Session session;
   session.import_mesh(first);
