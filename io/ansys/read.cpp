@@ -4,6 +4,7 @@
 #include <map>
 
 #include "hextwist/io/ansys/ansys_internal.h"
+#include "hextwist/io/hex_numbers.h"
 
 namespace hextwist::io {
 namespace {
@@ -22,6 +23,7 @@ class AnsysReader {
   explicit AnsysReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
+    skip_byte_order_mark(cursor_);
     while (cursor_.at < cursor_.end) {
       at_ = cursor_.at;
       const std::string_view line = trimmed(cursor_.line());
@@ -37,7 +39,12 @@ class AnsysReader {
     groups();
     if (n_others_ > 0)
       listing_.note(counted(n_others_, "other command") + " left out (the first: " + first_other_ + ")");
-    return listing_.result(false);
+    turned_.tell(listing_, "directions of degrees of freedom (rotations in NBLOCK)", "node");
+    if (n_empty_ > 0)
+      listing_.note(counted(n_empty_, "empty component") + " left out (the first: " + first_empty_ + ")");
+    MeshFile file = listing_.result(false);
+    columns(file.mesh);
+    return file;
   }
 
  private:
@@ -161,6 +168,12 @@ class AnsysReader {
           cursor_.fail_at(
               at_, "node " + std::to_string(id) + " has " + shown(trimmed(text)) + " where a coordinate should stand");
       }
+      for (std::size_t i = 3; i < std::min<std::size_t>(6, fields.n_reals); ++i) {
+        double angle = 0;
+        if (real_in_field(field(line, first + i * fields.real_width, fields.real_width), angle) && angle == 0) continue;
+        turned_.add(id);
+        break;
+      }
       listing_.add_node(id, point, at_);
     }
   }
@@ -168,8 +181,9 @@ class AnsysReader {
   /// Kept until the types are known.
   struct Element {
     std::int64_t id;
-    int material, type;
-    std::size_t first, n;  ///< of nodes_
+    int type;
+    std::array<int, 4> columns;  ///< as ansys_columns
+    std::size_t first, n;        ///< of nodes_
     const char* at;
   };
 
@@ -186,12 +200,15 @@ class AnsysReader {
     const std::size_t width = fields.integer_width;
     for (std::string_view line = row_of("EBLOCK"); trimmed(line) != "-1"; line = row_of("EBLOCK")) {
       const auto number = [&](std::size_t i, const char* what) { return integer(field(line, i * width, width), what); };
-      Element element{number(10, "an element id"),
-                      small(field(line, 0, width), "a material"),
-                      small(field(line, width, width), "a type"),
-                      nodes_.size(),
-                      0,
-                      at_};
+      Element element{
+          number(10, "an element id"),
+          small(field(line, width, width), "a type"),
+          {small(field(line, 0, width), "a material"), small(field(line, 2 * width, width), "real constants"),
+           small(field(line, 3 * width, width), "a section"),
+           small(field(line, 4 * width, width), "a coordinate system")},
+          nodes_.size(),
+          0,
+          at_};
       if (element.id == 0) element.id = next_id;
       next_id = element.id + 1;
       const std::int64_t n = number(8, "a number of nodes");
@@ -216,7 +233,7 @@ class AnsysReader {
     for (const Element& element : elements_) {
       if (shape(element) != AnsysShape::hex) continue;
       if (!first) first = &element;
-      materials_differ = materials_differ || first->material != element.material;
+      materials_differ = materials_differ || first->columns[0] != element.columns[0];
       types_differ = types_differ || first->type != element.type;
     }
     const bool by_type = types_differ && !materials_differ;
@@ -224,7 +241,7 @@ class AnsysReader {
       const std::span nodes = std::span(nodes_).subspan(element.first, element.n);
       switch (shape(element)) {
         case AnsysShape::hex:
-          hex(element, by_type ? element.type : element.material, nodes);
+          hex(element, by_type ? element.type : element.columns[0], nodes);
           break;
         case AnsysShape::tetrahedron:
           listing_.refuse(element.id, "tetrahedron", element.at);
@@ -240,6 +257,21 @@ class AnsysReader {
     }
     if (n_unnamed_ > 0)
       listing_.note("left out " + counted(n_unnamed_, "line") + " of EBLOCK without SOLID, which say no type");
+  }
+
+  /// What hexes have that is neither their block nor what they would be written with anyway.
+  void columns(Mesh& mesh) const {
+    std::vector<std::int64_t> ids;
+    std::array<std::vector<int>, 4> numbers;
+    for (const Element& element : elements_) {
+      if (shape(element) != AnsysShape::hex) continue;
+      ids.push_back(element.id);
+      for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].push_back(element.columns[i]);
+    }
+    const AnsysMaterials materials = ansys_materials(mesh);
+    add_hex_numbers(mesh, ansys_columns[0], ids, numbers[0], [&](Index h) { return materials.of_hex[h]; });
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+      add_hex_numbers(mesh, ansys_columns[i], ids, numbers[i], [&](Index) { return i < 3 ? 1 : 0; });
   }
 
   /// Of a type that was not defined, by the number of nodes.
@@ -269,6 +301,9 @@ class AnsysReader {
       cursor_.fail_at(at_, "component " + shown(word(1)) + " is neither of nodes nor of elements");
     const std::int64_t n = integer(word(3), "a number of members");
     const std::size_t size = cursor_.check_count(n, 1, "members of component " + group.name);
+    if (size == 0) {
+      if (n_empty_++ == 0) first_empty_ = group.name;
+    }
     const AnsysFormat fields = format("CMBLOCK");
     auto& members = of_nodes ? group.nodes : group.elements;
     auto& ranges = of_nodes ? group.node_ranges : group.element_ranges;
@@ -347,8 +382,9 @@ class AnsysReader {
   std::vector<std::int64_t> nodes_;
   std::vector<Component> names_;
   OwnName comment_;
-  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0;
-  std::string first_other_;
+  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0, n_empty_ = 0;
+  std::string first_other_, first_empty_;
+  Losses turned_;
 };
 
 }  // namespace
