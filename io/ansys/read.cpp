@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "hextwist/io/ansys/ansys_internal.h"
 #include "hextwist/io/hex_numbers.h"
@@ -86,8 +87,14 @@ class AnsysReader {
                       "its option BLOCKED");
     if (same_word(name, "/INPUT") || same_word(name, "CDREAD"))
       cursor_.fail_at(at_, std::string(name) + " is not followed: nodes or elements would be missing");
-    if (line.starts_with('/') || same_word(name, "FINISH") || same_word(name, "KEYOP") || same_word(name, "KEYOPT") ||
-        same_word(name, "NUMOFF") || same_word(name, "*SET") || same_word(name, "SHPP"))
+    if (same_word(name, "KEYOP") || same_word(name, "KEYOPT")) {
+      std::int64_t of = 0, value = 0;
+      if (integer_in_field(word(1), of) && (!integer_in_field(word(3), value) || value != 0))
+        options_.try_emplace(of, line.substr(0, 40));
+      return;
+    }
+    if (line.starts_with('/') || same_word(name, "FINISH") || same_word(name, "NUMOFF") || same_word(name, "*SET") ||
+        same_word(name, "SHPP"))
       return;
     if (n_others_++ == 0) first_other_ = std::string(name.substr(0, 30));
   }
@@ -237,6 +244,10 @@ class AnsysReader {
       types_differ = types_differ || first->type != element.type;
     }
     const bool by_type = types_differ && !materials_differ;
+    std::set<int> types;
+    for (const Element& element : elements_)
+      if (shape(element) == AnsysShape::hex) types.insert(element.type);
+    say_types(types);
     for (const Element& element : elements_) {
       const std::span nodes = std::span(nodes_).subspan(element.first, element.n);
       switch (shape(element)) {
@@ -257,6 +268,24 @@ class AnsysReader {
     }
     if (n_unnamed_ > 0)
       listing_.note("left out " + counted(n_unnamed_, "line") + " of EBLOCK without SOLID, which say no type");
+  }
+
+  /// Hexes are written as of one type, SOLID185 or SOLID186, without key options.
+  void say_types(const std::set<int>& of_hexes) {
+    std::set<std::string> others;
+    for (const int type : of_hexes)
+      if (const auto found = type_of_.find(type);
+          found != type_of_.end() && found->second != ansys_solid_8 && found->second != ansys_solid_20)
+        others.insert("SOLID" + std::to_string(found->second));
+    if (!others.empty())
+      listing_.note("hexes of type " + joined(std::vector(others.begin(), others.end()), ", ") +
+                    " are SOLID185 or SOLID186 when they are written");
+    if (of_hexes.size() > 1)
+      listing_.note("hexes of " + std::to_string(of_hexes.size()) + " types are of one when they are written");
+    std::erase_if(options_, [&](const auto& option) { return !of_hexes.contains(static_cast<int>(option.first)); });
+    if (!options_.empty())
+      listing_.note("key options of " + counted(std::ssize(options_), "type") +
+                    " of hexes left out (the first: " + std::string(options_.begin()->second) + ")");
   }
 
   /// What hexes have that is neither their block nor what they would be written with anyway.
@@ -377,7 +406,8 @@ class AnsysReader {
   Listing listing_;
   const char* at_ = nullptr;
   std::vector<std::string_view> words_;
-  std::map<int, int> type_of_;  // SOLID185, by the number that elements name
+  std::map<int, int> type_of_;                        // SOLID185, by the number that elements name
+  std::map<std::int64_t, std::string_view> options_;  // the first that is not 0, by the same
   std::vector<Element> elements_;
   std::vector<std::int64_t> nodes_;
   std::vector<Component> names_;

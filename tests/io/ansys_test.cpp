@@ -113,6 +113,28 @@ TEST(ansys_files, names_that_cm_does_not_permit_are_not_written) {
   EXPECT_TRUE(test::same_mesh(read_mesh(file).mesh, mesh));
 }
 
+TEST(ansys_files, types_and_key_options_that_become_others_are_told) {
+  const auto folder = test::output_folder();
+  const auto notices = [&](const std::string& types, const std::string& second = "") {
+    std::string text = ansys_cube;
+    text.replace(text.find("ET,1"), 23, types);
+    return read_mesh(test::write_text(folder / "a.cdb",
+                                      text + "EBLOCK,19,SOLID\n(19i7)\n" + ansys_hex + second + "     -1\n"))
+        .notices;
+  };
+  const std::string turned =
+      "directions of degrees of freedom (rotations in NBLOCK) of 1 node left out; the first is 6";
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(notices("ET,1,186\nKEYOP,1,2,0\nET,2,154\nKEYOPT,2,4,1\n"), (Lines{turned}));
+  EXPECT_EQ(notices("ET,1,45\nKEYOP, 1, 2, 1\nKEYOP,1,3,1\n"),
+            (Lines{"hexes of type SOLID45 are SOLID185 or SOLID186 when they are written",
+                   "key options of 1 type of hexes left out (the first: KEYOP, 1, 2, 1)", turned}));
+  std::string second = ansys_hex;
+  second.replace(second.find("      1      1"), 7, "      2").replace(second.find("     10"), 7, "     11");
+  EXPECT_EQ(notices("ET,1,185\nET,2,185\n", second),
+            (Lines{"hexes of 2 types are of one when they are written", turned}));
+}
+
 TEST(ansys_files, empty_components_are_told) {
   const MeshFile read = read_mesh(test::write_text(
       test::output_folder() / "a.cdb", std::string(ansys_cube) + "EBLOCK,19,SOLID\n(19i7)\n" + ansys_hex +
