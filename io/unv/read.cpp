@@ -38,6 +38,7 @@ class UnvReader {
     if (!skipped_.empty()) listing_.note("left out datasets " + joined(skipped_, ", "));
     listing_.set_format("unv");
     systems_.finish(listing_);
+    with_sets_.tell(listing_, "numbers of constraint sets, load sets and the like", "group");
     MeshFile file = listing_.result(false);
     const auto usual = [](Index) { return 1; };
     if (listing_.groups_have_hexes())  // else they are blocks
@@ -214,7 +215,9 @@ class UnvReader {
       const std::int64_t id = integer("a group");
       if (id < 0 || id > std::numeric_limits<int>::max())
         cursor_.fail_at(at, "group " + std::to_string(id) + " is not between 0 and 2147483647");
-      for (int i = 0; i < 6; ++i) integer("a number of the group");
+      bool names_sets = false;
+      for (int i = 0; i < 6; ++i) names_sets = integer("a number of the group") != 0 || names_sets;
+      if (names_sets) with_sets_.add(id);
       const std::size_t n =
           cursor_.check_count(integer("the number of members"), 4, "members of group " + std::to_string(id));
       cursor_.line();
@@ -242,6 +245,7 @@ class UnvReader {
   Cursor cursor_;
   Listing listing_;
   UnvSystems systems_;
+  Losses with_sets_;
   std::vector<std::int64_t> hex_ids_;
   std::vector<int> properties_, materials_;  // of hexes
   std::vector<int> skipped_;

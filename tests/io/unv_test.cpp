@@ -126,6 +126,18 @@ TEST(unv_files, ids_of_ten_digits_touch) {
   EXPECT_EQ(read.mesh.node_sets, (std::vector<NodeSet>{{5, "G", {0, 7}}}));
 }
 
+TEST(unv_files, sets_that_groups_name_are_told) {
+  const MeshFile read =
+      read_mesh(test::write_text(test::output_folder() / "a.unv",
+                                 unv_nodes() + unv_hex() + "    -1\n  2467\n" + numbers({5, 0, 0, 3, 0, 0, 0, 1}) +
+                                     "\nG\n" + numbers({7, 1, 0, 0}) + "\n" + numbers({6, 0, 0, 0, 0, 0, 0, 1}) +
+                                     "\nH\n" + numbers({7, 2, 0, 0}) + "\n    -1\n"));
+  EXPECT_EQ(test::names_and_members(read.mesh.node_sets), (std::set<std::string>{"G:0", "H:1"}));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{
+                "numbers of constraint sets, load sets and the like of 1 group left out; the first is 5"}));
+}
+
 /// Names that are cut are so between letters, whatever a letter's length.
 TEST(group_names, are_cut_between_letters) {
   const auto folder = test::output_folder();
