@@ -120,8 +120,12 @@ class UnvReader {
       for (Vec3& row : rows)
         for (double& x : row) x = cursor_.real("a number of the matrix of a coordinate system");
       cursor_.line();
-      add_system(number, type, rows[0] == Vec3::UnitX() && rows[1] == Vec3::UnitY() && rows[2] == Vec3::UnitZ(),
-                 rows[3]);
+      constexpr double rounded = 1e-12;  // of axes that somebody has computed
+      bool straight = true;
+      for (Index axis = 0; axis < 3; ++axis)
+        straight =
+            straight && (rows[static_cast<std::size_t>(axis)] - Vec3::Unit(axis)).lpNorm<Eigen::Infinity>() <= rounded;
+      add_system(number, type, straight, rows[3]);
     }
   }
   /// The origin, a point on the x axis, one in the half of the plane x z.

@@ -56,6 +56,8 @@ TEST(unv_files, systems_that_move_nodes_do_so_and_others_are_refused) {
   EXPECT_TRUE(moved.notices.empty()) << moved.notices[0];
   moved = read(unv_nodes() + unv_system(1, 0, straight + here));
   EXPECT_TRUE(test::same_mesh(moved.mesh, plain.mesh));
+  moved = read(unv_system(1, 0, " 1.0 1.0D-16 0.0\n-1.0D-16 1.0 0.0\n 0.0 0.0 1.0\n" + here) + unv_nodes());
+  EXPECT_TRUE(test::same_mesh(moved.mesh, plain.mesh));
   moved = read(unv_system(3, 0, straight + apart, "") + unv_nodes(3, 1));
   for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(moved.mesh.points[n], plain.mesh.points[n] + Vec3(10, -2, 0.5));
   EXPECT_TRUE(moved.notices.empty()) << moved.notices[0];
