@@ -123,8 +123,7 @@ class UnvReader {
       constexpr double rounded = 1e-12;  // of axes that somebody has computed
       bool straight = true;
       for (Index axis = 0; axis < 3; ++axis)
-        straight =
-            straight && (rows[static_cast<std::size_t>(axis)] - Vec3::Unit(axis)).lpNorm<Eigen::Infinity>() <= rounded;
+        straight = straight && (rows[static_cast<std::size_t>(axis)] - Vec3::Unit(axis)).norm() <= rounded;
       add_system(number, type, straight, rows[3]);
     }
   }
