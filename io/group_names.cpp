@@ -8,17 +8,26 @@
 
 namespace hextwist::io {
 
+std::string_view first_letters(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t n = longest;
+  while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) --n;  // in a letter
+  // Text of another code has no such beginnings.
+  return text.substr(0, longest - n < 4 ? n : longest);
+}
+
 std::string distinct_name(const char* kind, int id, const std::string& name, std::string fitted, std::size_t longest,
                           std::set<std::string>& taken, std::vector<std::string>& notices) {
+  if (const auto whole = trimmed(name); whole.starts_with(fitted)) fitted = first_letters(whole, fitted.size());
   const std::string usual = std::string(kind) + "_" + std::to_string(id);
   const std::string stem = fitted.empty() ? usual : std::move(fitted);
   const auto fits = [&](const std::string& wanted) {
     return !taken.contains(wanted) && (name.empty() || generated_id(wanted, kind) < 0);
   };
-  std::string result = stem.substr(0, longest);
+  std::string result = std::string(first_letters(stem, longest));
   for (int k = 0; !fits(result); ++k) {
     const std::string tail = "_" + std::to_string(id) + (k == 0 ? "" : "_" + std::to_string(k));
-    result = stem.substr(0, longest - std::min(longest, tail.size())) + tail;
+    result = std::string(first_letters(stem, longest - std::min(longest, tail.size()))) + tail;
   }
   taken.insert(result);
   if (name.empty() && result != stem)

@@ -9,6 +9,9 @@
 
 namespace hextwist::io {
 
+/// As much of a text as there is room for, without a piece of a letter that has several characters (UTF-8).
+std::string_view first_letters(std::string_view text, std::size_t longest);
+
 /// The name of a group in a file: `fitted` (what the format can have of `name`), with "_id" behind it where it is in
 /// `taken` or is what unnamed groups are called ("block_5", generated_id() in listing.h), as much of it as there is
 /// room for; that of an unnamed group where `fitted` is empty. It is taken then. Tells where it is not `name`. longest:

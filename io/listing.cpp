@@ -163,7 +163,7 @@ void Listing::assemble_quads() {
 
 void Listing::assemble_groups(bool parts_count_always) {
   Mesh& mesh = out_.mesh;
-  bool hexes_grouped = false, quads_grouped = false;
+  bool quads_grouped = false;
   std::int64_t n_missing = 0, first_missing = 0;
   const auto missing = [&](std::int64_t id) {
     if (n_missing++ == 0) first_missing = id;
@@ -253,7 +253,7 @@ void Listing::assemble_groups(bool parts_count_always) {
       face < 0 ? missing(corners[0]) : sides.push_back({h, face});
     }
     sort_unique(members), sort_unique(hexes), sort_unique(sides);
-    hexes_grouped = hexes_grouped || !hexes.empty();
+    groups_have_hexes_ = groups_have_hexes_ || !hexes.empty();
     quads_grouped = quads_grouped || !sides.empty();
     if (!members.empty() || from.empty_node_set) put(mesh.node_sets, from, "nodeset").nodes = std::move(members);
     if (!hexes.empty() || from.empty_block) put(mesh.blocks, from, "block").hexes = std::move(hexes);
@@ -273,7 +273,7 @@ void Listing::assemble_groups(bool parts_count_always) {
     group.is_own = true;
     return group;
   };
-  if (!hexes_grouped || parts_count_always) {
+  if (!groups_have_hexes_ || parts_count_always) {
     std::map<int, std::vector<Index>> of_part;
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       if (part_of_hex_[h] > 0) of_part[part_of_hex_[h]].push_back(h);
@@ -335,6 +335,10 @@ int generated_id(const std::string& name, std::string_view kind) {
   int id = -1;
   const auto [stop, error] = std::from_chars(name.data() + kind.size() + 1, name.data() + name.size(), id);
   return error == std::errc{} && stop == name.data() + name.size() ? id : -1;
+}
+
+void skip_byte_order_mark(Cursor& cursor) {
+  if (std::string_view(cursor.at, cursor.left()).starts_with("\xEF\xBB\xBF")) cursor.at += 3;
 }
 
 std::string plain_name(const std::string& name, std::size_t longest) {

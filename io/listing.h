@@ -60,6 +60,8 @@ class Listing {
 
   /// parts_count_always: parts are blocks and side sets even where groups have hexes or quads.
   MeshFile result(bool parts_count_always);
+  /// After result().
+  bool groups_have_hexes() const { return groups_have_hexes_; }
 
  private:
   struct Elements {
@@ -98,6 +100,22 @@ class Listing {
   std::vector<std::pair<std::int64_t, Index>> quad_of_id_;  // ascending
   std::vector<Side> quad_sides_;
   std::vector<int> part_of_hex_;
+  bool groups_have_hexes_ = false;
+};
+
+/// Items of which something is left out, for one line in the end.
+struct Losses {
+  std::int64_t n = 0, first = 0;  ///< how many, and the lowest id
+
+  void add(std::int64_t id) { first = n++ == 0 ? id : std::min(first, id); }
+  void add(const Losses& others) {
+    if (others.n > 0) first = n == 0 ? others.first : std::min(first, others.first);
+    n += others.n;
+  }
+  /// "constraints (PS) of 3 nodes left out; the first is 5", where there are any.
+  void tell(Listing& listing, const std::string& what, const char* kind) const {
+    if (n > 0) listing.note(what + " of " + counted(n, kind) + " left out; the first is " + std::to_string(first));
+  }
 };
 
 /// For writers of formats where a hex is in one group only: per hex the position of its first block, -1 none; a notice
@@ -107,6 +125,8 @@ std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std:
 const char* degenerate_hex(std::span<const std::int64_t> corners);
 /// What writers call groups without a name, "block_3": its id; -1 for all else.
 int generated_id(const std::string& name, std::string_view kind);
+/// Goes behind the mark of UTF-8 (EF BB BF) that some editors put at the beginning of a file.
+void skip_byte_order_mark(Cursor& cursor);
 /// A name on one line, of letters that every program takes.
 std::string plain_name(const std::string& name, std::size_t longest);
 

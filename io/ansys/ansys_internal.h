@@ -20,4 +20,14 @@ struct AnsysFormat {
   std::size_t n_integers = 0, integer_width = 0, n_reals = 0, real_width = 0;
 };
 
+/// Numbers of hexes in EBLOCK beside the type, as fields are called that have them (io/hex_numbers.h).
+inline constexpr std::array<const char*, 4> ansys_columns = {"material", "real", "section", "esys"};
+
+/// The materials of hexes where no field says them: the ids of their blocks, and another where that is none.
+struct AnsysMaterials {
+  std::vector<int> of_hex;
+  int nobody = 0;  ///< of hexes in no block, or in block 0; 0: there are none
+};
+AnsysMaterials ansys_materials(const Mesh& mesh);
+
 }  // namespace hextwist::io

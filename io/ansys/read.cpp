@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "hextwist/io/ansys/ansys_internal.h"
+#include "hextwist/io/hex_numbers.h"
 
 namespace hextwist::io {
 namespace {
@@ -22,6 +24,7 @@ class AnsysReader {
   explicit AnsysReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
+    skip_byte_order_mark(cursor_);
     while (cursor_.at < cursor_.end) {
       at_ = cursor_.at;
       const std::string_view line = trimmed(cursor_.line());
@@ -37,7 +40,12 @@ class AnsysReader {
     groups();
     if (n_others_ > 0)
       listing_.note(counted(n_others_, "other command") + " left out (the first: " + first_other_ + ")");
-    return listing_.result(false);
+    turned_.tell(listing_, "directions of degrees of freedom (rotations in NBLOCK)", "node");
+    if (n_empty_ > 0)
+      listing_.note(counted(n_empty_, "empty component") + " left out (the first: " + first_empty_ + ")");
+    MeshFile file = listing_.result(false);
+    columns(file.mesh);
+    return file;
   }
 
  private:
@@ -79,8 +87,14 @@ class AnsysReader {
                       "its option BLOCKED");
     if (same_word(name, "/INPUT") || same_word(name, "CDREAD"))
       cursor_.fail_at(at_, std::string(name) + " is not followed: nodes or elements would be missing");
-    if (line.starts_with('/') || same_word(name, "FINISH") || same_word(name, "KEYOP") || same_word(name, "KEYOPT") ||
-        same_word(name, "NUMOFF") || same_word(name, "*SET") || same_word(name, "SHPP"))
+    if (same_word(name, "KEYOP") || same_word(name, "KEYOPT")) {
+      std::int64_t of = 0, value = 0;
+      if (integer_in_field(word(1), of) && (!integer_in_field(word(3), value) || value != 0))
+        options_.try_emplace(of, line.substr(0, 40));
+      return;
+    }
+    if (line.starts_with('/') || same_word(name, "FINISH") || same_word(name, "NUMOFF") || same_word(name, "*SET") ||
+        same_word(name, "SHPP"))
       return;
     if (n_others_++ == 0) first_other_ = std::string(name.substr(0, 30));
   }
@@ -161,6 +175,12 @@ class AnsysReader {
           cursor_.fail_at(
               at_, "node " + std::to_string(id) + " has " + shown(trimmed(text)) + " where a coordinate should stand");
       }
+      for (std::size_t i = 3; i < std::min<std::size_t>(6, fields.n_reals); ++i) {
+        double angle = 0;
+        if (real_in_field(field(line, first + i * fields.real_width, fields.real_width), angle) && angle == 0) continue;
+        turned_.add(id);
+        break;
+      }
       listing_.add_node(id, point, at_);
     }
   }
@@ -168,8 +188,9 @@ class AnsysReader {
   /// Kept until the types are known.
   struct Element {
     std::int64_t id;
-    int material, type;
-    std::size_t first, n;  ///< of nodes_
+    int type;
+    std::array<int, 4> columns;  ///< as ansys_columns
+    std::size_t first, n;        ///< of nodes_
     const char* at;
   };
 
@@ -186,12 +207,15 @@ class AnsysReader {
     const std::size_t width = fields.integer_width;
     for (std::string_view line = row_of("EBLOCK"); trimmed(line) != "-1"; line = row_of("EBLOCK")) {
       const auto number = [&](std::size_t i, const char* what) { return integer(field(line, i * width, width), what); };
-      Element element{number(10, "an element id"),
-                      small(field(line, 0, width), "a material"),
-                      small(field(line, width, width), "a type"),
-                      nodes_.size(),
-                      0,
-                      at_};
+      Element element{
+          number(10, "an element id"),
+          small(field(line, width, width), "a type"),
+          {small(field(line, 0, width), "a material"), small(field(line, 2 * width, width), "real constants"),
+           small(field(line, 3 * width, width), "a section"),
+           small(field(line, 4 * width, width), "a coordinate system")},
+          nodes_.size(),
+          0,
+          at_};
       if (element.id == 0) element.id = next_id;
       next_id = element.id + 1;
       const std::int64_t n = number(8, "a number of nodes");
@@ -216,15 +240,19 @@ class AnsysReader {
     for (const Element& element : elements_) {
       if (shape(element) != AnsysShape::hex) continue;
       if (!first) first = &element;
-      materials_differ = materials_differ || first->material != element.material;
+      materials_differ = materials_differ || first->columns[0] != element.columns[0];
       types_differ = types_differ || first->type != element.type;
     }
     const bool by_type = types_differ && !materials_differ;
+    std::set<int> types;
+    for (const Element& element : elements_)
+      if (shape(element) == AnsysShape::hex) types.insert(element.type);
+    say_types(types);
     for (const Element& element : elements_) {
       const std::span nodes = std::span(nodes_).subspan(element.first, element.n);
       switch (shape(element)) {
         case AnsysShape::hex:
-          hex(element, by_type ? element.type : element.material, nodes);
+          hex(element, by_type ? element.type : element.columns[0], nodes);
           break;
         case AnsysShape::tetrahedron:
           listing_.refuse(element.id, "tetrahedron", element.at);
@@ -240,6 +268,39 @@ class AnsysReader {
     }
     if (n_unnamed_ > 0)
       listing_.note("left out " + counted(n_unnamed_, "line") + " of EBLOCK without SOLID, which say no type");
+  }
+
+  /// Hexes are written as of one type, SOLID185 or SOLID186, without key options.
+  void say_types(const std::set<int>& of_hexes) {
+    std::set<std::string> others;
+    for (const int type : of_hexes)
+      if (const auto found = type_of_.find(type);
+          found != type_of_.end() && found->second != ansys_solid_8 && found->second != ansys_solid_20)
+        others.insert("SOLID" + std::to_string(found->second));
+    if (!others.empty())
+      listing_.note("hexes of type " + joined(std::vector(others.begin(), others.end()), ", ") +
+                    " are SOLID185 or SOLID186 when they are written");
+    if (of_hexes.size() > 1)
+      listing_.note("hexes of " + std::to_string(of_hexes.size()) + " types are of one when they are written");
+    std::erase_if(options_, [&](const auto& option) { return !of_hexes.contains(static_cast<int>(option.first)); });
+    if (!options_.empty())
+      listing_.note("key options of " + counted(std::ssize(options_), "type") +
+                    " of hexes left out (the first: " + std::string(options_.begin()->second) + ")");
+  }
+
+  /// What hexes have that is neither their block nor what they would be written with anyway.
+  void columns(Mesh& mesh) const {
+    std::vector<std::int64_t> ids;
+    std::array<std::vector<int>, 4> numbers;
+    for (const Element& element : elements_) {
+      if (shape(element) != AnsysShape::hex) continue;
+      ids.push_back(element.id);
+      for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].push_back(element.columns[i]);
+    }
+    const AnsysMaterials materials = ansys_materials(mesh);
+    add_hex_numbers(mesh, ansys_columns[0], ids, numbers[0], [&](Index h) { return materials.of_hex[h]; });
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+      add_hex_numbers(mesh, ansys_columns[i], ids, numbers[i], [&](Index) { return i < 3 ? 1 : 0; });
   }
 
   /// Of a type that was not defined, by the number of nodes.
@@ -269,6 +330,9 @@ class AnsysReader {
       cursor_.fail_at(at_, "component " + shown(word(1)) + " is neither of nodes nor of elements");
     const std::int64_t n = integer(word(3), "a number of members");
     const std::size_t size = cursor_.check_count(n, 1, "members of component " + group.name);
+    if (size == 0) {
+      if (n_empty_++ == 0) first_empty_ = group.name;
+    }
     const AnsysFormat fields = format("CMBLOCK");
     auto& members = of_nodes ? group.nodes : group.elements;
     auto& ranges = of_nodes ? group.node_ranges : group.element_ranges;
@@ -342,13 +406,15 @@ class AnsysReader {
   Listing listing_;
   const char* at_ = nullptr;
   std::vector<std::string_view> words_;
-  std::map<int, int> type_of_;  // SOLID185, by the number that elements name
+  std::map<int, int> type_of_;                        // SOLID185, by the number that elements name
+  std::map<std::int64_t, std::string_view> options_;  // the first that is not 0, by the same
   std::vector<Element> elements_;
   std::vector<std::int64_t> nodes_;
   std::vector<Component> names_;
   OwnName comment_;
-  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0;
-  std::string first_other_;
+  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0, n_empty_ = 0;
+  std::string first_other_, first_empty_;
+  Losses turned_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/ansys/ansys_internal.h"
 #include "hextwist/io/group_names.h"
+#include "hextwist/io/hex_numbers.h"
 
 namespace hextwist::io {
 namespace {
@@ -18,7 +19,9 @@ class AnsysWriter {
       : out_(out), mesh_(mesh), second_(options.second), notices_(notices) {}
 
   void write() {
-    say_no_fields(mesh_, "ANSYS' archive", notices_);
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      columns_[i] = hex_numbers(mesh_, ansys_columns[i], highest_ansys_id);
+    say_no_other_fields(mesh_, columns_, "ANSYS' archive", notices_);
     constexpr const char* limit = "has more than eight digits";
     node_ids_ = ids_in_file(mesh_.node_ids, "node", "nodes", highest_ansys_id, limit, notices_);
     hex_ids_ = ids_in_file(mesh_.hex_ids, "hex", "hexes", highest_ansys_id, limit, notices_);
@@ -58,36 +61,35 @@ class AnsysWriter {
     out_ << std::string(21 - std::min<std::size_t>(21, number.size()), ' ') << number;
   }
 
-  void element(int material, int type, std::int64_t id, std::span<const std::int64_t> nodes) {
-    const std::array<std::int64_t, 11> head = {material, type, 1, 1, 0, 0, 0, 0, std::ssize(nodes), 0, id};
+  /// columns: material, real constants, section, coordinate system.
+  void element(const std::array<std::int64_t, 4>& columns, int type, std::int64_t id,
+               std::span<const std::int64_t> nodes) {
+    const std::array<std::int64_t, 11> head = {columns[0], type, columns[1],        columns[2], columns[3], 0,
+                                               0,          0,    std::ssize(nodes), 0,          id};
     for (const std::int64_t number : head) out_ << Right{number, 9};
     for (std::size_t i = 0; i < nodes.size(); ++i) out_ << (i == 8 ? "\n" : "") << Right{nodes[i], 9};
     out_ << '\n';
   }
 
   void elements() {
-    std::vector<std::string> overlap;  // not told: components have all of a block
-    const std::vector<int> block_of_hex = first_block_of_hexes(mesh_, "", overlap);
-    const auto material = [&](Index h) {
-      return block_of_hex[h] < 0 ? 0 : mesh_.blocks[static_cast<std::size_t>(block_of_hex[h])].id;
-    };
-    int nobody = 0;
-    for (Index h = 0; h < mesh_.n_hexes(); ++h)
-      if (material(h) <= 0) nobody = std::max(1, free_id(mesh_.blocks));
+    const AnsysMaterials materials = ansys_materials(mesh_);
     for (const Block& block : mesh_.blocks)
       if (block.id > highest_ansys_id)
         throw Error("block id " + std::to_string(block.id) + " has more than eight digits");
-    if (nobody > highest_ansys_id) throw Error("all materials are taken, none is left for hexes outside of blocks");
-    if (nobody > 0 && !mesh_.blocks.empty())
-      notices_.push_back("hexes in no block, or in block 0, are of material " + std::to_string(nobody));
+    if (materials.nobody > highest_ansys_id)
+      throw Error("all materials are taken, none is left for hexes outside of blocks");
+    if (materials.nobody > 0 && !mesh_.blocks.empty() && !columns_[0])
+      notices_.push_back("hexes in no block, or in block 0, are of material " + std::to_string(materials.nobody));
     out_ << "EBLOCK,19,SOLID," << Right{last_hex_ + std::ssize(sides_), 10} << ','
          << Right{mesh_.n_hexes() + std::ssize(sides_), 10} << "\n(19i9)\n";
     std::array<std::int64_t, 20> nodes{};
     for (Index h = 0; h < mesh_.n_hexes(); ++h) {
       const FileHex hex = file_hex(mesh_, second_, h, ansys_middles);
       for (std::size_t i = 0; i < static_cast<std::size_t>(hex.n); ++i) nodes[i] = id_of(node_ids_, hex.nodes[i]);
-      element(material(h) > 0 ? material(h) : nobody, 1, id_of(hex_ids_, h),
-              std::span(nodes).first(static_cast<std::size_t>(hex.n)));
+      std::array<std::int64_t, 4> columns = {materials.of_hex[h], 1, 1, 0};
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        if (columns_[i]) columns[i] = static_cast<std::int64_t>(columns_[i]->values[h]);
+      element(columns, 1, id_of(hex_ids_, h), std::span(nodes).first(static_cast<std::size_t>(hex.n)));
     }
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const Quad q = face_node_cycle(mesh_.hexes[sides_[i].hex], sides_[i].face);
@@ -95,7 +97,7 @@ class AnsysWriter {
         nodes[c] = id_of(node_ids_, q[c]);
         if (second_) nodes[4 + c] = id_of(node_ids_, second_->middle_between(q[c], q[(c + 1) % 4]));
       }
-      element(1, 2, last_hex_ + 1 + static_cast<std::int64_t>(i), std::span(nodes).first(second_ ? 8 : 4));
+      element({1, 1, 1, 0}, 2, last_hex_ + 1 + static_cast<std::int64_t>(i), std::span(nodes).first(second_ ? 8 : 4));
     }
     out_ << "       -1\n";
   }
@@ -162,10 +164,21 @@ class AnsysWriter {
   std::span<const std::int64_t> node_ids_, hex_ids_;
   std::vector<Side> sides_;  // of all side sets, each once
   std::int64_t last_hex_ = 0;
-  std::set<std::string> names_;
+  std::set<std::string> names_ = {"ALL", "STAT", "DEFA"};  // those that CM does not permit are taken
+  std::array<const Field*, 4> columns_{};                  // as ansys_columns; null: as usual
 };
 
 }  // namespace
+
+AnsysMaterials ansys_materials(const Mesh& mesh) {
+  std::vector<std::string> overlap;  // not told: components have all of a block
+  AnsysMaterials result{first_block_of_hexes(mesh, "", overlap), 0};
+  for (int& block : result.of_hex) block = block < 0 ? 0 : mesh.blocks[static_cast<std::size_t>(block)].id;
+  if (std::ranges::find(result.of_hex, 0) == result.of_hex.end()) return result;
+  result.nobody = std::max(1, free_id(mesh.blocks));
+  std::ranges::replace(result.of_hex, 0, result.nobody);
+  return result;
+}
 
 void write_ansys(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
                  std::vector<std::string>& notices) {

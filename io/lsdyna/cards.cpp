@@ -10,6 +10,14 @@ std::size_t DynaCard::filled() const {
   return last;
 }
 
+bool DynaCard::any(std::size_t first, std::size_t last) const {
+  for (std::size_t i = first; i <= last && i < n; ++i) {
+    double value = 0;
+    if (!real_in_field(fields[i], value) || value != 0) return true;
+  }
+  return false;
+}
+
 const std::string& DynaCards::next_keyword() {
   keyword_.clear();
   while (cursor_.at < cursor_.end) {
@@ -68,7 +76,8 @@ bool DynaCards::next(DynaCard& card, const DynaWidths& widths) {
   while (card.n < widths.n && !line.empty()) {
     card.fields[card.n++] = trimmed(line.substr(0, width));
     line.remove_prefix(std::min(width, line.size()));
-    width = long_ ? 20 : ten_ ? std::max<std::size_t>(10, widths.others) : widths.others;
+    const std::size_t usual = card.n + widths.n_last < widths.n ? widths.others : widths.first;
+    width = long_ ? 20 : ten_ ? std::max<std::size_t>(10, usual) : usual;
   }
   return true;
 }

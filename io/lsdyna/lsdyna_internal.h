@@ -23,13 +23,15 @@ struct DynaCard {
   std::string_view operator[](std::size_t i) const { return i < n ? fields[i] : std::string_view(); }
   /// Fields up to the last that is not blank.
   std::size_t filled() const;
+  /// Is one of these fields something other than blank or 0?
+  bool any(std::size_t first, std::size_t last) const;
 };
 
-/// Widths of the fields of a card: the first, then all others up to `n`.
+/// Widths of the fields of a card: the first, then all others up to `n`, of which the last `n_last` are as the first.
 struct DynaWidths {
-  std::size_t first, others, n;
+  std::size_t first, others, n, n_last = 0;
 };
-inline constexpr DynaWidths dyna_node{8, 16, 4}, dyna_element{8, 8, 10}, dyna_set{10, 10, 8};
+inline constexpr DynaWidths dyna_node{8, 16, 6, 2}, dyna_element{8, 8, 10}, dyna_set{10, 10, 8};
 
 /// Keywords one by one, and the cards of the one at hand. Comments are skipped.
 class DynaCards {

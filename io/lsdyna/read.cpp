@@ -9,9 +9,13 @@ class DynaReader {
   explicit DynaReader(const Bytes& bytes) : cursor_(bytes), cards_(cursor_), listing_(cursor_) {}
 
   MeshFile result() {
+    skip_byte_order_mark(cursor_);
     bool ended = false;
     while (!ended && !cards_.next_keyword().empty()) ended = read(cards_.keyword());
     if (!ended) listing_.note(cursor_.where(cursor_.end) + ": there is no *END; the file may be cut short");
+    held_.tell(listing_, "constraints (TC, RC)", "node");
+    made_of_.tell(listing_, "sections, materials and the like (SECID 1 and MID 1 are written)", "part");
+    attributes_.tell(listing_, "attributes (A1 to A4, DA1 to DA4)", "set");
     if (n_other_ > 0)
       listing_.note(counted(n_other_, "other keyword") + " left out: *" + joined(others_, ", *") +
                     (others_.size() == most_named ? ", ..." : ""));
@@ -70,9 +74,11 @@ class DynaReader {
 
   void nodes() {
     DynaCard card;
-    while (cards_.next(card, dyna_node))
-      listing_.add_node(cards_.integer(card, 0, "a node id"),
-                        Vec3(cards_.real(card, 1), cards_.real(card, 2), cards_.real(card, 3)), card.at);
+    while (cards_.next(card, dyna_node)) {
+      const std::int64_t node = cards_.integer(card, 0, "a node id");
+      listing_.add_node(node, Vec3(cards_.real(card, 1), cards_.real(card, 2), cards_.real(card, 3)), card.at);
+      if (card.any(4, 5)) held_.add(node);
+    }
   }
 
   /// Of other elements of a kind that hexes may have to be.
@@ -170,7 +176,10 @@ class DynaReader {
     std::string title;
     DynaCard card;
     while (cards_.next_title(title) && cards_.next(card, dyna_set)) {
-      listing_.name_part(cards_.id(card, 0, "a part"), title);
+      const int number = cards_.id(card, 0, "a part");
+      listing_.name_part(number, title);
+      if ((card.any(1, 1) && card[1] != "1") || (card.any(2, 2) && card[2] != "1") || card.any(3, 7) || name != "PART")
+        made_of_.add(number);
       if (name != "PART") return;  // of others, cards follow that belong to it
     }
   }
@@ -194,7 +203,9 @@ class DynaReader {
     if (titled && !cards_.next_title(title)) return true;
     if (!cards_.next(card, dyna_set)) return true;
     Listing::Group& group = listing_.add_group(cards_.id(card, 0, "a set"), title);
+    bool attributed = !of_solids && card.any(1, 4);
     while (cards_.next(card, dyna_set)) {
+      attributed = attributed || (of_segments && card.any(4, 7)) || (column && card.any(1, 4));
       if (of_segments) {
         std::array<std::int64_t, 4> corners{};
         for (std::size_t i = 0; i < 4; ++i) corners[i] = cards_.integer(card, i, "a node");
@@ -213,6 +224,7 @@ class DynaReader {
           members.push_back(first);
       }
     }
+    if (attributed) attributes_.add(group.id);
     group.hexes_only = group.is_own = true;
     group.empty_node_set = of_nodes, group.empty_block = of_solids, group.empty_side_set = of_segments;
     return true;
@@ -223,6 +235,7 @@ class DynaReader {
   Listing listing_;
   bool ours_ = false;
   std::int64_t n_other_ = 0;
+  Losses held_, made_of_, attributes_;
   std::vector<std::string> others_;
 };
 

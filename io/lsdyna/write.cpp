@@ -1,5 +1,6 @@
 // LS-DYNA keyword files, .k: nodes with 16 characters of a coordinate, hexes by blocks as *PART, all sets. What a part
 // is made of and what happens to it is for others to add.
+#include "hextwist/io/group_names.h"
 #include "hextwist/io/lsdyna/lsdyna_internal.h"
 
 namespace hextwist::io {
@@ -10,8 +11,7 @@ constexpr std::int64_t highest_dyna_id = 99'999'999;  // eight characters
 /// A name on a line of its own, which no reader takes for a keyword or a comment.
 std::string dyna_title(const char* kind, int id, const std::string& name, std::vector<std::string>& notices) {
   std::string line = one_line(name);
-  line = std::string(trimmed(line)).substr(0, 70);
-  line = std::string(trimmed(line));
+  line = std::string(trimmed(first_letters(trimmed(line), 70)));
   if (line.starts_with('*') || line.starts_with('$')) line[0] = '_';
   say_renamed(std::string(kind) + " " + std::to_string(id), name, line, notices);
   return line;

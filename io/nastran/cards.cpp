@@ -43,36 +43,45 @@ NastranCards::Line NastranCards::split(std::string_view text) const {
       line.fields.emplace_back(trimmed(std::string_view(plain).substr(8 + i * width, width)));
   }
   // What follows the last data field is the mark of the continuation.
+  for (std::size_t i = n_fields; i < line.fields.size(); ++i)
+    if (!line.fields[i].empty()) line.behind += (line.behind.empty() ? "" : ",") + line.fields[i];
   line.fields.resize(n_fields);
   line.continues = is_continuation(line.name);
   return line;
 }
 
+void NastranCards::finish(const NastranCard& card, const std::string& behind) {
+  if (behind.empty() || behind[0] == '+' || behind[0] == '*') return;
+  if (overfull_.n++ == 0) overfull_ = {1, card.name, behind, card.at};
+}
+
 NastranCard NastranCards::next(const std::function<void(std::string_view, const char*)>& comment) {
   NastranCard card{"", {}, cursor_.at};
+  std::string behind;  // the last line of the card
   while (cursor_.at < cursor_.end) {
     const char* at = cursor_.at;
     const std::string_view text = cursor_.line();
-    if (trimmed(text).empty()) continue;
-    if (text[0] == '$') {
-      comment(text, at);
-      continue;
-    }
+    if (!text.empty() && text[0] == '$') comment(text, at);
+    if (trimmed(text.substr(0, text.find('$'))).empty()) continue;
     Line line = split(text);
     if (line.continues && !card.name.empty()) {
       card.fields.insert(card.fields.end(), line.fields.begin(), line.fields.end());
+      behind = line.behind;
       continue;
     }
     if (line.continues) continue;  // of a card that is not read
     if (!card.name.empty()) {
       cursor_.at = at;
+      finish(card, behind);
       return card;
     }
+    behind = line.behind;
     card = {line.name, std::move(line.fields), at};
     for (char& c : card.name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     while (card.name.ends_with('*')) card.name.pop_back();
     if (card.name.empty()) card.name = "?";
   }
+  finish(card, behind);
   return card;
 }
 

@@ -26,15 +26,26 @@ class NastranCards {
  public:
   explicit NastranCards(Cursor& cursor) : cursor_(cursor) {}
   NastranCard next(const std::function<void(std::string_view, const char*)>& comment);
+  /// Cards in free fields with something behind the last field, where only the mark of a continuation may stand, and no
+  /// continuation: how many, the first of them and what stands there.
+  struct Overfull {
+    std::int64_t n = 0;
+    std::string name, text;
+    const char* at = nullptr;
+  };
+  const Overfull& overfull() const { return overfull_; }
 
  private:
   struct Line {
     std::string name;
     std::vector<std::string> fields;
+    std::string behind;  ///< the mark of a continuation and what follows it, in free fields
     bool continues = false;
   };
   Line split(std::string_view text) const;
+  void finish(const NastranCard& card, const std::string& behind);
   Cursor& cursor_;
+  Overfull overfull_;
 };
 
 /// A number in so many characters, with a point, as near as it gets: "1.5-7".

@@ -18,6 +18,7 @@ class NastranReader {
   explicit NastranReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
+    skip_byte_order_mark(cursor_);
     to_bulk_data();
     NastranCards cards(cursor_);
     while (!ended_) {
@@ -29,6 +30,8 @@ class NastranReader {
     if (!ended_) listing_.note(cursor_.where(cursor_.end) + ": there is no ENDDATA; the file may be cut short");
     groups();
     listing_.set_format("nastran");
+    defaults();
+    left_out(cards.overfull());
     if (n_other_ > 0) listing_.note(counted(n_other_, "other card") + " left out (the first: " + first_other_ + ")");
     return listing_.result(true);
   }
@@ -37,12 +40,18 @@ class NastranReader {
   /// Behind the executive and case control sections, where the file has them.
   void to_bulk_data() {
     const char* start = cursor_.at;
+    std::int64_t n = 0;
+    std::string first;
     while (cursor_.at < cursor_.end) {
-      const std::string line = lower_case(trimmed(cursor_.line()));
+      const std::string_view text = trimmed(cursor_.line());
+      const std::string line = lower_case(text);
       if (line.starts_with("begin") && line.find("bulk") != std::string::npos) {
         had_bulk_ = true;
+        if (n > 0)
+          listing_.note(counted(n, "line") + " of executive and case control left out (the first: " + first + ")");
         return;
       }
+      if (!line.empty() && line[0] != '$' && n++ == 0) first = shown(text);
     }
     cursor_.at = start;
   }
@@ -83,16 +92,65 @@ class NastranReader {
       cursor_.fail_at(card.at, "INCLUDE is not supported: nodes or elements would be missing");
     if (std::ranges::find(dropped, card.name) != std::end(dropped))
       return listing_.drop(integer(card, 0, "an element id"), card.name);
-    if (card.name == "PSOLID") return;  // their names are comments, as all of the kind
+    if (card.name == "GRDSET") {
+      defaults_ = card;
+      return;
+    }
+    if (card.name == "PSOLID") return solid(card);
     if (n_other_++ == 0) first_other_ = card.name;
   }
 
   void grid(const NastranCard& card) {
     const std::int64_t node = integer(card, 0, "a node id");
-    if (const std::int64_t system = integer(card, 1, "a coordinate system", true); system != 0)
-      cursor_.fail_at(card.at, "node " + std::to_string(node) + " is in coordinate system " + std::to_string(system) +
-                                   "; only the basic one (0) is read");
+    if (card[1].empty() && !without_system_.at)
+      without_system_ = {node, card.at};
+    else if (const std::int64_t system = integer(card, 1, "a coordinate system", true); system != 0)
+      refuse_system(node, system, card.at, "");
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (card[5 + i].empty())
+        blank_[i].add(node);
+      else if (says_something(card[5 + i]))
+        lost_[i].add(node);
+    }
     listing_.add_node(node, Vec3(real(card, 2), real(card, 3), real(card, 4)), card.at);
+  }
+  static bool says_something(const std::string& field) { return field.find_first_not_of('0') != std::string::npos; }
+  [[noreturn]] void refuse_system(std::int64_t node, std::int64_t system, const char* at,
+                                  const std::string& why) const {
+    cursor_.fail_at(at, "node " + std::to_string(node) + " is in coordinate system " + std::to_string(system) + why +
+                            "; only the basic one (0) is read");
+  }
+
+  /// What blank fields of nodes are, and what is left out of what nodes say.
+  void defaults() {
+    if (const std::int64_t system = integer(defaults_, 1, "a coordinate system", true); system != 0)
+      if (without_system_.at) refuse_system(without_system_.node, system, without_system_.at, " by GRDSET");
+    constexpr std::array what = {"coordinate systems of displacements (CD)", "constraints (PS)",
+                                 "superelements (SEID)"};
+    for (std::size_t i = 0; i < what.size(); ++i) {
+      if (says_something(defaults_[5 + i])) lost_[i].add(blank_[i]);
+      lost_[i].tell(listing_, what[i], "node");
+    }
+    const auto tell = [&](std::int64_t n, const char* kind, const std::string& first, const char* why) {
+      if (n > 0) listing_.note(counted(n, kind) + " " + why + " (the first: " + first + ")");
+    };
+    tell(n_pressures_, "PLOAD4", first_pressure_,
+         "with another pressure than 1 all over: the sides are kept, not the pressure");
+    tell(n_solids_, "PSOLID", first_solid_, "with another material than 1, or more: the properties are kept alone");
+  }
+
+  /// Its name is a comment, as all of the kind.
+  void solid(const NastranCard& card) {
+    bool usual = card[1] == "1";
+    for (std::size_t i = 2; i < card.fields.size(); ++i) usual = usual && !says_something(card[i]);
+    if (!usual && n_solids_++ == 0) first_solid_ = card[0];
+  }
+
+  void left_out(const NastranCards::Overfull& overfull) {
+    if (overfull.n == 0) return;
+    listing_.note(cursor_.where(overfull.at) + ": " + overfull.name + " has " + shown(overfull.text) +
+                  " behind its last field, where the mark of a continuation stands, and none follows: left out" +
+                  (overfull.n > 1 ? " (the first of " + std::to_string(overfull.n) + " such cards)" : ""));
   }
 
   void hex(const NastranCard& card) {
@@ -139,6 +197,11 @@ class NastranReader {
       if (n_other_++ == 0) first_other_ = card.name;
       return;
     }
+    bool usual = real(card, 2) == 1;
+    for (std::size_t i = 3; i < card.fields.size(); ++i)
+      if (i < 6 ? !card[i].empty() && real(card, i) != 1 : i > 7 && says_something(card[i])) usual = false;
+    if (!usual && n_pressures_++ == 0)
+      first_pressure_ = "set " + card[0] + ", element " + card[1] + ", " + shown(card[2]);
     side_sets_[id(card, 0, "a set")].push_back(
         {integer(card, 1, "an element"), {integer(card, 6, "a node"), integer(card, 7, "a node")}});
   }
@@ -219,7 +282,14 @@ class NastranReader {
   std::map<std::pair<std::string, int>, std::string> names_;
   std::set<int> parts_of_hexes_;
   std::map<std::int64_t, int> block_of_other_;  // of elements without a property, by our comments
-  std::int64_t n_other_ = 0;
+  std::int64_t n_other_ = 0, n_pressures_ = 0, n_solids_ = 0;
+  std::string first_pressure_, first_solid_;
+  NastranCard defaults_{"GRDSET", {}, nullptr};
+  struct {
+    std::int64_t node = 0;
+    const char* at = nullptr;
+  } without_system_;                    // the first node that leaves it to GRDSET
+  std::array<Losses, 3> lost_, blank_;  // of CD, PS, SEID
   std::string first_other_;
   bool ended_ = false, had_bulk_ = false;
 };

@@ -22,6 +22,9 @@ inline constexpr std::pair<int, const char*> unv_refused[] = {{114, "wedge"},
                                                               {105, "thick shell brick"},
                                                               {106, "thick shell brick"}};
 
+/// Fields of hexes that have the numbers of their physical property and material (io/hex_numbers.h).
+inline constexpr const char *unv_property = "property", *unv_material = "material";
+
 /// Elements beside the hexes: descriptor, shape, nodes; place: of node i of the file among those here (go round:
 /// corner, middle, corner, ...).
 struct UnvOther {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "hextwist/io/group_names.h"
+#include "hextwist/io/hex_numbers.h"
 #include "hextwist/io/listing.h"
 #include "hextwist/io/others.h"
 #include "hextwist/io/unv/unv_internal.h"
@@ -126,8 +127,10 @@ std::vector<std::uint8_t> write_unv_others(Output& out, const Mesh& mesh, std::s
 
 void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOptions& options,
                std::vector<std::string>& notices) {
-  say_no_fields(mesh, "I-deas' universal format", notices);
   constexpr std::int64_t highest_id = 999'999'999;  // with a blank before it
+  const std::array<const Field*, 2> columns = {hex_numbers(mesh, unv_property, highest_id),
+                                               hex_numbers(mesh, unv_material, highest_id)};
+  say_no_other_fields(mesh, columns, "I-deas' universal format", notices);
   constexpr const char* limit = "has more than nine digits";
   const auto node_ids = ids_in_file(mesh.node_ids, "node", "nodes", highest_id, limit, notices);
   const auto hex_ids = ids_in_file(mesh.hex_ids, "hex", "hexes", highest_id, limit, notices);
@@ -140,8 +143,11 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
     out << '\n';
   }
   out << "    -1\n    -1\n  2412\n";
-  const auto element = [&](std::int64_t id, int kind, std::span<const std::int64_t> nodes) {
-    out << field(id) << field(kind) << field(1) << field(1) << field(7) << field(std::ssize(nodes)) << '\n';
+  const auto element = [&](std::int64_t id, int kind, Index hex, std::span<const std::int64_t> nodes) {
+    out << field(id) << field(kind);
+    for (const Field* column : columns)
+      out << field(hex >= 0 && column ? static_cast<std::int64_t>(column->values[hex]) : 1);
+    out << field(7) << field(std::ssize(nodes)) << '\n';
     for (std::size_t i = 0; i < nodes.size(); ++i)
       out << field(nodes[i]) << (i % 8 == 7 || i + 1 == nodes.size() ? "\n" : "");
   };
@@ -150,7 +156,7 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
     std::array<std::int64_t, 27> nodes{};
     const auto n = static_cast<std::size_t>(hex.n);
     for (std::size_t i = 0; i < n; ++i) nodes[i] = id_of(node_ids, hex.nodes[second ? unv_place[i] : i]);
-    element(id_of(hex_ids, h), second ? unv_hex_20 : unv_hex, std::span(nodes).first(n));
+    element(id_of(hex_ids, h), second ? unv_hex_20 : unv_hex, h, std::span(nodes).first(n));
   }
   // Quads follow the hexes, each once.
   std::vector<Side> sides;
@@ -167,7 +173,7 @@ void write_unv(Output& out, const Mesh& mesh, const Association&, const WriteOpt
       nodes.push_back(id_of(node_ids, q[c]));
       if (second) nodes.push_back(id_of(node_ids, second->middle_between(q[c], q[(c + 1) % 4])));
     }
-    element(before + 1 + static_cast<std::int64_t>(i), second ? unv_quad_8 : unv_quad, nodes);
+    element(before + 1 + static_cast<std::int64_t>(i), second ? unv_quad_8 : unv_quad, -1, nodes);
   }
   const std::vector<std::uint8_t> is_written = write_unv_others(out, mesh, node_ids, other_ids, notices);
   out << "    -1\n    -1\n  2467\n";

@@ -37,7 +37,10 @@ TEST(ansys_files, of_other_programs_are_understood) {
   EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{3, "", {0}}}));
   EXPECT_EQ(read.mesh.node_sets, (std::vector<NodeSet>{{1, "SOME_NODES", {0, 1, 2, 6, 7}}}));
   EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{2, "FRONT", {{0, 2}}}}));
-  EXPECT_EQ(read.notices, (std::vector<std::string>{"2 other commands left out (the first: MPTEMP)"}));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{
+                "2 other commands left out (the first: MPTEMP)",
+                "directions of degrees of freedom (rotations in NBLOCK) of 1 node left out; the first is 6"}));
   // Types as a block, fields of ten characters, numbers of elements left out.
   std::string text = ansys_cube;
   text.replace(text.find("ET,1"), 23,
@@ -89,6 +92,56 @@ TEST(ansys_files, what_is_wrong_is_said_with_its_line) {
   says("NBLOCK,6,SOLID\n(3i8,6e16.9)\n       9       0       0 1.0000000x0E+00\n",
        ":18: node 9 has '1.0000000x0E+00' where a coordinate should stand");
   says("/INPUT,more,cdb\n", ":16: /INPUT is not followed: nodes or elements would be missing");
+}
+
+TEST(ansys_files, names_that_cm_does_not_permit_are_not_written) {
+  const auto file = test::output_folder() / "a.cdb";
+  Mesh mesh = test::grid(1, 1, 1);
+  mesh.blocks = {{1, "all", {0}}, {2, "ALL_1", {0}}};
+  mesh.node_sets = {{3, "Stat", {0}}, {4, "DEFA", {1}}, {5, "DEFAULT", {2}}};
+  const auto notices = write_mesh(file, mesh, nullptr);
+  EXPECT_TRUE(test::told(notices, "block 1 'all' is called 'ALL_1' in the file"));
+  EXPECT_TRUE(test::told(notices, "nodeset 3 'Stat' is called 'STAT_3' in the file"));
+  EXPECT_TRUE(test::told(notices, "nodeset 4 'DEFA' is called 'DEFA_4' in the file"));
+  std::set<std::string> names;
+  std::istringstream lines(test::text_of(file));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("CMBLOCK,")) {
+      EXPECT_TRUE(names.insert(line.substr(8, line.find(',', 8) - 8)).second) << line;
+    }
+  EXPECT_EQ(names, (std::set<std::string>{"ALL_1", "ALL_1_2", "STAT_3", "DEFA_4", "DEFAULT"}));
+  EXPECT_TRUE(test::same_mesh(read_mesh(file).mesh, mesh));
+}
+
+TEST(ansys_files, types_and_key_options_that_become_others_are_told) {
+  const auto folder = test::output_folder();
+  const auto notices = [&](const std::string& types, const std::string& second = "") {
+    std::string text = ansys_cube;
+    text.replace(text.find("ET,1"), 23, types);
+    return read_mesh(test::write_text(folder / "a.cdb",
+                                      text + "EBLOCK,19,SOLID\n(19i7)\n" + ansys_hex + second + "     -1\n"))
+        .notices;
+  };
+  const std::string turned =
+      "directions of degrees of freedom (rotations in NBLOCK) of 1 node left out; the first is 6";
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(notices("ET,1,186\nKEYOP,1,2,0\nET,2,154\nKEYOPT,2,4,1\n"), (Lines{turned}));
+  EXPECT_EQ(notices("ET,1,45\nKEYOP, 1, 2, 1\nKEYOP,1,3,1\n"),
+            (Lines{"hexes of type SOLID45 are SOLID185 or SOLID186 when they are written",
+                   "key options of 1 type of hexes left out (the first: KEYOP, 1, 2, 1)", turned}));
+  std::string second = ansys_hex;
+  second.replace(second.find("      1      1"), 7, "      2").replace(second.find("     10"), 7, "     11");
+  EXPECT_EQ(notices("ET,1,185\nET,2,185\n", second),
+            (Lines{"hexes of 2 types are of one when they are written", turned}));
+}
+
+TEST(ansys_files, empty_components_are_told) {
+  const MeshFile read = read_mesh(test::write_text(
+      test::output_folder() / "a.cdb", std::string(ansys_cube) + "EBLOCK,19,SOLID\n(19i7)\n" + ansys_hex +
+                                           "     -1\nCMBLOCK,CEM,ELEM,       0\n(8i10)\nCMBLOCK,CN,NODE,       1\n"
+                                           "(8i10)\n         1\nCMBLOCK,B,NODE,       0\n(8i10)\nFINISH\n"));
+  EXPECT_TRUE(test::told(read.notices, "2 empty components left out (the first: CEM)"));
+  EXPECT_EQ(test::names_and_members(read.mesh.node_sets), (std::set<std::string>{"CN:0"}));
 }
 
 TEST(ansys_files, what_can_not_be_kept_is_told) {

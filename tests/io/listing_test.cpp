@@ -166,7 +166,13 @@ TEST(listed_files, nastran_is_understood_in_small_large_and_free_fields) {
   EXPECT_EQ(read.mesh.node_sets, (std::vector<NodeSet>{{3, "", {0, 1, 2, 3, 5}}}));
   EXPECT_EQ(read.mesh.side_sets, (std::vector<SideSet>{{5, "", {{0, 4}}}}));
   EXPECT_EQ(others_text(read.mesh), "1 line (CBAR), 1 quad (CQUAD4)");
-  EXPECT_EQ(read.notices, (std::vector<std::string>{"1 other card left out (the first: MAT1)"}));
+  EXPECT_EQ(
+      read.notices,
+      (std::vector<std::string>{
+          "3 lines of executive and case control left out (the first: 'SOL 101')",
+          "1 PLOAD4 with another pressure than 1 all over: the sides are kept, not the pressure (the first: set 5, "
+          "element 10, '2.')",
+          "1 other card left out (the first: MAT1)"}));
 }
 
 TEST(listed_files, what_is_wrong_is_said_with_its_line) {

@@ -51,7 +51,8 @@ TEST(lsdyna_files, cards_of_all_widths_and_layouts_are_understood) {
               (std::vector<SideSet>{{2, "below", {{0, 4}}}, {6, "", {{0, 5}}}, {9, "", {{0, 2}}}}));
     EXPECT_TRUE(test::told(read.notices, "2 other keywords left out: *MAT_ELASTIC, *ELEMENT_BEAM"));
     EXPECT_TRUE(test::told(read.notices, "dropped 1 element of type *ELEMENT_SHELL with three corners"));
-    EXPECT_EQ(read.notices.size(), element.find("ORTHO") == std::string::npos ? 2U : 3U);
+    EXPECT_TRUE(test::told(read.notices, "attributes (A1 to A4, DA1 to DA4) of 1 set left out; the first is 5"));
+    EXPECT_EQ(read.notices.size(), element.find("ORTHO") == std::string::npos ? 3U : 4U);
   }
 }
 
@@ -83,6 +84,50 @@ TEST(lsdyna_files, long_files_and_ten_columns_are_said_once) {
   const Mesh back = read_mesh(folder / "a.k").mesh;
   EXPECT_TRUE(test::same_mesh(back, read_mesh(test::write_text(folder / "wide.k", wide)).mesh));
   EXPECT_TRUE(test::same_mesh(back, read_mesh(test::write_text(folder / "ten.key", ten)).mesh));
+}
+
+TEST(lsdyna_files, constraints_attributes_and_materials_are_told) {
+  const auto folder = test::output_folder();
+  const auto notices = [&](const std::string& text, const std::string& nodes = dyna_cube) {
+    const MeshFile read =
+        read_mesh(test::write_text(folder / "a.k", nodes + "*ELEMENT_SOLID\n10,7,1,2,3,4,5,6,7,8\n" + text + "*END\n"));
+    EXPECT_DOUBLE_EQ(volume(read.mesh), 1);
+    return read.notices;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(notices("*PART\np\n7,1,1\n*PART\nq\n8\n"), Lines());
+  EXPECT_EQ(
+      notices("*PART\np\n         7         4         9\n*PART\nq\n3,1,1,0,0,0,1\n*PART_INERTIA\nr\n8,1,1\n0,0,0\n"),
+      (Lines{"sections, materials and the like (SECID 1 and MID 1 are written) of 3 parts left out; the first is "
+             "3"}));
+  EXPECT_EQ(notices("*SET_SEGMENT\n3\n         1         2         3         4       5.0       6.0\n"
+                    "*SET_SEGMENT\n2,0,0,0,0,MECH\n5,6,7,8\n*SET_NODE_LIST\n4,0.,2.5\n1,2\n*SET_SOLID\n5,MECH\n10\n"),
+            (Lines{"attributes (A1 to A4, DA1 to DA4) of 2 sets left out; the first is 3"}));
+  // Of nodes in fields of all widths.
+  std::string small = "*KEYWORD\n*NODE\n", ten = "*KEYWORD I10=Y\n*NODE\n", wide = "*KEYWORD LONG=Y\n*NODE\n",
+              free = "*KEYWORD\n*NODE\n", none = small;
+  const auto field = [](const std::string& text, std::size_t width) {
+    return std::string(width - text.size(), ' ') + text;
+  };
+  constexpr std::array<const char*, 8> points = {"0,0,0", "1,0,0", "1,1,0", "0,1,0",
+                                                 "0,0,1", "1,0,1", "1,1,1", "0,1,1"};
+  for (std::size_t n = 0; n < 8; ++n) {
+    const std::string id = std::to_string(n + 1), tc = n == 2 ? "7" : "0", rc = n == 5 ? "3" : "0", p = points[n];
+    const auto line = [&](std::size_t a, std::size_t b, const std::string& t, const std::string& r) {
+      return field(id, a) + field(p.substr(0, 1), b) + field(p.substr(2, 1), b) + field(p.substr(4, 1), b) +
+             field(t, a) + field(r, a) + "\n";
+    };
+    small += line(8, 16, tc, rc), ten += line(10, 16, tc, rc), wide += line(20, 20, tc, rc);
+    free += id + "," + p + "," + tc + "," + rc + "\n", none += line(8, 16, "0", "");
+  }
+  for (const std::string& nodes : {small, free})
+    EXPECT_EQ(notices("", nodes), (Lines{"constraints (TC, RC) of 2 nodes left out; the first is 3"}));
+  EXPECT_EQ(notices("", none), Lines());
+  for (const std::string& nodes : {ten, wide}) {
+    const MeshFile read =
+        read_mesh(test::write_text(folder / "b.k", nodes + "*ELEMENT_SOLID\n10,7,1,2,3,4,5,6,7,8\n*END\n"));
+    EXPECT_EQ(read.notices, (Lines{"constraints (TC, RC) of 2 nodes left out; the first is 3"}));
+  }
 }
 
 TEST(lsdyna_files, what_is_wrong_is_said_with_its_line) {
