@@ -40,8 +40,10 @@ class VtkAssembly {
   VtkAssembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
 
   MeshFile result() {
+    out_.notices = std::move(in_.notices);
     cells();
     ours();
+    file_data();
     if (made_.empty()) {
       groups();
       global_ids();
@@ -517,6 +519,17 @@ class VtkAssembly {
       }
       break;
     }
+  }
+
+  /// Field data of others is of the whole file, which a mesh has no place for.
+  void file_data() {
+    std::vector<std::string> names;
+    for (const VtkArray& array : in_.arrays)
+      if (array.on == VtkArray::On::file && !array.name.starts_with("hextwist:"))
+        names.push_back("'" + array.name + "'");
+    if (!names.empty())
+      out_.notices.push_back("left out " + counted(std::ssize(names), "array") + " of field data, which " +
+                             (names.size() == 1 ? "is" : "are") + " of the whole file: " + joined(names, ", "));
   }
 
   void fields() {

@@ -116,6 +116,7 @@ struct VtkContents {
   VtkArray ends;  ///< per cell: the end of its nodes in `connectivity`; integers, not checked
   VtkArray types;
   std::vector<VtkArray> arrays;
+  std::vector<std::string> notices;  ///< on what was left out
   /// Files before XML 2.1 and legacy 5.1 have the last two middle nodes of edges of Lagrange hexes the other way round.
   bool old_lagrange = false;
 };
