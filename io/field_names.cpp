@@ -1,8 +1,11 @@
 #include "hextwist/io/field_names.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
+#include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
 
@@ -38,6 +41,17 @@ std::string distinct_field_name(const std::string& name, const std::string& fitt
   }
   say_renamed("field", name, result, notices);
   return result;
+}
+
+void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  if (!mesh.others) return;
+  std::vector<std::string> names;
+  for (const OtherField& field : mesh.others->heads->fields)
+    if (!field.is_attribute && std::ranges::any_of(field.values, [](double x) { return !std::isnan(x); }))
+      names.push_back("'" + field.name + "'");
+  if (!names.empty())
+    notices.push_back("values of " + counted(std::ssize(names), "field") + " on other elements are left out, which " +
+                      format + " files have no place for here: " + joined(names, ", "));
 }
 
 }  // namespace hextwist::io

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hextwist/mesh/mesh.h"
+
 namespace hextwist::io {
 
 /// At most n bytes from the beginning of a text, which ends between two characters of UTF-8.
@@ -23,5 +25,8 @@ std::string link_name(std::string_view name);
 std::string distinct_field_name(const std::string& name, const std::string& fitted, std::size_t longest,
                                 const std::function<bool(const std::string&)>& is_free,
                                 std::vector<std::string>& notices);
+
+/// Tells which fields have values on other elements that are written without them. format: "MED".
+void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
 
 }  // namespace hextwist::io

@@ -501,8 +501,9 @@ class ExodusReader {
         field.values.resize(out_.mesh.points.size());
         const int status = ex_get_var(file_.id, step, type, v, 1, init_.num_nodes, field.values.data());
         check(status, "field " + field.name);
-        if (status != EX_NOERR) {  // the library's warning
-          out_.notices.push_back("field '" + field.name + "' is named in the file, which has no values of it: left out");
+        if (status != 0) {  // the library's warning
+          out_.notices.push_back("field '" + field.name +
+                                 "' is named in the file, which has no values of it: left out");
           continue;
         }
         nodes_.sort(field.values);

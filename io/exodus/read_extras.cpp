@@ -170,7 +170,7 @@ class ExtrasReader {
       at_all_times(values, mesh_.points.size(), [&](int step, Values& at) {
         const int status = ex_get_var(in_.file, step, EX_NODAL, static_cast<int>(v) + 1, 1, std::ssize(at), at.data());
         check(status, "variable " + nodal[v]);
-        there = there && status == EX_NOERR;  // else the library's warning: it is named only
+        there = there && status == 0;  // else the library's warning: it is named only
         in_.nodes.sort(at);
       });
       if (there) out_.on_nodes.push_back(std::move(values));

@@ -43,7 +43,7 @@ class VtkAssembly {
     out_.notices = std::move(in_.notices);
     cells();
     ours();
-    file_data();
+    say_file_arrays(in_.arrays, out_.notices);
     if (made_.empty()) {
       groups();
       global_ids();
@@ -519,17 +519,6 @@ class VtkAssembly {
       }
       break;
     }
-  }
-
-  /// Field data of others is of the whole file, which a mesh has no place for.
-  void file_data() {
-    std::vector<std::string> names;
-    for (const VtkArray& array : in_.arrays)
-      if (array.on == VtkArray::On::file && !array.name.starts_with("hextwist:"))
-        names.push_back("'" + array.name + "'");
-    if (!names.empty())
-      out_.notices.push_back("left out " + counted(std::ssize(names), "array") + " of field data, which " +
-                             (names.size() == 1 ? "is" : "are") + " of the whole file: " + joined(names, ", "));
   }
 
   void fields() {

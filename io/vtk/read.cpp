@@ -48,8 +48,7 @@ class LegacyReader {
 
   /// Values of an array, in the file's mode.
   void values(std::string_view type, std::size_t n, VtkArray& to) {
-    if (same_word(type, "bit"))
-      cursor_.fail("arrays of type " + std::string(type) + " are not supported");
+    if (same_word(type, "bit")) cursor_.fail("arrays of type " + std::string(type) + " are not supported");
     const VtkType number = same_word(type, "vtkIdType") && !cursor_.binary ? VtkType::int64 : vtk_type(type, cursor_);
     cursor_.binary ? read_vtk_values(cursor_, number, n, to) : read_vtk_text(cursor_, number, n, to);
   }

@@ -129,6 +129,9 @@ int vtk_type_of(OtherShape shape, std::size_t n_nodes);
 /// The other way round. Pixels are quads with their last two nodes exchanged.
 std::optional<OtherType> vtk_other(std::int64_t type, std::size_t n_nodes);
 
+/// Field data of others is of the whole file, which a mesh has no place for.
+void say_file_arrays(std::span<const VtkArray> arrays, std::vector<std::string>& notices);
+
 /// Points from their array. Throws at coordinates that are not finite.
 std::vector<Vec3> vtk_points(const VtkArray& array, const Cursor& cursor);
 MeshFile assemble_vtk(VtkContents&& contents, const Cursor& cursor);
