@@ -282,7 +282,7 @@ MeshFile read_gmsh(const Bytes& bytes) {
     const std::string_view rest(cursor.at, cursor.left());
     const auto before = seen.find(name);
     const bool is_repeated = before != seen.end() && rest.starts_with(before->second);
-    if (is_repeated && (name == "MeshFormat" || again)) {
+    if (is_repeated && (again || (name == "MeshFormat" && nodes && elements))) {
       again = true;
       cursor.at += before->second.size();
     } else if (name == "MeshFormat") {

@@ -91,7 +91,7 @@ std::optional<PathStep> path_step(std::string_view text) {
 }
 
 /// Elements inside of one that a step names are added.
-void take_step(const XmlElement& from, const PathStep& step, std::vector<const XmlElement*>& to) {
+void add_inside(const XmlElement& from, const PathStep& step, std::vector<const XmlElement*>& to) {
   std::int64_t n = 0;
   for (const XmlElement& child : from.inside)
     if ((step.name == "*" || child.tag.name == step.name) &&
@@ -119,9 +119,9 @@ std::optional<std::vector<const XmlElement*>> at_pointer(const XmlElement& root,
     if (first) {
       if (step->name == root.tag.name && step->attribute.empty() && step->kinds.empty() && step->number <= 1)
         next.push_back(&root);
-      if (anywhere) each_element(root, [&](const XmlElement& element) { take_step(element, *step, next); });
+      if (anywhere) each_element(root, [&](const XmlElement& element) { add_inside(element, *step, next); });
     } else {
-      for (const XmlElement* element : at) take_step(*element, *step, next);
+      for (const XmlElement* element : at) add_inside(*element, *step, next);
     }
     at = std::move(next);
     first = false;
