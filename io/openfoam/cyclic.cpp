@@ -1,5 +1,6 @@
 // Cyclic patches: OpenFOAM takes face i of one for the image of face i of the other, first corner for first corner, and
 // the others the other way round, since both turn out of the mesh.
+#include <Eigen/Geometry>
 #include <charconv>
 #include <sstream>
 
@@ -42,7 +43,9 @@ std::string vector_text(const Vec3& value) {
   std::string text = "(";
   for (const double x : value) {
     std::array<char, 32> digits;
-    text += " " + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr);
+    const double not_minus_zero = x + 0.0;
+    text += " " +
+            std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), not_minus_zero).ptr);
   }
   return text + " )";
 }
@@ -100,15 +103,25 @@ std::string order_like(const Mesh& mesh, const FoamPatch& a, FoamPatch& b, Perio
 }
 
 /// What the entries say of how one lies to the other.
-std::string fit_transform(const PeriodicPair& pair, FoamPatch& patch, double sign, std::vector<std::string>& notices) {
+std::string fit_transform(const Mesh& mesh, const PeriodicPair& pair, FoamPatch& patch, double sign,
+                          std::vector<std::string>& notices) {
   const bool turned = !pair.turn.isIdentity();
   const std::string_view transform = entry_of(patch.entries, "transform");
   if (turned && transform != "rotational") return "one is the other turned, and their transform is not rotational";
   if (!turned && transform == "rotational") return "one is the other moved, and their transform is rotational";
-  Vec3 said;
-  const Vec3 shift = sign * pair.shift;
-  if (turned || !vector_in(entry_of(patch.entries, "separationVector"), said)) return {};
   constexpr double relative = 1e-6;
+  Vec3 said;
+  if (turned) {
+    const Vec3 axis = Eigen::AngleAxisd(pair.turn).axis();
+    if (vector_in(entry_of(patch.entries, "rotationAxis"), said) && said.cross(axis).norm() > relative * said.norm())
+      return "one is the other turned about another axis than their rotationAxis";
+    if (vector_in(entry_of(patch.entries, "rotationCentre"), said) &&
+        (pair.image(said) - said).norm() > periodic_tolerance(mesh))
+      return "one is the other turned about another place than their rotationCentre";
+    return {};
+  }
+  const Vec3 shift = sign * pair.shift;
+  if (!vector_in(entry_of(patch.entries, "separationVector"), said)) return {};
   if ((said - shift).norm() <= relative * shift.norm()) return {};
   set_entry(patch.entries, "separationVector", vector_text(shift));
   notices.push_back("separationVector of patch '" + patch.name + "' is " + vector_text(shift) +
@@ -139,8 +152,8 @@ void order_cyclic_patches(const Mesh& mesh, std::vector<FoamPatch>& patches, std
     }
     done.push_back(other);
     why = order_like(mesh, patch, *other, pair);
-    if (why.empty() && !patch.faces.empty()) why = fit_transform(pair, patch, 1, notices);
-    if (why.empty() && !patch.faces.empty()) why = fit_transform(pair, *other, -1, notices);
+    if (why.empty() && !patch.faces.empty()) why = fit_transform(mesh, pair, patch, 1, notices);
+    if (why.empty() && !patch.faces.empty()) why = fit_transform(mesh, pair, *other, -1, notices);
     if (why.empty()) continue;
     notices.push_back("patches '" + patch.name + "' and '" + other->name +
                       "' are ordinary ones (type patch) in the file, not cyclic: " + why);

@@ -169,15 +169,26 @@ TEST(openfoam, cyclic_patches_that_do_not_repeat_are_ordinary_and_told) {
   expect_ordinary("fewer", fewer, "there are 3 faces on one and 4 on the other");
   expect_ordinary("rotational", cyclic(test::grid(3, 2, 2), "transform rotational;rotationAxis ( 0 0 1 );"),
                   "one is the other moved, and their transform is rotational");
+  for (const auto& [more, why] : std::map<std::string, std::string>{
+           {"transform translational;", "one is the other turned, and their transform is not rotational"},
+           {"transform rotational;rotationAxis ( 0 1 0 );",
+            "one is the other turned about another axis than their rotationAxis"},
+           {"transform rotational;rotationAxis ( 0 0 2 );rotationCentre ( 1 0 0 );",
+            "one is the other turned about another place than their rotationCentre"}}) {
+    Cyclic turned = cyclic(test::grid(3, 2, 2), more, more);
+    for (Vec3& p : turned.mesh.points) p = Eigen::AngleAxisd(-0.25 * p.x(), Vec3::UnitZ()) * Vec3(0, 4 + p.y(), p.z());
+    expect_ordinary("turned", turned, why);
+  }
   Cyclic alone = cyclic(test::grid(3, 2, 2));
   alone.mesh.side_sets[1].name = "new";
   EXPECT_TRUE(
       test::told(written(alone, folder / "case.foam"), "patch 'left' is an ordinary one (type patch) in the file"));
   EXPECT_EQ(boundary_of(folder / "case.foam").find("cyclic"), std::string::npos);
-  const Cyclic other = cyclic(test::grid(3, 2, 2), "transform translational;separationVector ( 1 0 0 );");
+  const Cyclic other = cyclic(test::grid(3, 2, 2), "separationVector ( 1 0 0 );", "separationVector ( 3 0 0 );");
   EXPECT_TRUE(test::told(written(other, folder / "case.foam"),
                          "separationVector of patch 'left' is ( 3 0 0 ) in the file, as it lies to its neighbour"));
-  EXPECT_NE(boundary_of(folder / "case.foam").find("separationVector ( 3 0 0 );"), std::string::npos);
+  for (const char* vector : {"separationVector ( 3 0 0 );", "separationVector ( -3 0 0 );"})
+    EXPECT_NE(boundary_of(folder / "case.foam").find(vector), std::string::npos) << vector;
 }
 
 }  // namespace
