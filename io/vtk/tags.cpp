@@ -121,7 +121,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-void say_unwritable(const Mesh& mesh, std::vector<std::string>& notices) {
+void say_unwritable(const Mesh& mesh, bool groups_too, std::vector<std::string>& notices) {
   const auto say = [&](const std::string& what, const std::string& name) {
     say_renamed(what, name, unescaped(escaped(name)), notices);
   };
@@ -129,6 +129,7 @@ void say_unwritable(const Mesh& mesh, std::vector<std::string>& notices) {
     for (const auto& group : all) say(std::string(kind) + " " + std::to_string(group.id), group.name);
   };
   for (const Field& field : mesh.fields) say("field", field.name);
+  if (!groups_too) return;
   groups("block", mesh.blocks);
   groups("nodeset", mesh.node_sets);
   groups("sideset", mesh.side_sets);

@@ -28,7 +28,7 @@ std::string unescaped(std::string_view text);
 /// Text with & < > ", tabs and line ends as it may stand in an attribute; other control characters, which XML hasn't,
 /// as blanks.
 std::string escaped(const std::string& text);
-/// Tells the names of fields and groups that this changes.
-void say_unwritable(const Mesh& mesh, std::vector<std::string>& notices);
+/// Tells the names of fields that this changes, and of groups where they are written so too.
+void say_unwritable(const Mesh& mesh, bool groups_too, std::vector<std::string>& notices);
 
 }  // namespace hextwist::io

@@ -83,7 +83,7 @@ void topology(Output& xml, const char* kind, int n_nodes, std::size_t n, const s
 
 void write_xdmf(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
                 const WriteOptions& options, std::vector<std::string>& notices) {
-  say_unwritable(mesh, notices);
+  say_unwritable(mesh, false, notices);
   const SecondOrder* const second = options.second;
   const std::filesystem::path heavy_path = std::filesystem::path(file).replace_extension(".h5");
   // DOLFINx looks for data in the .h5 that is called as the .xdmf, whatever that says.
