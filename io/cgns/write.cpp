@@ -4,6 +4,7 @@
 
 #include "hextwist/base/replacement.h"
 #include "hextwist/io/cgns/cgns_internal.h"
+#include "hextwist/io/field_names.h"
 
 namespace hextwist::io {
 namespace {
@@ -51,15 +52,20 @@ class CgnsWriter {
 
   /// A name that a node of the file can have, beside those that there are.
   static std::string name_for(const std::string& wanted, std::set<std::string>& taken) {
-    std::string name = one_line(wanted).substr(0, cgns_name_length);
-    std::ranges::replace(name, '/', '_');
-    if (name.empty() || name == "." || name == ".." || name.front() == ' ') name = "_" + name.substr(0, 31);
-    while (name.back() == ' ') name.back() = '_';
+    std::string name = fitted(wanted, cgns_name_length);
     const std::string stem = name;
     for (int k = 2; !taken.insert(name).second; ++k) {
       const std::string tail = "_" + std::to_string(k);
-      name = stem.substr(0, cgns_name_length - tail.size()) + tail;
+      name = whole_characters(stem, cgns_name_length - tail.size()) + tail;
     }
+    return name;
+  }
+  static std::string fitted(const std::string& wanted, std::size_t longest) {
+    std::string name = one_line(wanted);
+    std::ranges::replace(name, '/', '_');
+    if (name.empty() || name == "." || name == ".." || name.front() == ' ') name.insert(0, "_");
+    name = whole_characters(name, longest);
+    while (name.back() == ' ') name.back() = '_';
     return name;
   }
   template <class Group>
@@ -234,17 +240,38 @@ class CgnsWriter {
     if (!mesh_.hex_ids.empty() || !sorted) write("HexId", of_hexes);
   }
 
+  /// What component c of n is called: aX aY aZ are a vector in all of the SIDS.
+  static std::string scalar_name(const std::string& name, int c, int n) {
+    return n == 1 ? name : n == 3 ? name + "XYZ"[c] : component_name(name, c, n);
+  }
+  /// The name of a field so that all its components have one that no other has.
+  std::string field_name(const Field& field, std::set<std::string>& taken) {
+    const int n = field.components;
+    const std::size_t longest = cgns_name_length - scalar_name("", n - 1, n).size();
+    return distinct_field_name(
+        field.name, fitted(field.name, longest), longest,
+        [&](const std::string& name) {
+          for (int c = 0; c < n; ++c)
+            if (taken.contains(scalar_name(name, c, n))) return false;
+          for (int c = 0; c < n; ++c) taken.insert(scalar_name(name, c, n));
+          return true;
+        },
+        notices_);
+  }
+
   void fields(Field::On on, const char* solution) {
     const auto keep_none = [](int) { return false; };
+    std::set<std::string> taken;
     std::vector<Field> scalars;
     for (const Field& field : mesh_.fields) {
       if (field.on != on) continue;
-      for (Field& scalar : split_components({field}, keep_none, notices_)) {
+      Field named = field;
+      named.name = field_name(field, taken);
+      std::vector<Field> parts = split_components({named}, keep_none, notices_);
+      for (int c = 0; c < field.components; ++c) {
+        Field& scalar = parts[static_cast<std::size_t>(c)];
         scalar.integer = field.integer;
-        if (field.components == 3) {  // aX aY aZ are a vector in all of the SIDS
-          scalar.name.erase(scalar.name.size() - 2, 1);
-          scalar.name.back() = static_cast<char>(std::toupper(scalar.name.back()));
-        }
+        scalar.name = scalar_name(named.name, c, field.components);
         scalars.push_back(std::move(scalar));
       }
     }
@@ -252,10 +279,8 @@ class CgnsWriter {
     int number = 0, one = 0;
     check(cg_sol_write(file_.id(), base, zone, name_for(solution, taken_).c_str(),
                        on == Field::On::node ? CGNS_ENUMV(Vertex) : CGNS_ENUMV(CellCenter), &number));
-    std::set<std::string> taken;
     for (const Field& field : scalars) {
-      const std::string name = name_for(field.name, taken);
-      say_renamed("field", field.name, name, notices_);
+      const std::string& name = field.name;
       std::vector<double> values = field.values;
       if (on == Field::On::hex) values = items_at(values, order_);
       if (is_whole(field)) {

@@ -499,7 +499,13 @@ class ExodusReader {
       const int step = static_cast<int>(n_steps);
       if (on == Field::On::node) {
         field.values.resize(out_.mesh.points.size());
-        check(ex_get_var(file_.id, step, type, v, 1, init_.num_nodes, field.values.data()), "field " + field.name);
+        const int status = ex_get_var(file_.id, step, type, v, 1, init_.num_nodes, field.values.data());
+        check(status, "field " + field.name);
+        if (status != 0) {  // the library's warning
+          out_.notices.push_back("field '" + field.name +
+                                 "' is named in the file, which has no values of it: left out");
+          continue;
+        }
         nodes_.sort(field.values);
       } else {
         field.values.assign(out_.mesh.hexes.size(), std::numeric_limits<double>::quiet_NaN());

@@ -165,12 +165,15 @@ class ExtrasReader {
     if (steps_.size() < 2) return;  // the fields of the mesh are all there is
     const std::vector<std::string> nodal = variables(EX_NODAL), of_hexes = variables(EX_ELEM_BLOCK);
     for (std::size_t v = 0; v < nodal.size(); ++v) {
-      out_.on_nodes.push_back({nodal[v], {}});
-      at_all_times(out_.on_nodes.back(), mesh_.points.size(), [&](int step, Values& at) {
-        check(ex_get_var(in_.file, step, EX_NODAL, static_cast<int>(v) + 1, 1, std::ssize(at), at.data()),
-              "variable " + nodal[v]);
+      TimedValues values{nodal[v], {}};
+      bool there = true;
+      at_all_times(values, mesh_.points.size(), [&](int step, Values& at) {
+        const int status = ex_get_var(in_.file, step, EX_NODAL, static_cast<int>(v) + 1, 1, std::ssize(at), at.data());
+        check(status, "variable " + nodal[v]);
+        there = there && status == 0;  // else the library's warning: it is named only
         in_.nodes.sort(at);
       });
+      if (there) out_.on_nodes.push_back(std::move(values));
     }
     for (std::size_t v = 0; v < of_hexes.size(); ++v) {
       bool any = false;

@@ -15,6 +15,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/write_internal.h"
+#include "hextwist/io/field_names.h"
 #include "hextwist/io/file_part.h"
 #include "hextwist/io/others.h"
 
@@ -193,6 +194,7 @@ class ExodusWriter {
     if (n_shortened > 0)
       notices_.push_back(counted(n_shortened, "other element") +
                          " written without nodes that say how they are turned, which Exodus has no place for");
+    say_values_of_others(mesh_, "Exodus", notices_);
     // Blocks that are in several element blocks, or in those of others, are sets as well.
     for (const Block& block : mesh_.blocks) {
       const std::vector<Index> all = others_of_block(mesh_, block.id);

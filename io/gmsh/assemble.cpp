@@ -333,15 +333,23 @@ class GmshAssembly {
   void fields() {
     // The last step of each field.
     std::vector<const GmshData*> last;
+    std::map<const GmshData*, int> n_steps;
     for (const GmshData& data : in_.data) {
       const auto same = std::ranges::find_if(last, [&](const GmshData* other) {
         return other->field.name == data.field.name && other->field.on == data.field.on;
       });
-      if (same == last.end())
-        last.push_back(&data);
-      else if (data.step >= (*same)->step)
-        *same = &data;
+      if (same == last.end()) {
+        n_steps[last.emplace_back(&data)] = 1;
+        continue;
+      }
+      const int n = n_steps[*same] + 1;
+      if (data.step >= (*same)->step) *same = &data;
+      n_steps[*same] = n;
     }
+    if (!in_.of_corners.empty())
+      notice("left out $ElementNodeData, values per element and node, of " +
+             counted(std::ssize(in_.of_corners), "field") + ", '" + in_.of_corners[0] + "'" +
+             (in_.of_corners.size() > 1 ? " the first" : ""));
     std::vector<Field> fields;
     for (const GmshData* data : last) {
       Field field{data->field.name, data->field.on, data->field.components, {}};
@@ -356,6 +364,11 @@ class GmshAssembly {
         ++found;
         for (std::size_t c = 0; c < width; ++c) field.values[at * width + c] = data->field.values[i * width + c];
       }
+      if (n_steps[data] > 1)
+        notice("field '" + field.name + "' has " + std::to_string(n_steps[data]) + " steps: the last is read");
+      if (const auto n_lost = static_cast<std::int64_t>(data->tags.size()) - found; found && n_lost > 0)
+        notice("field '" + field.name + "': " + counted(n_lost, "value") + " left out, which " +
+               (n_lost == 1 ? "is" : "are") + " not of a " + (node ? "node" : "hex"));
       if (found)
         fields.push_back(std::move(field));
       else

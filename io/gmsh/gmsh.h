@@ -62,6 +62,7 @@ struct GmshContents {
   bool has_groups_between = false;  ///< partitions: entities there have the groups of what they divide
   std::vector<std::pair<Owner, std::vector<std::int64_t>>> more_members;  ///< element tags of physical groups
   std::vector<GmshData> data;
+  std::vector<std::string> of_corners;  ///< fields with values per element and node, which are left out
   std::vector<PeriodicPairs> periodic;
   std::map<std::string, std::int64_t> n_dropped;  ///< elements of other types, by name
   std::vector<std::string> notices;

@@ -36,6 +36,13 @@ void read_format(GmshContents& contents, Cursor& cursor) {
   if (one != 0x01000000) cursor.fail("the number one is " + std::to_string(one) + ": not a binary Gmsh file");
 }
 
+/// A line with a name in quotes.
+std::string quoted_name(Cursor& cursor) {
+  std::string_view name = trimmed(cursor.line());
+  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+  return std::string(name);
+}
+
 void read_names(GmshContents& contents, Cursor& cursor) {
   const auto n = cursor.check_count(cursor.integer("the number of physical names"), 5, "physical names");
   for (std::size_t i = 0; i < n; ++i) {
@@ -43,10 +50,19 @@ void read_names(GmshContents& contents, Cursor& cursor) {
     const char* start = cursor.at;
     const int dim = cursor.small("a dimension"), id = cursor.small("a physical tag");
     if (dim < 0 || dim > 3) cursor.fail_at(start, "dimension " + std::to_string(dim) + " of a physical group");
-    std::string_view name = trimmed(cursor.line());
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    contents.physical_names[{dim, id}] = name;
+    contents.physical_names[{dim, id}] = quoted_name(cursor);
   }
+}
+
+/// Of values that nothing here has a place for.
+void read_name_of_corners(GmshContents& contents, Cursor& cursor) {
+  const char* start = cursor.at;
+  const std::int64_t n_names = cursor.integer("the number of names");
+  cursor.line();
+  std::string name = n_names > 0 ? quoted_name(cursor) : "";
+  if (std::ranges::find(contents.of_corners, name) == contents.of_corners.end())
+    contents.of_corners.push_back(std::move(name));
+  skip_section(cursor, "ElementNodeData", start);
 }
 
 /// The section of a name; false if there is no such section.
@@ -69,6 +85,8 @@ bool read_section(GmshContents& contents, Cursor& cursor, std::string_view name)
     read_gmsh_data(contents, source, Field::On::node);
   else if (name == "ElementData")
     read_gmsh_data(contents, source, Field::On::hex);
+  else if (name == "ElementNodeData")
+    read_name_of_corners(contents, cursor);
   else if (name == "Periodic" && contents.version != 1)
     read_gmsh_periodic(contents, source);
   else if (name == "HextwistParts")
@@ -198,9 +216,8 @@ void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on) {
   const auto n_names = cursor.check_count(cursor.integer("the number of names"), 1, "names");
   cursor.line();
   for (std::size_t i = 0; i < n_names; ++i) {
-    std::string_view name = trimmed(cursor.line());
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    if (i == 0) data.field.name = name;
+    std::string name = quoted_name(cursor);
+    if (i == 0) data.field.name = std::move(name);
   }
   const auto n_reals = cursor.check_count(cursor.integer("the number of real tags"), 1, "real tags");
   for (std::size_t i = 0; i < n_reals; ++i) {
@@ -249,8 +266,12 @@ MeshFile read_gmsh(const Bytes& bytes) {
   Cursor cursor(bytes);
   GmshContents contents;
   bool nodes = false, elements = false;
-  std::vector<std::string> seen;  // of those that a file has once
-  constexpr std::string_view once[] = {"PhysicalNames", "Entities", "PartitionedEntities", "Periodic", "HextwistParts"};
+  // Sections that a file has once, with their text: views that Gmsh appends may have all of them again.
+  std::map<std::string, std::string_view, std::less<>> seen;
+  bool again = false;
+  constexpr std::string_view once[] = {"PhysicalNames", "Entities", "PartitionedEntities", "Periodic", "HextwistParts",
+                                       "Nodes",         "NOD",      "ParametricNodes",     "Elements", "ELM",
+                                       "MeshFormat"};
   while (cursor.more()) {
     const char* start = cursor.at;
     if (*start != '$') {
@@ -258,7 +279,13 @@ MeshFile read_gmsh(const Bytes& bytes) {
       cursor.fail("expected a section ($...), found " + shown(cursor.word()));
     }
     const std::string_view name = trimmed(cursor.line()).substr(1);
-    if (name == "MeshFormat") {
+    const std::string_view rest(cursor.at, cursor.left());
+    const auto before = seen.find(name);
+    const bool is_repeated = before != seen.end() && rest.starts_with(before->second);
+    if (is_repeated && (again || (name == "MeshFormat" && nodes && elements))) {
+      again = true;
+      cursor.at += before->second.size();
+    } else if (name == "MeshFormat") {
       if (contents.version) cursor.fail_at(start, "a second $MeshFormat");
       read_format(contents, cursor);
     } else {
@@ -269,17 +296,16 @@ MeshFile read_gmsh(const Bytes& bytes) {
       } else {
         const bool is_nodes = name == "Nodes" || name == "NOD" || name == "ParametricNodes";
         const bool is_elements = name == "Elements" || name == "ELM";
-        if ((is_nodes && nodes) || (is_elements && elements)) cursor.fail_at(start, "a second $" + std::string(name));
-        if (std::ranges::find(once, name) != std::end(once)) {
-          if (std::ranges::find(seen, name) != seen.end()) cursor.fail_at(start, "a second $" + std::string(name));
-          seen.emplace_back(name);
-        }
+        if ((is_nodes && nodes) || (is_elements && elements) || before != seen.end())
+          cursor.fail_at(start, "a second $" + std::string(name));
         if (is_elements && !nodes) cursor.fail_at(start, "elements before nodes");
         if (!read_section(contents, cursor, name)) skip_section(cursor, name, start);
         nodes = nodes || is_nodes;
         elements = elements || is_elements;
       }
     }
+    if (std::ranges::find(once, name) != std::end(once) && before == seen.end())
+      seen.emplace(name, rest.substr(0, static_cast<std::size_t>(cursor.at - rest.data())));
     cursor.skip_blanks();
     const char* at = cursor.at;
     const std::string_view last = cursor.word();

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/io/field_names.h"
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/io/gmsh/others.h"
 #include "hextwist/io/gmsh/plan_internal.h"
@@ -516,6 +517,7 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
   if (options.extras && !options.groups_only)
     write_periodic(to, mesh, plan_periodic(mesh, association, options.extras->periodic, notices), v4);
   write_parts(out, plan);
+  say_values_of_others(mesh, "Gmsh", notices);
   write_fields(to, mesh, selection, notices);
 }
 

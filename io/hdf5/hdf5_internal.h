@@ -81,7 +81,8 @@ class Hdf5Writer {
   /// Arrays of a group, as VtkOutput writes them. Names that no link can have are in an attribute.
   class Arrays {
    public:
-    /// but: characters that no link shall have beside '/'.
+    /// but: characters that no link shall have beside '/'; where there are such, no other control characters and no
+    /// blanks at its end either, so that it may stand at the end of a text.
     Arrays(const Hdf5Writer& file, std::string group, std::string but = "")
         : file_(file), group_(std::move(group)), but_(std::move(but)) {}
     template <class T>
@@ -114,8 +115,12 @@ class Hdf5Writer {
     /// A name for a link beside those that there are.
     std::string link(const std::string& wanted) {
       std::string name = wanted.empty() || wanted == "." || wanted == ".." ? "_" + wanted : wanted;
+      const auto unwanted = [&](char c) {
+        return but_.find(c) != std::string::npos || (!but_.empty() && static_cast<unsigned char>(c) < ' ');
+      };
       for (char& c : name)
-        if (c == '/' || c == '\0' || but_.find(c) != std::string::npos) c = '_';
+        if (c == '/' || c == '\0' || unwanted(c)) c = '_';
+      for (std::size_t i = name.size(); i > 0 && name[i - 1] == ' ' && !but_.empty(); --i) name[i - 1] = '_';
       const std::string stem = name;
       for (int k = 2; !taken_.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
       return name;

@@ -269,6 +269,18 @@ class MedReader {
       const std::vector<std::int64_t> node_ids(node_ids_.begin(), node_ids_.end());
       bool any = put(Field::On::node, node_ids, read(MED_NODE, MED_NONE, node_ids.size()));
       for (const auto& [geo, ids] : hex_ids_) any |= put(Field::On::hex, ids, read(MED_CELL, geo, ids.size()));
+      std::int64_t n_lost = 0;
+      const auto lose = [&](med_entity_type entity, med_geometry_type geo) {
+        n_lost += std::max<std::int64_t>(0, MEDfieldnValue(file_.id(), field.data(), step, iteration, entity, geo));
+      };
+      for (const GeoType& geo : quads) lose(MED_CELL, geo.type);
+      for (const GeoType& geo : dropped) lose(MED_CELL, geo.type);
+      for (const MedOther& geo : med_others)
+        if (geo.shape != OtherShape::quad) lose(MED_CELL, geo.type);
+      for (const GeoType& geo : hexes) lose(MED_NODE_ELEMENT, geo.type);
+      if (any && n_lost > 0)
+        out.notices.push_back("field '" + std::string(field.data()) + "': " + counted(n_lost, "value") +
+                              " left out, which " + (n_lost == 1 ? "is" : "are") + " not of a node or hex");
       if (!any)
         out.notices.push_back("field '" + std::string(field.data()) + "' has no value per node or hex: left out");
     }

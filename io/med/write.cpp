@@ -2,6 +2,7 @@
 // groups is a family.
 #include "hextwist/base/replacement.h"
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/field_names.h"
 #include "hextwist/io/group_names.h"
 #include "hextwist/io/med/med_internal.h"
 #include "hextwist/io/others.h"
@@ -61,8 +62,8 @@ class MedWriter {
       }
       const std::string line = one_line(group.name);
       result.push_back(distinct_name(kind, group.id, group.name,
-                                     std::string(trimmed(trimmed(line).substr(0, MED_LNAME_SIZE))), MED_LNAME_SIZE,
-                                     taken, notices_));
+                                     std::string(trimmed(whole_characters(trimmed(line), MED_LNAME_SIZE))),
+                                     MED_LNAME_SIZE, taken, notices_));
     }
     return result;
   }
@@ -246,14 +247,12 @@ class MedWriter {
   }
 
   void fields() {
-    std::vector<std::string> taken;
+    say_values_of_others(mesh_, "MED", notices_);
+    std::set<std::string> taken;
     for (const Field& field : mesh_.fields) {
-      std::string name = field.name.substr(0, MED_NAME_SIZE - 4);
-      if (name.empty()) name = "field";
-      for (int k = 2; std::ranges::find(taken, name) != taken.end(); ++k)
-        name = field.name.substr(0, MED_NAME_SIZE - 8) + "_" + std::to_string(k);
-      taken.push_back(name);
-      say_renamed("field", field.name, name, notices_);
+      const std::string name = distinct_field_name(
+          field.name, link_name(field.name), MED_NAME_SIZE - 4,
+          [&](const std::string& wanted) { return taken.insert(wanted).second; }, notices_);
       std::string components, units;
       for (int c = 1; c <= field.components; ++c) {
         std::string text = std::to_string(c);

@@ -120,7 +120,11 @@ class MeditReader {
       if (same_word(word, other.name)) {
         const auto n = count(other.name, other.n_values);
         for (std::size_t i = 0; i < n * other.n_values; ++i) cursor_.real("a value");
-        if (n && other.name == "Triangles") out_.notices.push_back("dropped " + std::to_string(n) + " triangles");
+        if (n && other.name == "Triangles")
+          out_.notices.push_back("dropped " + std::to_string(n) + " triangles");
+        else if (n)
+          out_.notices.push_back("left out " + counted(static_cast<std::int64_t>(n), "entry", "entries") + " of " +
+                                 std::string(other.name));
         return;
       }
     for (const std::string_view volume : {"Tetrahedra", "Prisms", "Pyramids", "Pentahedra"})

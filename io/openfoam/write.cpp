@@ -9,17 +9,6 @@
 namespace hextwist::io {
 namespace {
 
-struct Face {
-  Quad cycle;  ///< turns out of its owner
-  Index owner, neighbour = -1;
-  Side side;
-};
-
-struct Patch {
-  std::string name, entries;
-  std::vector<Face> faces;
-};
-
 class OpenfoamWriter {
  public:
   OpenfoamWriter(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
@@ -53,11 +42,13 @@ class OpenfoamWriter {
     return out;
   }
 
-  /// Names are words there, unique.
+  /// Names are words there, unique. What begins as a number does is read as one.
   std::string word(const char* kind, int id, const std::string& name) {
     constexpr std::size_t longest = 100;
-    const std::string result =
-        distinct_name(kind, id, name, plain_name(name, longest), longest, words_[kind], notices_);
+    std::string plain = plain_name(name, longest);
+    if (!plain.empty() && std::string_view("0123456789-.").find(plain[0]) != std::string_view::npos)
+      plain.insert(0, "_");
+    const std::string result = distinct_name(kind, id, name, plain, longest, words_[kind], notices_);
     groups_[kind].push_back({id, name, result});
     return result;
   }
@@ -92,7 +83,8 @@ class OpenfoamWriter {
         inner.push_back(&set);
         continue;
       }
-      Patch patch{word("sideset", set.id, set.name), "type patch;", {}};
+      const std::string own_name = set.name.empty() ? "sideset_" + std::to_string(set.id) : set.name;
+      FoamPatch patch{own_name, word("sideset", set.id, set.name), plain_patch, {}};
       if (options_.extras)
         if (const auto found = options_.extras->patches.find(set.id); found != options_.extras->patches.end())
           patch.entries = found->second;
@@ -111,26 +103,27 @@ class OpenfoamWriter {
       notices_.push_back("side sets overlap, and a face is in one patch only: " + counted(n_twice, "face") +
                          (n_twice == 1 ? " is" : " are") + " in the first of its sets");
     n_patches_of_sets_ = patches_.size();
-    Patch rest{default_patch, "type patch;", {}};
+    FoamPatch rest{default_patch, default_patch, plain_patch, {}};
     for (std::size_t f = 0; f < all.nodes.size(); ++f) {
       const auto& [first, second] = all.sides[f];
-      const Face face{face_node_cycle(mesh_.hexes[first.hex], first.face), first.hex, second.hex, first};
+      const FoamFace face{face_node_cycle(mesh_.hexes[first.hex], first.face), first.hex, second.hex, first};
       if (second.hex >= 0)
         inside_.push_back(face);
       else if (patch_of[f] < 0)
         rest.faces.push_back(face);
     }
     if (!rest.faces.empty()) patches_.push_back(std::move(rest));
-    std::ranges::sort(inside_, {}, [](const Face& face) { return std::pair(face.owner, face.neighbour); });
-    for (Patch& patch : patches_) std::ranges::sort(patch.faces, {}, &Face::side);
+    std::ranges::sort(inside_, {}, [](const FoamFace& face) { return std::pair(face.owner, face.neighbour); });
+    for (FoamPatch& patch : patches_) std::ranges::sort(patch.faces, {}, &FoamFace::side);
+    order_cyclic_patches(mesh_, patches_, notices_);
     // Where each side is in the files, for zones.
     std::size_t number = 0;
-    const auto count = [&](const Face& face) {
+    const auto count = [&](const FoamFace& face) {
       number_of_face_.emplace_back(all.of_hex[face.side.hex][face.side.face], static_cast<Index>(number++));
     };
-    for (const Face& face : inside_) count(face);
-    for (const Patch& patch : patches_)
-      for (const Face& face : patch.faces) count(face);
+    for (const FoamFace& face : inside_) count(face);
+    for (const FoamPatch& patch : patches_)
+      for (const FoamFace& face : patch.faces) count(face);
     std::ranges::sort(number_of_face_);
     for (const SideSet* set : inner) {
       Zone zone{word("sideset", set->id, set->name), {}, {}};
@@ -160,7 +153,7 @@ class OpenfoamWriter {
 
   void faces() {
     std::size_t n = inside_.size();
-    for (const Patch& patch : patches_) n += patch.faces.size();
+    for (const FoamPatch& patch : patches_) n += patch.faces.size();
     const std::string note = "nPoints:" + std::to_string(mesh_.points.size()) +
                              "  nCells:" + std::to_string(mesh_.hexes.size()) + "  nFaces:" + std::to_string(n) +
                              "  nInternalFaces:" + std::to_string(inside_.size());
@@ -168,15 +161,15 @@ class OpenfoamWriter {
     Output& owner = open("owner", "labelList", note);
     Output& neighbour = open("neighbour", "labelList", note);
     list << n << "\n(\n", owner << n << "\n(\n", neighbour << inside_.size() << "\n(\n";
-    const auto put = [&](const Face& face) {
+    const auto put = [&](const FoamFace& face) {
       const Quad& q = face.cycle;
       list << "4(" << q[0] << ' ' << q[1] << ' ' << q[2] << ' ' << q[3] << ")\n";
       owner << face.owner << '\n';
       if (face.neighbour >= 0) neighbour << face.neighbour << '\n';
     };
-    for (const Face& face : inside_) put(face);
-    for (const Patch& patch : patches_)
-      for (const Face& face : patch.faces) put(face);
+    for (const FoamFace& face : inside_) put(face);
+    for (const FoamPatch& patch : patches_)
+      for (const FoamFace& face : patch.faces) put(face);
     list << ")\n", owner << ")\n", neighbour << ")\n";
   }
 
@@ -184,7 +177,7 @@ class OpenfoamWriter {
     Output& out = open("boundary", "polyBoundaryMesh");
     out << patches_.size() << "\n(\n";
     std::size_t first = inside_.size();
-    for (const Patch& patch : patches_) {
+    for (const FoamPatch& patch : patches_) {
       out << "    " << patch.name << "\n    {\n";
       std::string_view rest = patch.entries;
       while (!rest.empty()) {
@@ -237,8 +230,8 @@ class OpenfoamWriter {
   const Mesh& mesh_;
   const WriteOptions& options_;
   std::vector<std::string>& notices_;
-  std::vector<Face> inside_;
-  std::vector<Patch> patches_;
+  std::vector<FoamFace> inside_;
+  std::vector<FoamPatch> patches_;
   std::vector<Zone> face_zones_;
   std::vector<std::pair<Index, Index>> number_of_face_;
   struct GroupInFile {

@@ -86,6 +86,15 @@ void set_integers(VtkArray& to, const std::vector<std::int64_t>& numbers) {
   to.keep();
 }
 
+void say_file_arrays(std::span<const VtkArray> arrays, std::vector<std::string>& notices) {
+  std::vector<std::string> names;
+  for (const VtkArray& array : arrays)
+    if (array.on == VtkArray::On::file && !array.name.starts_with("hextwist:")) names.push_back("'" + array.name + "'");
+  if (!names.empty())
+    notices.push_back("left out " + counted(std::ssize(names), "array") + " of field data, which " +
+                      (names.size() == 1 ? "is" : "are") + " of the whole file: " + joined(names, ", "));
+}
+
 std::vector<Vec3> vtk_points(const VtkArray& array, const Cursor& cursor) {
   std::vector<Vec3> points;
   array.visit([&](auto numbers) {

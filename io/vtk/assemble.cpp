@@ -40,8 +40,10 @@ class VtkAssembly {
   VtkAssembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
 
   MeshFile result() {
+    out_.notices = std::move(in_.notices);
     cells();
     ours();
+    say_file_arrays(in_.arrays, out_.notices);
     if (made_.empty()) {
       groups();
       global_ids();

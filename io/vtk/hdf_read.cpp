@@ -94,7 +94,10 @@ class VtkHdfReader {
     const std::string from = "/VTKHDF/" + group;
     for (const std::string& link : in_.members(from)) {
       const std::string path = from + "/" + link;
-      if (!in_.is_numbers(path)) continue;
+      if (!in_.is_numbers(path)) {
+        contents.notices.push_back("left out array '" + link + "', which is not of numbers");
+        continue;
+      }
       std::vector<std::size_t> sizes;
       VtkArray array = in_.array(path, sizes);
       if (const std::string name = in_.text(path, hdf5_name); !name.empty()) array.name = name;

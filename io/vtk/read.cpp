@@ -48,8 +48,7 @@ class LegacyReader {
 
   /// Values of an array, in the file's mode.
   void values(std::string_view type, std::size_t n, VtkArray& to) {
-    if (same_word(type, "bit") || same_word(type, "string"))
-      cursor_.fail("arrays of type " + std::string(type) + " are not supported");
+    if (same_word(type, "bit")) cursor_.fail("arrays of type " + std::string(type) + " are not supported");
     const VtkType number = same_word(type, "vtkIdType") && !cursor_.binary ? VtkType::int64 : vtk_type(type, cursor_);
     cursor_.binary ? read_vtk_values(cursor_, number, n, to) : read_vtk_text(cursor_, number, n, to);
   }
@@ -165,8 +164,27 @@ class LegacyReader {
     if (array.components < 1 || array.components > 1000)
       cursor_.fail("array " + shown(array.name) + " has " + std::to_string(array.components) + " components");
     array.on = on_;
+    if (same_word(type, "string")) return skip_strings(array.name, n * static_cast<std::size_t>(array.components));
     values(type, n * static_cast<std::size_t>(array.components), array);
     out_.arrays.push_back(std::move(array));
+  }
+
+  /// A line each; binary: a length each, of one to eight bytes, which its first two bits say, and the characters.
+  void skip_strings(const std::string& name, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (cursor_.left() == 0) cursor_.fail_truncated("the texts of " + shown(name));
+      if (!cursor_.binary) {
+        cursor_.line();
+        continue;
+      }
+      const auto byte = [&] { return std::uint64_t{cursor_.raw<std::uint8_t>("the length of a text")}; };
+      const std::uint64_t first = byte();
+      std::uint64_t length = first & 0x3f;
+      for (std::uint64_t k = (std::uint64_t{8} >> (first >> 6)); k > 1; --k) length = length << 8 | byte();
+      if (length > cursor_.left()) cursor_.fail_truncated("the texts of " + shown(name));
+      cursor_.at += length;
+    }
+    out_.notices.push_back("left out array '" + name + "' of texts");
   }
 
   void attribute(const std::string& word, const char* at) {

@@ -34,6 +34,30 @@ Tag parse(std::string_view text, const char* at, const Cursor& cursor) {
   return tag;
 }
 
+/// A reference by number (&#9; &#x3b1;) at the beginning of a text: adds the character in UTF-8. The length of the
+/// reference, 0: there is none.
+std::size_t add_character(std::string_view text, std::string& to) {
+  if (!text.starts_with("&#")) return 0;
+  const bool hex = text.substr(2, 1) == "x";
+  const char* const from = text.data() + (hex ? 3 : 2);
+  const char* const end = text.data() + text.size();
+  std::uint32_t code = 0;
+  const auto [stop, error] = from < end ? std::from_chars(from, end, code, hex ? 16 : 10) : std::from_chars_result{};
+  if (from >= end || error != std::errc{} || stop == end || *stop != ';' || code == 0 || code > 0x10ffff) return 0;
+  const auto put = [&](std::uint32_t byte) { to += static_cast<char>(byte); };
+  const auto rest = [&](int shift) { put(0x80 | (code >> shift & 0x3f)); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xc0 | code >> 6), rest(0);
+  } else if (code < 0x10000) {
+    put(0xe0 | code >> 12), rest(6), rest(0);
+  } else {
+    put(0xf0 | code >> 18), rest(12), rest(6), rest(0);
+  }
+  return static_cast<std::size_t>(stop + 1 - text.data());
+}
+
 }  // namespace
 
 std::string unescaped(std::string_view text) {
@@ -41,6 +65,10 @@ std::string unescaped(std::string_view text) {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
   std::string result;
   while (!text.empty()) {
+    if (const std::size_t length = add_character(text, result); length > 0) {
+      text.remove_prefix(length);
+      continue;
+    }
     const auto* found = std::ranges::find_if(entities, [&](const auto& e) { return text.starts_with(e.first); });
     const bool known = found != std::end(entities);
     result += known ? found->second : text[0];
@@ -82,10 +110,29 @@ std::string escaped(const std::string& text) {
       case '"':
         result += "&quot;";
         break;
+      case '\t':
+      case '\n':
+      case '\r':
+        result += "&#" + std::to_string(static_cast<int>(c)) + ";";
+        break;
       default:
         result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
   return result;
+}
+
+void say_unwritable(const Mesh& mesh, bool groups_too, std::vector<std::string>& notices) {
+  const auto say = [&](const std::string& what, const std::string& name) {
+    say_renamed(what, name, unescaped(escaped(name)), notices);
+  };
+  const auto groups = [&](const char* kind, const auto& all) {
+    for (const auto& group : all) say(std::string(kind) + " " + std::to_string(group.id), group.name);
+  };
+  for (const Field& field : mesh.fields) say("field", field.name);
+  if (!groups_too) return;
+  groups("block", mesh.blocks);
+  groups("nodeset", mesh.node_sets);
+  groups("sideset", mesh.side_sets);
 }
 
 }  // namespace hextwist::io

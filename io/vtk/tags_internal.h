@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "hextwist/io/text.h"
+#include "hextwist/io/format.h"
 
 namespace hextwist::io {
 
@@ -25,7 +25,10 @@ struct Tag {
 std::optional<Tag> next_tag(Cursor& cursor, const char* end);
 /// Text with its entities (&amp; &lt; ...) replaced.
 std::string unescaped(std::string_view text);
-/// Text with & < > " as it may stand in an attribute, control characters as blanks.
+/// Text with & < > ", tabs and line ends as it may stand in an attribute; other control characters, which XML hasn't,
+/// as blanks.
 std::string escaped(const std::string& text);
+/// Tells the names of fields that this changes, and of groups where they are written so too.
+void say_unwritable(const Mesh& mesh, bool groups_too, std::vector<std::string>& notices);
 
 }  // namespace hextwist::io

@@ -116,6 +116,7 @@ struct VtkContents {
   VtkArray ends;  ///< per cell: the end of its nodes in `connectivity`; integers, not checked
   VtkArray types;
   std::vector<VtkArray> arrays;
+  std::vector<std::string> notices;  ///< on what was left out
   /// Files before XML 2.1 and legacy 5.1 have the last two middle nodes of edges of Lagrange hexes the other way round.
   bool old_lagrange = false;
 };
@@ -127,6 +128,9 @@ inline constexpr std::string_view made_prefix = "hextwist_";
 int vtk_type_of(OtherShape shape, std::size_t n_nodes);
 /// The other way round. Pixels are quads with their last two nodes exchanged.
 std::optional<OtherType> vtk_other(std::int64_t type, std::size_t n_nodes);
+
+/// Field data of others is of the whole file, which a mesh has no place for.
+void say_file_arrays(std::span<const VtkArray> arrays, std::vector<std::string>& notices);
 
 /// Points from their array. Throws at coordinates that are not finite.
 std::vector<Vec3> vtk_points(const VtkArray& array, const Cursor& cursor);

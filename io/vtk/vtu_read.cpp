@@ -119,7 +119,9 @@ class VtuReader {
     const std::string section(section_);
     std::string text;  // in place
     if (!tag.empty) text = content();
-    if (tag["type"] != "String") {
+    if (tag["type"] == "String") {
+      out_.notices.push_back("left out array '" + array.name + "' of texts");
+    } else {
       const VtkType type = vtk_type(tag["type"], cursor_);
       if (tag["format"] == "ascii")
         from_text(text, type, array);

@@ -95,6 +95,7 @@ class Arrays {
 
 void write_vtu(Output& out, const Mesh& mesh, const Association& association, const WriteOptions& options,
                std::vector<std::string>& notices) {
+  say_unwritable(mesh, true, notices);
   const auto n_nodes = mesh.points.size(), n_hexes = mesh.hexes.size();
   Arrays arrays(out, options.binary);
 

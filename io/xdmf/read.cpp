@@ -38,10 +38,16 @@ class XdmfReader {
     if (!domain) cursor_.fail_at(root_.tag.at, "there is no Domain");
     find_grids(*domain, false);
     if (!grid_) cursor_.fail_at(domain->tag.at, "there is no grid of hexes");
+    included_ = xdmf_includes(cursor_, root_, *grid_, first_ != nullptr);
     topology(*grid_);
     geometry(*grid_);
+    for (const XmlElement* child : included_)
+      if (child->tag.name == "Attribute") attribute(*child);
     for (const XmlElement& child : grid_->inside)
       if (child.tag.name == "Attribute") attribute(child);
+    for (const XmlElement* grid : left_out_)
+      if (std::ranges::none_of(included_, [&](const XmlElement* part) { return grid->has(*part); }))
+        notes_.push_back("grid '" + std::string(grid->tag["Name"]) + "' is left out");
     const bool ours = add_field_data();
     n_cells_ = contents_.types.size();
     MeshFile out = assemble_vtk(std::move(contents_), cursor_);
@@ -88,9 +94,18 @@ class XdmfReader {
       } else if (topology && grid.child("Attribute")) {
         tags_.push_back(&grid);
       } else {
-        notes_.push_back("grid '" + std::string(grid.tag["Name"]) + "' is left out");
+        left_out_.push_back(&grid);
       }
     }
+  }
+
+  /// The topology or geometry of a grid: its own, what it includes, or, where it includes nothing, that of the first of
+  /// a series.
+  const XmlElement* part(const XmlElement& grid, std::string_view name) const {
+    if (const XmlElement* own = grid.child(name)) return own;
+    for (const XmlElement* element : included_)
+      if (element->tag.name == name) return element;
+    return included_.empty() && first_ ? first_->child(name) : nullptr;
   }
 
   VtkArray values(const XmlElement& parent, std::vector<std::size_t>& sizes) {
@@ -239,8 +254,7 @@ class XdmfReader {
   }
 
   void topology(const XmlElement& grid) {
-    const XmlElement* topology = grid.child("Topology");
-    if (!topology && first_) topology = first_->child("Topology");  // included from there
+    const XmlElement* topology = part(grid, "Topology");
     if (!topology) cursor_.fail_at(grid.tag.at, "a grid without a topology");
     Cells all = cells(*topology);
     contents_.connectivity = std::move(all.connectivity);
@@ -249,8 +263,7 @@ class XdmfReader {
   }
 
   void geometry(const XmlElement& grid) {
-    const XmlElement* geometry = grid.child("Geometry");
-    if (!geometry && first_) geometry = first_->child("Geometry");
+    const XmlElement* geometry = part(grid, "Geometry");
     if (!geometry) cursor_.fail_at(grid.tag.at, "a grid without a geometry");
     const std::string_view type = geometry->either("GeometryType", "Type");
     if (!type.empty() && !same_word(type, "XYZ"))
@@ -391,7 +404,8 @@ class XdmfReader {
   Cursor cursor_;
   XmlElement root_;
   const XmlElement *grid_ = nullptr, *first_ = nullptr;
-  std::vector<const XmlElement*> tags_;
+  std::vector<const XmlElement*> tags_, left_out_;
+  std::vector<const XmlElement*> included_;  // in grid_
   std::int64_t n_times_ = 0;
   std::map<std::string, std::unique_ptr<Hdf5Reader>> heavy_;
   VtkContents contents_;

@@ -12,12 +12,15 @@
 namespace hextwist::io {
 namespace {
 
+/// What the place of a dataset, "part.h5:/CellData/block", can't have in its name.
+constexpr const char* not_in_places = ":";
+
 /// <Attribute> and dataset of each array.
 class XdmfArrays {
  public:
   XdmfArrays(Output& xml, const Hdf5Writer& heavy, const std::string& heavy_name, const std::string& group,
              const char* centre)
-      : xml_(xml), arrays_(heavy, group, ":"), heavy_name_(heavy_name), centre_(centre) {
+      : xml_(xml), arrays_(heavy, group, not_in_places), heavy_name_(heavy_name), centre_(centre) {
     heavy.group(group);
   }
   template <class T>
@@ -79,7 +82,8 @@ void topology(Output& xml, const char* kind, int n_nodes, std::size_t n, const s
 }  // namespace
 
 void write_xdmf(const std::filesystem::path& file, const Mesh& mesh, const Association& association,
-                const WriteOptions& options, std::vector<std::string>&) {
+                const WriteOptions& options, std::vector<std::string>& notices) {
+  say_unwritable(mesh, false, notices);
   const SecondOrder* const second = options.second;
   const std::filesystem::path heavy_path = std::filesystem::path(file).replace_extension(".h5");
   // DOLFINx looks for data in the .h5 that is called as the .xdmf, whatever that says.
@@ -130,7 +134,7 @@ void write_xdmf(const std::filesystem::path& file, const Mesh& mesh, const Assoc
   output.cell_data(of_cells, false);
   xml << end;
   heavy.group("/FieldData");
-  Hdf5Writer::Arrays field_data(heavy, "/FieldData", ":");
+  Hdf5Writer::Arrays field_data(heavy, "/FieldData", not_in_places);
   output.field_data(field_data);
 
   if (sides_xml) {

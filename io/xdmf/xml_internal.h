@@ -13,6 +13,10 @@ struct XmlElement {
   std::vector<XmlElement> inside;
 
   const XmlElement* child(std::string_view name) const;
+  /// Is that one of the elements right inside of it?
+  bool has(const XmlElement& element) const {
+    return &element >= inside.data() && &element < inside.data() + inside.size();
+  }
   /// Attributes whose name has changed between versions: the first that is there.
   std::string_view either(std::string_view a, std::string_view b) const { return tag[a].empty() ? tag[b] : tag[a]; }
 };
@@ -26,6 +30,12 @@ void each_element(const XmlElement& element, F&& f) {
   f(element);
   for (const XmlElement& child : element.inside) each_element(child, f);
 }
+
+/// What an element includes (XInclude) of other places of the same file: by a path of names with conditions,
+/// `//Grid[@Name= "mesh"]/*[self::Topology or self::Geometry]`. Throws Error at those where there is nothing, and at
+/// places that are said otherwise, unless these are to be passed over.
+std::vector<const XmlElement*> xdmf_includes(const Cursor& cursor, const XmlElement& root, const XmlElement& element,
+                                             bool odd_ones_too);
 
 /// Where a data item has its numbers: "mesh.h5:/Mesh/geometry". dataset empty: the text is no such place.
 struct HeavyPlace {

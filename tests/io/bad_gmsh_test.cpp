@@ -125,7 +125,8 @@ TEST(gmsh_files, parameters_partitions_curve_groups_and_time_steps_are_understoo
   EXPECT_EQ(read.mesh.fields[0].values[1], 20);
   EXPECT_TRUE(std::isnan(read.mesh.fields[0].values[2]));
   EXPECT_EQ(read.notices,
-            (std::vector<std::string>{"physical curve group 2 is node set 3: a physical point group has its id"}));
+            (std::vector<std::string>{"physical curve group 2 is node set 3: a physical point group has its id",
+                                      "field 'T' has 2 steps: the last is read"}));
 }
 
 TEST(bad_gmsh_files, sections_that_a_file_has_once) {

@@ -285,6 +285,32 @@ TEST(hdf_files, xdmf_of_others_is_understood) {
            u1 + "</Grid><Grid><xi:include xpointer=\"...\"/><Time Value=\"1\"/>" + u0 + "3 4" + u1 + "</Grid></Grid>");
   EXPECT_EQ(times.mesh.fields, (std::vector<Field>{{"u", Field::On::hex, 1, {3, 4}}}));
   EXPECT_EQ(times.notices, (std::vector<std::string>{"has 2 time steps: the last is read"}));
+  // Or with another grid, which may come later (meshio).
+  const std::string named = "<Grid Name=\"m\"><Topology TopologyType=\"Hexahedron\">" + hexes + "</Topology>" + points;
+  const auto step = [&](const std::string& pointer) {
+    return "<Grid GridType=\"Collection\" CollectionType=\"Temporal\"><Grid><ns0:include xpointer=\"" + pointer +
+           "\"/>" + u0 + "1 2" + u1 + "</Grid></Grid>";
+  };
+  for (const std::string pointer :
+       {"xpointer(//Grid[@Name=&quot;m&quot;]/*[self::Topology or self::Geometry])",
+        "xpointer(/Xdmf/Domain/Grid[2]/*[self::Geometry or self::Topology])", "//Domain/Grid[@Name='m']/*"}) {
+    SCOPED_TRACE(pointer);
+    const MeshFile later = read(step(pointer) + named + "</Grid>");
+    EXPECT_EQ(later.mesh.hexes, plain.mesh.hexes);
+    EXPECT_EQ(later.mesh.points, plain.mesh.points);
+    EXPECT_EQ(later.mesh.fields, (std::vector<Field>{{"u", Field::On::hex, 1, {1, 2}}}));
+    EXPECT_TRUE(later.notices.empty()) << later.notices[0];
+  }
+  for (const auto& [pointer, message] : std::map<std::string, std::string>{
+           {"xpointer(//Grid[@Name=&quot;n&quot;]/*)", "leads to nothing"}, {"element(/1/1/2)", "is not understood"}}) {
+    std::string said = "no error";
+    try {
+      read(step(pointer) + named + "</Grid>");
+    } catch (const Error& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find(message), std::string::npos) << said;
+  }
   const MeshFile referred = read(grid + "</Grid>" +
                                  "<Grid GridType=\"Collection\" CollectionType=\"Temporal\"><Grid><Topology "
                                  "TopologyType=\"Hexahedron\"><DataItem "

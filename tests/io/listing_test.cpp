@@ -322,38 +322,6 @@ TEST(listed_files, meshio_finds_hexes_and_groups_in_med) {
       << test::text_of(folder / "log.txt");
 }
 
-TEST(listed_files, openfoam_checks_ours) {
-  const std::string openfoam = "/usr/share/openfoam";  // as Debian has it
-  if (std::system("command -v checkMesh > /dev/null 2>&1") != 0 || !std::filesystem::exists(openfoam))
-    GTEST_SKIP() << "no OpenFOAM";
-  const auto folder = test::output_folder();
-  const MeshedModel meshed = test::shipped("bracket");
-  write_mesh(folder / "case.foam", meshed.mesh, &meshed.association);
-  std::filesystem::create_directories(folder / "system");
-  const std::string head = "FoamFile\n{\n version 2.0;\n format ascii;\n class dictionary;\n object ";
-  test::write_text(folder / "system" / "controlDict",
-                   head +
-                       "controlDict;\n}\napplication none;\nstartFrom startTime;\nstartTime 0;\nstopAt endTime;\n"
-                       "endTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\n");
-  test::write_text(folder / "system" / "fvSchemes",
-                   head +
-                       "fvSchemes;\n}\nddtSchemes { default none; }\ngradSchemes { default none; }\ndivSchemes "
-                       "{ default none; }\nlaplacianSchemes { default none; }\ninterpolationSchemes { default none; "
-                       "}\nsnGradSchemes { default none; }\n");
-  test::write_text(folder / "system" / "fvSolution", head + "fvSolution;\n}\n");
-  ASSERT_EQ(std::system(("WM_PROJECT_DIR=" + openfoam + " checkMesh -allTopology -case '" + folder.string() + "' > '" +
-                         (folder / "log.txt").string() + "' 2>&1")
-                            .c_str()),
-            0)
-      << test::text_of(folder / "log.txt");
-  const std::string log = test::text_of(folder / "log.txt");
-  EXPECT_NE(log.find("Mesh OK."), std::string::npos) << log;
-  EXPECT_NE(log.find("hexahedra:     488"), std::string::npos) << log;
-  EXPECT_EQ(log.find("***"), std::string::npos) << log;
-  EXPECT_NE(log.find("Total volume = 33253.8"), std::string::npos) << log;
-  for (const char* name : {"bore ", "bolts ", "foot ", "steel "}) EXPECT_NE(log.find(name), std::string::npos) << name;
-}
-
 TEST(listed_files, patches_of_openfoam_keep_their_types) {
   const auto folder = test::output_folder();
   Mesh mesh = test::grid(2, 1, 1);

@@ -1,0 +1,57 @@
+#include "hextwist/io/field_names.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hextwist/base/text.h"
+#include "hextwist/io/format.h"
+#include "hextwist/mesh/others.h"
+
+namespace hextwist::io {
+
+std::string whole_characters(std::string_view text, std::size_t n) {
+  if (text.size() <= n) return std::string(text);
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  constexpr std::size_t longest_character = 4;
+  std::size_t end = n;
+  while (end > 0 && n - end < longest_character && continues(end)) --end;
+  return std::string(text.substr(0, continues(end) ? n : end));  // it is no UTF-8 then
+}
+
+std::string link_name(std::string_view name) {
+  std::string link(trimmed(one_line(std::string(name))));
+  std::ranges::replace(link, '/', '_');
+  if (!link.empty() && link.find_first_not_of('.') == std::string::npos) link.insert(0, "_");
+  return link;
+}
+
+std::string distinct_field_name(const std::string& name, const std::string& fitted, std::size_t longest,
+                                const std::function<bool(const std::string&)>& is_free,
+                                std::vector<std::string>& notices) {
+  const std::string stem = fitted.empty() ? "field" : fitted;
+  const auto cut = [&](std::size_t n) {
+    std::string text = whole_characters(stem, n);
+    while (text.size() > 1 && text.back() == ' ') text.pop_back();
+    return text;
+  };
+  std::string result = cut(longest);
+  for (int k = 2; !is_free(result); ++k) {
+    const std::string tail = "-" + std::to_string(k);  // with "_" components would have it
+    result = cut(longest - tail.size()) + tail;
+  }
+  say_renamed("field", name, result, notices);
+  return result;
+}
+
+void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  if (!mesh.others) return;
+  std::vector<std::string> names;
+  for (const OtherField& field : mesh.others->heads->fields)
+    if (!field.is_attribute && std::ranges::any_of(field.values, [](double x) { return !std::isnan(x); }))
+      names.push_back("'" + field.name + "'");
+  if (!names.empty())
+    notices.push_back("values of " + counted(std::ssize(names), "field") + " on other elements are left out, which " +
+                      format + " files have no place for here: " + joined(names, ", "));
+}
+
+}  // namespace hextwist::io
