@@ -5,18 +5,10 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/format.h"
+#include "hextwist/io/group_names.h"
 #include "hextwist/mesh/others.h"
 
 namespace hextwist::io {
-
-std::string whole_characters(std::string_view text, std::size_t n) {
-  if (text.size() <= n) return std::string(text);
-  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
-  constexpr std::size_t longest_character = 4;
-  std::size_t end = n;
-  while (end > 0 && n - end < longest_character && continues(end)) --end;
-  return std::string(text.substr(0, continues(end) ? n : end));  // it is no UTF-8 then
-}
 
 std::string link_name(std::string_view name) {
   std::string link(trimmed(one_line(std::string(name))));
@@ -30,7 +22,7 @@ std::string distinct_field_name(const std::string& name, const std::string& fitt
                                 std::vector<std::string>& notices) {
   const std::string stem = fitted.empty() ? "field" : fitted;
   const auto cut = [&](std::size_t n) {
-    std::string text = whole_characters(stem, n);
+    std::string text(first_letters(stem, n));
     while (text.size() > 1 && text.back() == ' ') text.pop_back();
     return text;
   };

@@ -13,9 +13,6 @@
 
 namespace hextwist::io {
 
-/// At most n bytes from the beginning of a text, which ends between two characters of UTF-8.
-std::string whole_characters(std::string_view text, std::size_t n);
-
 /// What links of HDF5 and nodes of CGNS can be called: one line, no slash, no blank at an end, and no mere dots.
 std::string link_name(std::string_view name);
 

@@ -5,6 +5,7 @@
 #include "hextwist/base/replacement.h"
 #include "hextwist/io/cgns/cgns_internal.h"
 #include "hextwist/io/field_names.h"
+#include "hextwist/io/group_names.h"
 
 namespace hextwist::io {
 namespace {
@@ -56,7 +57,7 @@ class CgnsWriter {
     const std::string stem = name;
     for (int k = 2; !taken.insert(name).second; ++k) {
       const std::string tail = "_" + std::to_string(k);
-      name = whole_characters(stem, cgns_name_length - tail.size()) + tail;
+      name = std::string(first_letters(stem, cgns_name_length - tail.size())) + tail;
     }
     return name;
   }
@@ -64,7 +65,7 @@ class CgnsWriter {
     std::string name = one_line(wanted);
     std::ranges::replace(name, '/', '_');
     if (name.empty() || name == "." || name == ".." || name.front() == ' ') name.insert(0, "_");
-    name = whole_characters(name, longest);
+    name = std::string(first_letters(name, longest));
     while (name.back() == ' ') name.back() = '_';
     return name;
   }

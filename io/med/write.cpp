@@ -62,8 +62,8 @@ class MedWriter {
       }
       const std::string line = one_line(group.name);
       result.push_back(distinct_name(kind, group.id, group.name,
-                                     std::string(trimmed(whole_characters(trimmed(line), MED_LNAME_SIZE))),
-                                     MED_LNAME_SIZE, taken, notices_));
+                                     std::string(trimmed(first_letters(trimmed(line), MED_LNAME_SIZE))), MED_LNAME_SIZE,
+                                     taken, notices_));
     }
     return result;
   }

@@ -1,5 +1,6 @@
 // Names of fields that a format can't have as they are: each field comes back by itself, and what is changed is told.
 #include "hextwist/io/field_names.h"
+#include "hextwist/io/group_names.h"
 
 #include "io/hdf_support.h"
 
@@ -99,13 +100,13 @@ TEST(field_names, numbers_of_characters_are_read) {
   }
 }
 
-TEST(field_names, whole_characters_end_between_two) {
-  EXPECT_EQ(io::whole_characters("abc", 5), "abc");
-  EXPECT_EQ(io::whole_characters("abc", 2), "ab");
+TEST(field_names, first_letters_end_between_two) {
+  EXPECT_EQ(io::first_letters("abc", 5), "abc");
+  EXPECT_EQ(io::first_letters("abc", 2), "ab");
   const std::string text = "a\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80";  // 1, 2, 3, 4 bytes
   const std::vector<std::size_t> ends = {0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10};
-  for (std::size_t n = 0; n < ends.size(); ++n) EXPECT_EQ(io::whole_characters(text, n).size(), ends[n]) << n;
-  EXPECT_EQ(io::whole_characters(std::string(9, '\x80'), 7).size(), 7U);  // not UTF-8
+  for (std::size_t n = 0; n < ends.size(); ++n) EXPECT_EQ(io::first_letters(text, n).size(), ends[n]) << n;
+  EXPECT_EQ(io::first_letters(std::string(9, '\x80'), 7).size(), 7U);  // not UTF-8
 }
 
 }  // namespace
