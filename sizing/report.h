@@ -32,7 +32,7 @@ struct DirectionSizes {
 
 /// How many hexes of a zone are larger or smaller than wished.
 struct SizesMet {
-  Index n_hexes = 0;
+  Index n_hexes = 0;       ///< of the zone
   Index n_coarser = 0;     ///< ratio above sqrt(3)
   Index n_finer = 0;       ///< below 1 / sqrt(3)
   Index n_much_finer = 0;  ///< below 1 / 3
