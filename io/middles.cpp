@@ -107,7 +107,7 @@ void say_what_middles_had(const Mesh& mesh, const Edges& edges, std::span<const 
       }
     if (!is_halfway) bent.push_back("'" + field.name + "'");
   }
-  say(std::move(losing), "node sets without the middle nodes of edges that they do not have both ends of");
+  say(std::move(losing), "node sets that lose middle nodes, since they have one end of the edge at most");
   say(std::move(gaining), "node sets that have the middle nodes of all their edges, where the file leaves some out");
   say(std::move(bent), "values at middle nodes are halfway between those at corners, and were others in the file, of");
 }
