@@ -1,5 +1,4 @@
 // Materials, sections and the like of hexes whose blocks are others: ANSYS and I-deas universal files.
-#include "hextwist/session/session.h"
 #include "io/io_support.h"
 
 namespace hextwist {
@@ -159,30 +158,6 @@ TEST(hex_numbers, of_universal_files_come_back_where_groups_are_blocks) {
   mesh = read({{{4, 1}, {2, 3}}}, false);
   EXPECT_EQ(mesh.blocks, (std::vector<Block>{{2, "", {0}}, {4, "", {1}}}));
   EXPECT_EQ(fields_of(mesh), (Fields{{"material", {3, 1}}}));
-}
-
-TEST(hex_numbers, are_carried_by_refinement_into_the_file) {
-  const auto folder = test::output_folder();
-  test::write_text(folder / "a.cdb", ansys({{{1, 1, 3, 4, 11}, {2, 1, 3, 5, 12}}}, one_component));
-  test::write_text(folder / "a.unv", unv({{{1, 1}, {2, 3}}}, true));
-  for (const std::string name : {".cdb", ".unv"}) {
-    SCOPED_TRACE(name);
-    Session session;
-    session.import_mesh(folder / ("a" + name));
-    session.run("refine hex 5");
-    session.export_mesh(folder / ("b" + name));
-    const Columns before = columns_in(folder / ("a" + name)), after = columns_in(folder / ("b" + name));
-    const Mesh mesh = read_mesh(folder / ("b" + name)).mesh;
-    ASSERT_GT(mesh.n_hexes(), 27);
-    for (const auto& [column, numbers] : after) {
-      ASSERT_EQ(std::ssize(numbers), mesh.n_hexes());
-      for (Index h = 0; h < mesh.n_hexes() && column != "id"; ++h) {
-        double x = 0;
-        for (const Index n : mesh.hexes[h]) x += mesh.points[n].x() / 8;
-        EXPECT_EQ(numbers[static_cast<std::size_t>(h)], before.at(column)[x > 1]) << column;
-      }
-    }
-  }
 }
 
 TEST(hex_numbers, are_taken_from_fields_of_whole_numbers_alone) {

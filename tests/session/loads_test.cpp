@@ -1,4 +1,4 @@
-// Loads of .inp files on faces of elements, through what changes the mesh.
+// What files say of elements, through what changes the mesh: loads of .inp on their faces, materials.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -138,6 +138,33 @@ TEST(FaceLoads, of_nodes_and_directions_in_cards_are_told) {
   told.clear();
   session.run("rotate model 90 about x");
   EXPECT_NE(told.find("cards of the .inp file stay as they were read"), std::string::npos) << told;
+}
+
+/// Where groups have hexes, materials are a field (io/hex_numbers.h).
+TEST(HexNumbers, are_carried_by_refinement_into_the_file) {
+  const auto folder = test::folder();
+  Mesh two = test::grid(2, 1, 1);
+  two.blocks = {{1, "CE", {1}}};
+  two.fields = {{"material", Field::On::hex, 1, {3, 7}, true}};
+  for (const std::string name : {".cdb", ".unv"}) {
+    SCOPED_TRACE(name);
+    Session session;
+    session.take(two, nullptr);
+    session.export_mesh(folder / ("a" + name));
+    session.import_mesh(folder / ("a" + name));
+    session.run("refine hex (at 0.5 0.5 0.5)");
+    session.export_mesh(folder / ("b" + name));
+    session.import_mesh(folder / ("b" + name));
+    const Mesh& mesh = session.meshed().mesh;
+    ASSERT_GT(mesh.n_hexes(), 27);
+    const auto material = std::ranges::find(mesh.fields, "material", &Field::name);
+    ASSERT_NE(material, mesh.fields.end());
+    for (Index h = 0; h < mesh.n_hexes(); ++h) {
+      double x = 0;
+      for (const Index n : mesh.hexes[h]) x += mesh.points[n].x() / 8;
+      EXPECT_EQ(material->values[static_cast<std::size_t>(h)], x > 1 ? 7 : 3);
+    }
+  }
 }
 
 }  // namespace
