@@ -90,8 +90,7 @@ int read_view(int argc, char** argv, Options& options) {
 int read_split(int argc, char** argv, Options& options) {
   CLI::App app(
       "Divides a mesh in parts: Exodus files NAME.N.0, NAME.N.1, ... with the communication maps of Nemesis; where "
-      "NAME "
-      "ends in .msh, NAME_1.msh, NAME_2.msh, ... as Gmsh splits meshes; in .pvtu, .vtu files.",
+      "NAME ends in .msh, NAME_1.msh, NAME_2.msh, ... as Gmsh splits meshes; in .pvtu, .vtu files.",
       "hextwist split");
   app.add_option("MESH", options.mesh, "mesh to divide")->required();
   app.add_option("N", options.split, "number of parts")->required()->check(CLI::Range(1, 1000000));

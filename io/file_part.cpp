@@ -4,16 +4,13 @@
 #include "hextwist/io/gmsh/gmsh.h"
 
 namespace hextwist {
-namespace {
 
-bool is_msh(const std::filesystem::path& file) {
+bool is_gmsh_part(const std::filesystem::path& file) {
   return lower_case(file.extension().string()) == ".msh";
 }
 
-}  // namespace
-
 std::filesystem::path part_name(const std::filesystem::path& name, int n_parts, int number) {
-  if (is_msh(name)) {
+  if (is_gmsh_part(name)) {
     std::filesystem::path part = name;
     part.replace_filename(name.stem().string() + "_" + std::to_string(number + 1) + name.extension().string());
     return part;
@@ -23,17 +20,13 @@ std::filesystem::path part_name(const std::filesystem::path& name, int n_parts, 
 }
 
 PartHead read_part_head(const std::filesystem::path& file) {
-  if (!is_msh(file)) return io::read_exodus_head(file);
-  return {io::gmsh_partition(io::read_bytes(file)).n, 0, 0};
+  if (!is_gmsh_part(file)) return io::read_exodus_head(file);
+  return {read_gmsh_part_head(file).n_parts, 0, 0};
 }
 
-int gmsh_part_number(const std::filesystem::path& file) {
-  try {
-    const io::GmshPartition of = io::gmsh_partition(io::read_bytes(file));
-    return of.n > 1 && of.partitions.size() == 1 ? of.partitions[0] - 1 : -1;
-  } catch (const Error&) {
-    return -1;  // whoever reads all of it says what is wrong
-  }
+GmshPartHead read_gmsh_part_head(const std::filesystem::path& file) {
+  const io::GmshPartition of = io::gmsh_partition(io::read_bytes(file));
+  return {of.n, of.n > 1 && of.partitions.size() == 1 ? of.partitions[0] - 1 : -1};
 }
 
 }  // namespace hextwist

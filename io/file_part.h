@@ -59,7 +59,13 @@ struct PartHead {
 };
 /// Throws Error naming the file.
 PartHead read_part_head(const std::filesystem::path& file);
-/// The partition that all hexes of a .msh file are in, from 0; -1 where Gmsh has not split it.
-int gmsh_part_number(const std::filesystem::path& file);
+/// Are parts of that name files of Gmsh? All others are Exodus.
+bool is_gmsh_part(const std::filesystem::path& file);
+/// Which part of how many a .msh file is. n_parts 0: Gmsh has not split it.
+struct GmshPartHead {
+  int n_parts = 0;
+  int number = -1;  ///< from 0; -1: its hexes are in several
+};
+GmshPartHead read_gmsh_part_head(const std::filesystem::path& file);
 
 }  // namespace hextwist

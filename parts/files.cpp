@@ -34,19 +34,33 @@ void refuse_others(const Mesh& mesh, const std::filesystem::path& path) {
   if (mesh.others) throw Error(path.string() + ": other elements are not done in parts: it has " + others_text(mesh));
 }
 
+/// What a file of Gmsh says itself must fit its name, which other meshes may have as well.
+SplitName gmsh_split_name(const std::filesystem::path& part) {
+  const std::string stem = part.stem().string();
+  const std::size_t at = stem.rfind('_');
+  if (at == std::string::npos || !std::filesystem::is_regular_file(part)) return {};
+  GmshPartHead head;
+  try {
+    head = read_gmsh_part_head(part);
+  } catch (const Error&) {
+    return {};  // whoever reads all of it says what is wrong
+  }
+  if (head.number < 0 || stem.substr(at + 1) != std::to_string(head.number + 1)) return {};
+  std::filesystem::path name = part;
+  name.replace_filename(stem.substr(0, at) + part.extension().string());
+  return {name, head.n_parts};
+}
+
+/// Without nodes of no hex of its own: Gmsh's files have those of ghosts.
+Mesh without_loose_nodes(Mesh mesh) {
+  const MeshedModel part{std::move(mesh), nullptr, {}};
+  return Splitting(part, std::vector<int>(part.mesh.hexes.size(), 0), 1).part(0).mesh;
+}
+
 }  // namespace
 
 SplitName split_name(const std::filesystem::path& part) {
-  if (lower_case(part.extension().string()) == ".msh") {
-    const std::string stem = part.stem().string();
-    const std::size_t at = stem.rfind('_');
-    if (at == std::string::npos || !std::filesystem::is_regular_file(part)) return {};
-    const int number = gmsh_part_number(part);
-    if (number < 0 || stem.substr(at + 1) != std::to_string(number + 1)) return {};
-    std::filesystem::path name = part;
-    name.replace_filename(stem.substr(0, at) + part.extension().string());
-    return {name, read_part_head(part).n_parts};
-  }
+  if (is_gmsh_part(part)) return gmsh_split_name(part);
   std::string text = part.string();
   std::size_t dot = 0;
   const int number = number_behind_dot(text, dot);
@@ -69,8 +83,8 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
   if (head.n_parts != n_parts)
     throw Error(file.string() + ": is one of " + std::to_string(head.n_parts) + " parts, not of " +
                 std::to_string(n_parts));
-  if (head.n_hexes == 0)
-    if (const int number = gmsh_part_number(file); number != p)
+  if (is_gmsh_part(file))
+    if (const int number = read_gmsh_part_head(file).number; number != p)
       throw Error(
           file.string() +
           (number < 0 ? std::string(": is no single partition") : ": is partition " + std::to_string(number + 1)) +
@@ -80,7 +94,7 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
     throw Error(file.string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
                 std::to_string(head.n_nodes) + " nodes, " + part_name(split.name, n_parts, 0).string() + " of one of " +
                 std::to_string(first.n_hexes) + " and " + std::to_string(first.n_nodes));
-  MeshFile read = read_mesh(file, head.n_hexes > 0 ? "exodus" : "gmsh", fence);
+  MeshFile read = read_mesh(file, is_gmsh_part(file) ? "gmsh" : "exodus", fence);
   refuse_second_order(read, file);
   refuse_others(read.mesh, file);
   for (std::string& line : read.notices)
@@ -90,10 +104,7 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
       notices.push_back(file.string() + ": parts are joined without " + lost);
   read.mesh.results = nullptr;
   read.mesh.file_hexes.clear();
-  // Gmsh's files have the nodes of ghosts, and may have some of no hex at all.
-  const MeshedModel part{std::move(read.mesh), nullptr, {}};
-  const Splitting all(part, std::vector<int>(part.mesh.hexes.size(), 0), 1);
-  return all.n_loose_nodes() > 0 ? all.part(0).mesh : part.mesh;
+  return is_gmsh_part(file) ? without_loose_nodes(std::move(read.mesh)) : std::move(read.mesh);
 }
 
 MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "hextwist/base/fence.h"
-#include "hextwist/base/replacement.h"
 #include "hextwist/io/file_part.h"
 #include "hextwist/io/io.h"
 #include "hextwist/parts/partition.h"

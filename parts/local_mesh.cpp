@@ -24,18 +24,13 @@ Box own_box(const LocalMesh& local) {
 }
 
 void SizeCounts::add(const SizeCounts& more) {
-  hexes += more.hexes;
-  coarser += more.coarser;
-  finer += more.finer;
-  much_finer += more.much_finer;
+  met.add(more.met);
   unmet += more.unmet;
 }
 
 std::string text_of(const SizeCounts& counts) {
-  if (counts.hexes == 0) return {};
-  const double met = 1 - static_cast<double>(counts.coarser + counts.finer) / static_cast<double>(counts.hexes);
-  return "actual / wished size of " + counted(counts.hexes, "hex", "hexes") + ": " +
-         text_of_sizes(met, counts.coarser, counts.finer, counts.much_finer) +
+  if (counts.met.n_hexes == 0) return {};
+  return "actual / wished size of " + counted(counts.met.n_hexes, "hex", "hexes") + ": " + text_of_sizes(counts.met) +
          (counts.unmet > 0 ? ", " + std::to_string(counts.unmet) + " still too large" : "");
 }
 

@@ -13,6 +13,7 @@
 #include "hextwist/sizing/among_parts.h"
 #include "hextwist/sizing/lift_new.h"
 #include "hextwist/sizing/plan.h"
+#include "hextwist/sizing/report.h"
 
 namespace hextwist {
 
@@ -57,7 +58,8 @@ Box own_box(const LocalMesh& local);
 
 /// How well sizes are met.
 struct SizeCounts {
-  std::int64_t hexes = 0, coarser = 0, finer = 0, much_finer = 0, unmet = 0;
+  SizesMet met;
+  std::int64_t unmet = 0;
   void add(const SizeCounts& more);
 };
 /// One line; none where no size was wished for.

@@ -2,7 +2,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
 #include "hextwist/parts/own_part.h"
 
@@ -60,7 +59,7 @@ std::filesystem::path PartOutput::piece(int part) const {
 void PartOutput::write(const OwnPart& part, std::vector<std::string>& notices) {
   std::vector<std::string> told;
   const std::filesystem::path to = piece(part.file.number), extension = to.extension();
-  if (extension == ".vtu" || lower_case(extension.string()) == ".msh") {
+  if (is_vtk_ || is_gmsh_part(to)) {
     std::filesystem::path from = to;
     from.replace_filename("." + to.stem().string() + ".part" + extension.string());
     renamed_.push_back({from, to});

@@ -50,10 +50,10 @@ SizeCounts counts_of(const SizeReport& sizes, const LocalMesh& local, std::span<
   SizeCounts counts;
   for (std::size_t i = 0; i < sizes.hexes.size(); ++i) {
     if (!local.is_own(origin[sizes.hexes[i]])) continue;
-    ++counts.hexes;
-    counts.coarser += is_coarser(sizes.ratio[i]);
-    counts.finer += is_finer(sizes.ratio[i]);
-    counts.much_finer += sizes.ratio[i] < 1.0 / 3;
+    ++counts.met.n_hexes;
+    counts.met.n_coarser += is_coarser(sizes.ratio[i]);
+    counts.met.n_finer += is_finer(sizes.ratio[i]);
+    counts.met.n_much_finer += sizes.ratio[i] < 1.0 / 3;
   }
   counts.unmet = std::ranges::count_if(sizes.unmet, [&](Index h) { return local.is_own(origin[h]); });
   return counts;

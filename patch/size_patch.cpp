@@ -157,12 +157,7 @@ SizeReport whole_sizes(const SizeReport& in_patch, const SizeReport& outside, co
   whole.n_coarser += outside.n_coarser;
   whole.n_finer += outside.n_finer;
   whole.n_much_finer += outside.n_much_finer;
-  if (whole.moved) {
-    whole.moved->n_hexes += static_cast<Index>(outside.hexes.size());
-    whole.moved->n_coarser += outside.n_coarser;
-    whole.moved->n_finer += outside.n_finer;
-    whole.moved->n_much_finer += outside.n_much_finer;
-  }
+  if (whole.moved) whole.moved->add(outside.counts());
   for (Index& h : whole.unmet) h = numbers.hex[h];
   std::ranges::sort(whole.unmet);
   if (whole.directions && outside.directions) {

@@ -165,6 +165,11 @@ std::vector<Index> State::new_nodes() const {
   });
 }
 
+Index State::node_before(Index node) const {
+  if (!result_.old_node.empty()) return result_.old_node[node];
+  return node < input.mesh.n_nodes() ? node : -1;
+}
+
 std::vector<Index> State::fixed_now() const {
   const std::vector<Index>& old = result_.old_node;
   if (old.empty()) return with_nodes_of_others(mesh(), request.finish.fixed);
@@ -205,15 +210,14 @@ void State::evaluate_fields() {
   if (straight_.empty()) return;
   begin("carry");
   Mesh& mesh = result_.refined.mesh;
-  const std::vector<Index>& old_node = result_.old_node;
-  const auto old = [&](Index n) { return !old_node.empty() ? old_node[n] : n < input.mesh.n_nodes() ? n : -1; };
   std::vector<Index> elsewhere;
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     if (mesh.points[n] == straight_[n]) continue;
-    if (old(n) < 0 || mesh.points[n] != input.mesh.points[old(n)])
+    const Index before = node_before(n);
+    if (before < 0 || mesh.points[n] != input.mesh.points[before])
       elsewhere.push_back(n);
     else  // where it was in the input
-      copy_nodal_values(input.mesh, old(n), mesh, n);
+      copy_nodal_values(input.mesh, before, mesh, n);
   }
   evaluate_nodal_fields(input.mesh, mesh, elsewhere, result_.origin, mesh.fields);
 }
@@ -283,14 +287,13 @@ void State::close() {
 
 void State::tell_of_moved_nodes() {
   const Mesh& now = mesh();
-  const std::vector<Index>& old = result_.old_node;
   // What had been moved for better shapes goes back by levels, which is told; repeated surfaces are made exact.
   const bool goes_back = result_.levelling && request.levelling && !request.levelling->overlay.nodes.empty();
   if (request.finish.smooth || goes_back || request.finish.periodic) return;
   Index n_moved = 0;
   double farthest = 0;
   for (Index n = 0; n < now.n_nodes(); ++n) {
-    const Index before = !old.empty() ? old[n] : n < input.mesh.n_nodes() ? n : -1;
+    const Index before = node_before(n);
     if (before < 0 || now.points[n] == input.mesh.points[before]) continue;
     ++n_moved;
     farthest = std::max(farthest, (now.points[n] - input.mesh.points[before]).norm());
@@ -302,8 +305,7 @@ void State::tell_of_moved_nodes() {
 
 void State::measure_sizes() {
   if (!report.sizes || result_.smoothed.empty()) return;
-  const SizeReport now = size_report(mesh(), report.sizes->hexes, size_wish(*this)->field());
-  report.sizes->moved = {static_cast<Index>(now.hexes.size()), now.n_coarser, now.n_finer, now.n_much_finer};
+  report.sizes->moved = size_report(mesh(), report.sizes->hexes, size_wish(*this)->field()).counts();
 }
 
 void State::repeat_periodic() {

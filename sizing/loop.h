@@ -105,6 +105,8 @@ class State {
   std::vector<Index> new_hexes() const;
   /// Those of these hexes that lie in hexes of the input which are boxes.
   std::vector<Index> of_boxes(std::span<const Index> hexes) const;
+  /// What a node of now is in the input, -1: it was not there.
+  Index node_before(Index node) const;
   /// Nodes that smoothing is not to move, by the numbers that they have now: pieces of other elements stay as they were
   /// placed, where only the repair of inverted hexes may slide them.
   std::vector<Index> fixed_now() const;

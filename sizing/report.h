@@ -32,10 +32,17 @@ struct DirectionSizes {
 
 /// How many hexes of a zone are larger or smaller than wished.
 struct SizesMet {
-  Index n_hexes = 0;       ///< of the zone
-  Index n_coarser = 0;     ///< ratio above sqrt(3)
-  Index n_finer = 0;       ///< below 1 / sqrt(3)
-  Index n_much_finer = 0;  ///< below 1 / 3
+  std::int64_t n_hexes = 0;       ///< of the zone
+  std::int64_t n_coarser = 0;     ///< ratio above sqrt(3)
+  std::int64_t n_finer = 0;       ///< below 1 / sqrt(3)
+  std::int64_t n_much_finer = 0;  ///< below 1 / 3
+  /// Counts those of another zone as well.
+  void add(const SizesMet& more) {
+    n_hexes += more.n_hexes;
+    n_coarser += more.n_coarser;
+    n_finer += more.n_finer;
+    n_much_finer += more.n_much_finer;
+  }
   /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
   double met() const {
     return n_hexes == 0 ? 1 : 1 - static_cast<double>(n_coarser + n_finer) / static_cast<double>(n_hexes);
@@ -57,11 +64,10 @@ struct SizeReport {
   std::optional<DirectionSizes> directions;
   /// Where nodes were moved for better shapes after that: the counts of the mesh as it is handed out.
   std::optional<SizesMet> moved;
+  /// The counts by themselves.
+  SizesMet counts() const { return {static_cast<std::int64_t>(hexes.size()), n_coarser, n_finer, n_much_finer}; }
   /// Part of the zone within a factor sqrt(3) of the wish, 0..1; 1 for an empty zone.
-  double met() const {
-    const auto n = static_cast<double>(hexes.size());
-    return hexes.empty() ? 1 : 1 - static_cast<double>(n_coarser + n_finer) / n;
-  }
+  double met() const { return counts().met(); }
 };
 
 /// New hexes of low quality: more than there were.

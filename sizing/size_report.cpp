@@ -45,9 +45,10 @@ DirectionSizes direction_sizes(const Mesh& mesh, std::span<const Index> hexes, c
   return sizes;
 }
 
-std::string text_of_sizes(double met, std::int64_t coarser, std::int64_t finer, std::int64_t much_finer) {
-  return short_number(100 * met) + "% within a factor of sqrt(3), " + std::to_string(coarser) + " coarser, " +
-         std::to_string(finer) + " finer (" + std::to_string(much_finer) + " by more than 3)";
+std::string text_of_sizes(const SizesMet& counts) {
+  return short_number(100 * counts.met()) + "% within a factor of sqrt(3), " + std::to_string(counts.n_coarser) +
+         " coarser, " + std::to_string(counts.n_finer) + " finer (" + std::to_string(counts.n_much_finer) +
+         " by more than 3)";
 }
 
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish) {

@@ -29,8 +29,8 @@ inline bool is_finer(double ratio) {
   return ratio < 1 / std::numbers::sqrt3;
 }
 
-/// "66% within a factor of sqrt(3), 12 coarser, ..." met: the part of all.
-std::string text_of_sizes(double met, std::int64_t coarser, std::int64_t finer, std::int64_t much_finer);
+/// "66% within a factor of sqrt(3), 12 coarser, ..."
+std::string text_of_sizes(const SizesMet& counts);
 
 /// Fills hexes, ratio and the counts.
 SizeReport size_report(const Mesh& mesh, std::vector<Index> hexes, const SizeField& wish);

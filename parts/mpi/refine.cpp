@@ -93,8 +93,8 @@ Box whole_box(Ranks& ranks, const LocalMesh& local) {
 
 SizeCounts sum_of(Ranks& ranks, const SizeCounts& mine) {
   const std::vector<std::int64_t> sum =
-      ranks.sum(std::vector{mine.hexes, mine.coarser, mine.finer, mine.much_finer, mine.unmet});
-  return {sum[0], sum[1], sum[2], sum[3], sum[4]};
+      ranks.sum(std::vector{mine.met.n_hexes, mine.met.n_coarser, mine.met.n_finer, mine.met.n_much_finer, mine.unmet});
+  return {{sum[0], sum[1], sum[2], sum[3]}, sum[4]};
 }
 
 /// What all ranks make of a command together.

@@ -50,13 +50,11 @@ std::optional<Sizes> sizes_of(const Execution& run) {
 std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
   std::string text =
       "actual / wished size of " + counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
-      counted(sizes.n_passes, "pass") + ": " +
-      text_of_sizes(sizes.met(), sizes.n_coarser, sizes.n_finer, sizes.n_much_finer) + "\n" + histogram(sizes.ratio);
+      counted(sizes.n_passes, "pass") + ": " + text_of_sizes(sizes.counts()) + "\n" + histogram(sizes.ratio);
   if (text.ends_with('\n')) text.pop_back();
   if (const auto& moved = sizes.moved;
       moved && (moved->n_coarser != sizes.n_coarser || moved->n_finer != sizes.n_finer))
-    text += "\nafter nodes were moved for better shapes: " +
-            text_of_sizes(moved->met(), moved->n_coarser, moved->n_finer, moved->n_much_finer);
+    text += "\nafter nodes were moved for better shapes: " + text_of_sizes(*moved);
   if (sizes.directions)
     text += "\nof the " + std::to_string(3 * sizes.hexes.size()) + " directions of these hexes " +
             std::to_string(sizes.directions->n_longer) + " are longer than wished by more than sqrt(3), " +

@@ -44,6 +44,15 @@ void write_parts(const Mesh& mesh, const std::filesystem::path& name, const std:
   files.commit();
 }
 
+/// Per hex a part, each at least once.
+std::vector<int> random_parts(const Mesh& mesh, int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<int> part_of_hex(mesh.hexes.size());
+  for (int& p : part_of_hex) p = static_cast<int>(random() % static_cast<unsigned>(n));
+  std::iota(part_of_hex.begin(), part_of_hex.begin() + n, 0);
+  return part_of_hex;
+}
+
 TEST(SplitName, is_told_from_that_of_any_part) {
   EXPECT_EQ(part_name("mesh.e", 8, 3), "mesh.e.8.3");
   EXPECT_EQ(part_name("a/mesh.e", 16, 3), "a/mesh.e.16.03");
@@ -102,12 +111,8 @@ TEST(Split, parts_are_right_for_others_and_joined_again_to_the_bit) {
       for (const int n : {1, 2, 3, 8, 11}) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(n) + " parts");
         const Mesh mesh = test::rich_mesh(seed, gaps, {5, 4, 3});
-        std::mt19937 random(seed);
-        std::vector<int> part_of_hex(mesh.hexes.size());
-        for (int& p : part_of_hex) p = static_cast<int>(random() % static_cast<unsigned>(n));
-        std::iota(part_of_hex.begin(), part_of_hex.begin() + n, 0);
         const auto name = test::output_folder() / "rich.e";
-        write_parts(mesh, name, part_of_hex, n);
+        write_parts(mesh, name, random_parts(mesh, n, seed), n);
         EXPECT_EQ(faults_text(name, n), "");
         EXPECT_TRUE(test::same_mesh(mesh, read_parts(part_name(name, n, 0)).mesh));
       }
@@ -119,13 +124,9 @@ TEST(Split, as_gmsh_does_and_joined_again_to_what_one_file_keeps) {
       for (const int n : {2, 3, 8}) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(n) + " parts");
         const Mesh mesh = test::rich_mesh(seed, gaps, {5, 4, 3});
-        std::mt19937 random(seed);
-        std::vector<int> part_of_hex(mesh.hexes.size());
-        for (int& p : part_of_hex) p = static_cast<int>(random() % static_cast<unsigned>(n));
-        std::iota(part_of_hex.begin(), part_of_hex.begin() + n, 0);
         const auto folder = test::output_folder();
         write_mesh(folder / "whole.msh", mesh, nullptr);
-        write_parts(mesh, folder / "rich.msh", part_of_hex, n);
+        write_parts(mesh, folder / "rich.msh", random_parts(mesh, n, seed), n);
         EXPECT_TRUE(test::same_mesh(read_mesh(folder / "whole.msh").mesh,
                                     read_parts(folder / ("rich_" + std::to_string(n) + ".msh")).mesh));
       }
