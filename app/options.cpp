@@ -114,11 +114,17 @@ int read_join(int argc, char** argv, Options& options) {
 int read_in_parts(int argc, char** argv, Options& options) {
   CLI::App app(
       "Refines a mesh in parts, part after part, from disk to disk: with one part in memory at a time. Refinements "
-      "only.",
+      "only. With --parts an Exodus file of the whole, read in slices.",
       "hextwist refine-in-parts");
   std::vector<std::string> commands;
-  app.add_option("PART", options.mesh, "any of the parts, NAME.N.0 or NAME_1.msh ('hextwist split' makes them)")
+  app.add_option("PART", options.mesh,
+                 "any of the parts, NAME.N.0 or NAME_1.msh ('hextwist split' makes them); with --parts a mesh file")
       ->required();
+  auto* parts = app.add_option("--parts", options.n_parts, "divide a mesh file into so many parts first")
+                    ->check(CLI::Range(1, 1000000));
+  app.add_option("--by", options.split_by, "how: boxes (default), slabs or ids")
+      ->check(CLI::IsMember({"boxes", "slabs", "ids"}))
+      ->needs(parts);
   app.add_option("-c,--commands", commands, "refinements, separated by ';'")
       ->type_name("COMMANDS")
       ->allow_extra_args(false)

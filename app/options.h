@@ -29,6 +29,7 @@ struct Options {
   int split = 0;                      ///< hextwist split MESH N: `output` is the name before .N.i
   std::string split_by;               ///< "scotch", "boxes", "slabs", "ids"; empty: the first that is there
   bool join = false;                  ///< hextwist join PART
+  int n_parts = 0;                    ///< with in_parts: a file of the whole is divided first
   bool in_parts = false;              ///< hextwist refine-in-parts PART: `output` is the name before .N.i
   int rings = 6;                      ///< of its halos
   bool serve = false;                 ///< hextwist serve

@@ -32,7 +32,12 @@ void refine_in_parts(const Options& options, const Fence& fence) {
   } catch (const CommandError& error) {
     throw Error(error.message());
   }
-  refine_on_disk(options.mesh, *commands, options.output, {options.rings, {}, fence}, [](const std::string& line) {
+  OnDiskOptions on_disk;
+  on_disk.n_rings = options.rings;
+  on_disk.fence = fence;
+  on_disk.n_parts = options.n_parts;
+  if (!options.split_by.empty()) on_disk.by = partition_by(options.split_by);
+  refine_on_disk(options.mesh, *commands, options.output, on_disk, [](const std::string& line) {
     std::cout << line << "\n" << std::flush;
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "hextwist/base/text.h"
+#include "hextwist/io/exodus/exodus_internal.h"
 #include "hextwist/io/format.h"
 #include "hextwist/io/results.h"
 #include "hextwist/mesh/others.h"
@@ -285,6 +286,12 @@ MeshFile read_mesh(const std::filesystem::path& file, std::string_view name, con
   if (!format || !format->read)
     throw Error(file.string() + ": meshes of this kind cannot be read; known are " + readable_extensions());
   return format->read(file, fence);
+}
+
+std::optional<MeshSlice> read_slice(const std::filesystem::path& file, int number, int n, const Fence& fence) {
+  const Format* format = format_to_read(file, {});
+  if (!format || format->read != io::read_exodus) return std::nullopt;
+  return io::read_exodus_slice(file, number, n, fence);
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,

@@ -42,6 +42,8 @@ struct NamedId {
 
 class PartCommands {
  public:
+  /// None.
+  PartCommands() = default;
   /// Refinements, and what else a mesh is changed by, separated by ';'. Throws Error for what is wrong already, and for
   /// commands that begin or end a session of their own.
   explicit PartCommands(std::span<const std::string> texts);

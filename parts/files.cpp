@@ -8,6 +8,7 @@
 #include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/on_disk.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/split.h"
 
@@ -146,6 +147,14 @@ void need_ids(Mesh& mesh) {
 
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence) {
+  if (by != PartitionBy::scotch && split_name(mesh).n_parts == 0) {
+    std::vector<std::string> lines;
+    OnDiskOptions options;
+    options.fence = fence;
+    options.n_parts = n_parts;
+    options.by = by;
+    if (split_on_disk(mesh, name, options, [&](const std::string& line) { lines.push_back(line); })) return lines;
+  }
   MeshFile file = split_name(mesh).n_parts ? read_parts(mesh, fence) : read_mesh(mesh, {}, fence);
   refuse_second_order(file, mesh);
   std::vector<std::string> notices = std::move(file.notices);
@@ -165,9 +174,13 @@ std::vector<std::string> split_file(const std::filesystem::path& mesh, const std
     for (const auto& shared : part.file.sides) n_shared += std::ssize(shared.sides);
   }
   files.commit();
-  notices.push_back(std::to_string(whole.mesh.n_hexes()) + " hexes in " + counted(n_parts, "part") + " of at most " +
-                    std::to_string(largest) + ", " + counted(n_shared / 2, "face") + " between them");
+  notices.push_back(split_text(whole.mesh.n_hexes(), n_parts, largest, n_shared / 2));
   return notices;
+}
+
+std::string split_text(std::int64_t n_hexes, int n_parts, std::int64_t largest, std::int64_t n_shared_faces) {
+  return std::to_string(n_hexes) + " hexes in " + counted(n_parts, "part") + " of at most " + std::to_string(largest) +
+         ", " + counted(n_shared_faces, "face") + " between them";
 }
 
 std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,

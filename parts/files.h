@@ -34,10 +34,13 @@ void check_part(const Mesh& part, const std::string& name);
 /// Fills in ids that were left out.
 void need_ids(Mesh& mesh);
 
-/// Reads a mesh and writes it in parts, as PartOutput names them. Returns what is to be said, one line each; throws
+/// Reads a mesh and writes it in parts, as PartOutput names them; slice by slice where the file can be read so
+/// (split_on_disk()), but for SCOTCH, which looks at all of it. Returns what is to be said, one line each; throws
 /// Error, then no part was written.
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence = {});
+/// "1000 hexes in 8 parts of at most 125, 300 faces between them"
+std::string split_text(std::int64_t n_hexes, int n_parts, std::int64_t largest, std::int64_t n_shared_faces);
 /// Reads parts and writes one file.
 std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,
                                     const Fence& fence = {});

@@ -7,12 +7,12 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/parts/agree.h"
-#include "hextwist/parts/files.h"
 #include "hextwist/parts/halo.h"
 #include "hextwist/parts/on_disk_internal.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/own_skin.h"
 #include "hextwist/parts/pack.h"
+#include "hextwist/parts/source.h"
 #include "hextwist/patch/patch.h"
 
 namespace hextwist {
@@ -48,18 +48,11 @@ PartNumbers not_part_after_part(const PartNumbers&, bool&) {
 
 class OnDisk {
  public:
-  OnDisk(const std::filesystem::path& any_part, const PartCommands& commands, const OnDiskOptions& options,
-         const std::filesystem::path& output, const std::function<void(const std::string&)>& say)
-      : split_(split_name(any_part)),
-        commands_(commands),
-        say_(say),
-        fence_(options.fence),
-        aside_(options.folder.empty() ? output.parent_path() : options.folder) {
-    if (split_.n_parts == 0)
-      throw Error(any_part.string() +
-                  ": parts are called name.e.8.0, name.e.8.1, ..., or name_1.msh, ... as Gmsh splits meshes; "
-                  "'hextwist split' makes them");
-    n_rings_ = first_rings(options.n_rings, commands.depth(), commands.size());
+  OnDisk(PartSource source, const Aside& aside, const PartCommands& commands, int n_rings,
+         const std::function<void(const std::string&)>& say)
+      : source_(std::move(source)), aside_(aside), commands_(commands), say_(say) {
+    // What parts share is known with a ring of others.
+    n_rings_ = is_split_only() ? 1 : first_rings(n_rings, commands.depth(), commands.size());
   }
 
   void run(const std::filesystem::path& output) {
@@ -79,8 +72,9 @@ class OnDisk {
   }
 
  private:
-  int n_parts() const { return split_.n_parts; }
-  std::string name(int p) const { return part_name(split_.name, n_parts(), p).string(); }
+  int n_parts() const { return source_.n_parts(); }
+  std::string name(int p) const { return source_.name(p); }
+  bool is_split_only() const { return commands_.size() == 0; }
 
   /// Reads every part once: is it sound, what has it in common with others, what is its skin?
   void look_at_all() {
@@ -93,11 +87,11 @@ class OnDisk {
     MeshedModel heads;
     for (int p = 0; p < n_parts(); ++p) {
       check_interrupt();
-      MeshedModel part{read_one_part(split_, p, head, notices, fence_), nullptr, {}};
+      MeshedModel part{source_.read(p, head, notices), nullptr, {}};
       Mesh& mesh = part.mesh;
       if (mesh.hexes.empty()) throw Error(name(p) + ": there are no hexes");
       need_ids(mesh);
-      check_part(mesh, name(p));
+      if (!is_split_only()) check_part(mesh, name(p));
       check_groups(mesh, p, heads.mesh);
       block_sizes.resize(mesh.blocks.size(), 0);
       // Until it is known whether blocks are volumes, they are.
@@ -107,7 +101,7 @@ class OnDisk {
         for (const Index h : mesh.blocks[b].hexes) volume[h] = static_cast<int>(b) + 1;
       }
       is_by_blocks = is_by_blocks && has_block_each(mesh);
-      find_faces(mesh, volume, open, walls);
+      if (!is_split_only()) find_faces(mesh, volume, open, walls);
       box_.add(hextwist::box(mesh));
       n_nodes += mesh.n_nodes();
       n_hexes += mesh.n_hexes();
@@ -119,12 +113,14 @@ class OnDisk {
     for (const std::string& line : notices) say_(line);
     n_nodes_ = n_nodes - shared_.finish();
     n_hexes_ = n_hexes;
-    if (head.n_hexes > 0 && (n_nodes_ != head.n_nodes || n_hexes_ != head.n_hexes))
-      throw Error(split_.name.string() + ": its parts have " + std::to_string(n_hexes_) + " hexes and " +
+    if (source_.is_divided() && n_nodes_ < head.n_nodes)
+      say_("left out " + counted(head.n_nodes - n_nodes_, "node") + " of no hex");
+    else if (head.n_hexes > 0 && (n_nodes_ != head.n_nodes || n_hexes_ != head.n_hexes))
+      throw Error(source_.whole().string() + ": its parts have " + std::to_string(n_hexes_) + " hexes and " +
                   std::to_string(n_nodes_) + " nodes together, and say " + std::to_string(head.n_hexes) + " and " +
                   std::to_string(head.n_nodes));
     if (!is_by_blocks) block_sizes.clear();
-    put_on_own_skin(std::move(open), std::move(walls), block_sizes);
+    if (!is_split_only()) put_on_own_skin(std::move(open), std::move(walls), block_sizes);
   }
 
   /// Parts have the same groups and fields, as split files do, and blocks that do not overlap.
@@ -409,6 +405,8 @@ class OnDisk {
       lines_.push_back(std::to_string(all.n_before) + " -> " + std::to_string(all.n_after) + " hexes in " +
                        counted(n_parts(), "part") + " of at most " + std::to_string(all.largest));
     }
+    if (is_split_only())
+      for (int p = 0; p < n_parts(); ++p) count(with_halo(p), p);
     for (const std::string& line : lines_) say_(line);
     return true;
   }
@@ -508,6 +506,7 @@ class OnDisk {
   void write_all(const std::filesystem::path& output) {
     PartOutput files(output, n_parts());
     std::vector<std::string> notices;
+    std::int64_t largest = 0, n_shared = 0;
     for (int p = 0; p < n_parts(); ++p) {
       GlobalIds ids;
       LocalMesh local = after(p, commands_.size(), ids);
@@ -520,18 +519,21 @@ class OnDisk {
       for (const std::int64_t n : shares) rest -= n;
       shares.push_back(rest);
       fill_in_whole(part, counts_, shares, highest);
+      if (is_split_only()) part.mesh.results = source_.results();
       files.write(part, notices);
+      largest = std::max<std::int64_t>(largest, part.mesh.n_hexes());
+      for (const auto& shared : part.file.sides) n_shared += std::ssize(shared.sides);
     }
     check_interrupt();
     files.commit();
     for (const std::string& line : notices) say_(line);
+    if (is_split_only()) say_(split_text(n_hexes_, n_parts(), largest, n_shared / 2));
   }
 
-  SplitName split_;
+  PartSource source_;
+  const Aside& aside_;
   const PartCommands& commands_;
   const std::function<void(const std::string&)>& say_;
-  const Fence& fence_;
-  Aside aside_;
   int n_rings_ = 0;
   SharedNodes shared_;
   std::shared_ptr<const Model> model_;
@@ -545,11 +547,28 @@ class OnDisk {
 
 }  // namespace
 
-void refine_on_disk(const std::filesystem::path& any_part, const PartCommands& commands,
+void refine_on_disk(const std::filesystem::path& input, const PartCommands& commands,
                     const std::filesystem::path& output, const OnDiskOptions& options,
                     const std::function<void(const std::string&)>& say) {
   if (!commands.by_whole().empty()) throw NeedsWhole(commands.by_whole());
-  OnDisk(any_part, commands, options, output, say).run(output);
+  std::optional<PartSource> source;
+  if (options.n_parts == 0) source.emplace(input, options.fence);
+  const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
+  if (!source) source = PartSource::divide(input, options.n_parts, options.by, aside, options.fence);
+  if (!source)
+    throw Error(input.string() +
+                ": is not read in slices, which Exodus files are that have only hexes of 8 nodes and blocks that "
+                "don't overlap; 'hextwist split' makes parts of it");
+  OnDisk(std::move(*source), aside, commands, options.n_rings, say).run(output);
+}
+
+bool split_on_disk(const std::filesystem::path& file, const std::filesystem::path& output, const OnDiskOptions& options,
+                   const std::function<void(const std::string&)>& say) {
+  const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
+  std::optional<PartSource> source = PartSource::divide(file, options.n_parts, options.by, aside, options.fence);
+  if (!source || !source->left_out().empty()) return false;  // what parts of the whole have
+  OnDisk(std::move(*source), aside, PartCommands(), options.n_rings, say).run(output);
+  return true;
 }
 
 }  // namespace hextwist

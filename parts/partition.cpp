@@ -23,24 +23,17 @@ std::vector<int> in_order(std::span<const Index> order, int n_parts) {
   return part;
 }
 
-std::vector<int> by_slabs(const Mesh& mesh, int n_parts) {
-  const Box all = box(mesh);
+std::vector<int> by_slabs(std::span<const Vec3> middle, const Box& box, int n_parts) {
   Eigen::Index axis = 0;
-  (all.max - all.min).maxCoeff(&axis);
-  std::vector<double> place(mesh.hexes.size(), 0);
-  for (std::size_t h = 0; h < place.size(); ++h)
-    for (const Index n : mesh.hexes[h]) place[h] += mesh.points[n][axis];
-  std::vector<Index> order(place.size());
+  (box.max - box.min).maxCoeff(&axis);
+  std::vector<Index> order(middle.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](Index h) { return std::pair(place[h], h); });
+  std::ranges::sort(order, {}, [&](Index h) { return std::pair(middle[h][axis], h); });
   return in_order(order, n_parts);
 }
 
 /// Halves of halves.
-std::vector<int> by_boxes(const Mesh& mesh, int n_parts) {
-  std::vector<Vec3> middle(mesh.hexes.size(), Vec3::Zero());
-  for (std::size_t h = 0; h < middle.size(); ++h)
-    for (const Index n : mesh.hexes[h]) middle[h] += mesh.points[n];
+std::vector<int> by_boxes(std::span<const Vec3> middle, int n_parts) {
   std::vector<Index> order(middle.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> part(middle.size(), 0);
@@ -102,12 +95,15 @@ bool has_scotch() {
 #endif
 }
 
+std::vector<Vec3> middles_of(const Mesh& mesh) {
+  std::vector<Vec3> middle(mesh.hexes.size(), Vec3::Zero());
+  for (std::size_t h = 0; h < middle.size(); ++h)
+    for (const Index n : mesh.hexes[h]) middle[h] += mesh.points[n];
+  return middle;
+}
+
 std::vector<int> partition(const Mesh& mesh, int n_parts, PartitionBy by) {
-  if (n_parts < 1) throw Error("the number of parts must be at least 1");
-  if (n_parts > mesh.n_hexes())
-    throw Error("a mesh of " + counted(mesh.n_hexes(), "hex", "hexes") + " has no " + std::to_string(n_parts) +
-                " parts");
-  if (by == PartitionBy::scotch) {
+  if (by == PartitionBy::scotch && n_parts >= 1 && n_parts <= mesh.n_hexes()) {
 #ifdef HEXTWIST_SCOTCH
     std::vector<int> part = by_scotch(mesh, n_parts);
     std::vector<char> has(static_cast<std::size_t>(n_parts), 0);
@@ -118,9 +114,17 @@ std::vector<int> partition(const Mesh& mesh, int n_parts, PartitionBy by) {
     throw Error("this program was built without SCOTCH (Debian: libscotch-dev); divide by slabs or ids instead");
 #endif
   }
-  if (by == PartitionBy::boxes) return by_boxes(mesh, n_parts);
-  if (by == PartitionBy::slabs || by == PartitionBy::scotch) return by_slabs(mesh, n_parts);
-  std::vector<Index> order(mesh.hexes.size());
+  return partition(middles_of(mesh), box(mesh), n_parts, by);
+}
+
+std::vector<int> partition(std::span<const Vec3> middles, const Box& box, int n_parts, PartitionBy by) {
+  if (n_parts < 1) throw Error("the number of parts must be at least 1");
+  if (n_parts > std::ssize(middles))
+    throw Error("a mesh of " + counted(std::ssize(middles), "hex", "hexes") + " has no " + std::to_string(n_parts) +
+                " parts");
+  if (by == PartitionBy::boxes) return by_boxes(middles, n_parts);
+  if (by == PartitionBy::slabs || by == PartitionBy::scotch) return by_slabs(middles, box, n_parts);
+  std::vector<Index> order(middles.size());
   std::iota(order.begin(), order.end(), 0);
   std::mt19937 random(1);
   if (by == PartitionBy::random)

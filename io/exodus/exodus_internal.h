@@ -6,6 +6,7 @@
 #include "hextwist/io/file_part.h"
 #include "hextwist/io/middles.h"
 #include "hextwist/io/results.h"
+#include "hextwist/io/slice.h"
 
 namespace hextwist::io {
 
@@ -41,8 +42,9 @@ inline std::int64_t exodus_position(std::size_t i) {
 /// A file that is open, and what its positions and ids are here.
 struct ExodusSource {
   struct Block {
-    std::int64_t id, first, n;  ///< elements of the file, 0-based
+    std::int64_t id, first, n;  ///< elements that are read, 0-based
     bool hexes;
+    std::int64_t skipped, n_in_file;  ///< of a slice: elements of the block before those that are read, and all
   };
   int file;
   const std::string& name;
@@ -58,6 +60,9 @@ struct ExodusSource {
 /// said.
 std::shared_ptr<const FileResults> read_extras(const ExodusSource& source, const Mesh& mesh,
                                                std::vector<std::string>& notices);
+/// The same of what has no node, hex or side of its own. lost: names the rest.
+std::shared_ptr<const FileResults> read_extras_of_whole(const ExodusSource& source, std::vector<std::string>& notices,
+                                                        std::vector<std::string>& lost);
 
 bool is_classic_netcdf(const Bytes& file);
 /// Throws Error unless all that the header announces lies within the file: then the library takes no more memory than a
@@ -66,6 +71,8 @@ void check_classic_netcdf(const Bytes& file);
 
 /// What Nemesis says. Throws Error naming the file.
 PartHead read_exodus_head(const std::filesystem::path& file);
+
+std::optional<MeshSlice> read_exodus_slice(const std::filesystem::path& file, int number, int n, const Fence& fence);
 
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";

@@ -54,6 +54,25 @@ class ExtrasReader {
     return std::make_shared<const FileResults>(std::move(out_));
   }
 
+  std::shared_ptr<const FileResults> of_whole(std::vector<std::string>& lost) {
+    records();
+    properties();
+    if (const std::size_t n = count(EX_INQ_TIME, "time steps"); n > 1) {
+      lost.push_back(counted(static_cast<std::int64_t>(n) - 1, "more time step", "more time steps"));
+      for (const std::string& name : variables(EX_GLOBAL)) lost.push_back("global variable '" + name + "'");
+    } else {
+      times();
+      results();
+    }
+    for (const std::int64_t id : ids(EX_ELEM_BLOCK, in_.init.num_elem_blk))
+      if (int n = 0; ex_get_attr_param(in_.file, EX_ELEM_BLOCK, id, &n) >= 0 && n > 0)
+        lost.push_back(counted(n, "attribute") + " of block " + std::to_string(id));
+    alike_in_sets(EX_NODE_SET, in_.init.num_node_sets, out_.node_sets, lost);
+    alike_in_sets(EX_SIDE_SET, in_.init.num_side_sets, out_.side_sets, lost);
+    left_out();
+    return out_.empty() ? nullptr : std::make_shared<const FileResults>(std::move(out_));
+  }
+
  private:
   void check(int status, const std::string& what) const {
     if (status < 0) throw Error(in_.name + ": " + what + " cannot be read (damaged file)");
@@ -219,6 +238,38 @@ class ExtrasReader {
       out_.attributes.push_back({name, {std::make_shared<const Values>(std::move(values))}});
   }
 
+  Values factors(ex_entity_type type, std::int64_t id, int n_members, int n_factors) const {
+    const bool of_sides = type == EX_SIDE_SET;
+    const std::string who = std::string(of_sides ? "side set " : "node set ") + std::to_string(id);
+    const std::int64_t expected = std::int64_t{n_members} * (of_sides ? 4 : 1);
+    if (n_factors > 0 && n_factors != expected)
+      notices_.push_back("dropped the distribution factors of " + who + ", of which there are " +
+                         std::to_string(n_factors) + " for " + std::to_string(n_members) + " members");
+    Values result;
+    if (n_factors <= 0 || n_factors != expected) return result;
+    result.resize(static_cast<std::size_t>(n_factors));
+    check(ex_get_set_dist_fact(in_.file, type, id, result.data()), "distribution factors of " + who);
+    // Most programs write factors, all of them 1: one for all takes no room.
+    if (std::ranges::adjacent_find(result, std::ranges::not_equal_to{}) == result.end()) result.resize(1);
+    return result;
+  }
+
+  /// Of slices: factors that are alike; what else sets have is lost.
+  void alike_in_sets(ex_entity_type type, std::int64_t n_sets, std::vector<SetExtras>& out,
+                     std::vector<std::string>& lost) const {
+    const char* const kind = type == EX_SIDE_SET ? "sideset" : "nodeset";
+    for (const std::string& name : variables(type)) lost.push_back("variable '" + name + "' of " + kind + "s");
+    for (const std::int64_t id : ids(type, n_sets)) {
+      int n = 0, n_factors = 0;
+      check(ex_get_set_param(in_.file, type, id, &n, &n_factors), std::string(kind) + " " + std::to_string(id));
+      Values all = factors(type, id, n, n_factors);
+      if (all.size() == 1)
+        out.push_back({in_.group(type, id), {}, {}, std::move(all), {}});
+      else if (!all.empty())
+        lost.push_back("distribution factors of " + std::string(kind) + " " + std::to_string(id));
+    }
+  }
+
   void sets(ex_entity_type type, std::int64_t n_sets, std::vector<SetExtras>& out) {
     const bool of_sides = type == EX_SIDE_SET;
     const std::vector<std::string> names = steps_.empty() ? std::vector<std::string>() : variables(type);
@@ -228,18 +279,7 @@ class ExtrasReader {
       check(ex_get_set_param(in_.file, type, id, &n, &n_factors), who);
       if (n <= 0) continue;
       const auto size = static_cast<std::size_t>(n);
-      SetExtras set{in_.group(type, id), {}, {}, {}, {}};
-      const std::int64_t expected = std::int64_t{n} * (of_sides ? 4 : 1);
-      if (n_factors > 0 && n_factors != expected)
-        notices_.push_back("dropped the distribution factors of " + who + ", of which there are " +
-                           std::to_string(n_factors) + " for " + std::to_string(n) + " members");
-      if (n_factors > 0 && n_factors == expected) {
-        set.factors.resize(static_cast<std::size_t>(n_factors));
-        check(ex_get_set_dist_fact(in_.file, type, id, set.factors.data()), "distribution factors of " + who);
-        // Most programs write factors, all of them 1: one for all takes no room.
-        if (std::ranges::adjacent_find(set.factors, std::ranges::not_equal_to{}) == set.factors.end())
-          set.factors.resize(1);
-      }
+      SetExtras set{in_.group(type, id), {}, {}, factors(type, id, n, n_factors), {}};
       std::vector<int> numbers(size), sides(of_sides ? size : 0);
       check(ex_get_set(in_.file, type, id, numbers.data(), of_sides ? sides.data() : nullptr), who);
       for (std::size_t v = 0; v < names.size(); ++v) {
@@ -325,6 +365,11 @@ class ExtrasReader {
 std::shared_ptr<const FileResults> read_extras(const ExodusSource& source, const Mesh& mesh,
                                                std::vector<std::string>& notices) {
   return ExtrasReader(source, mesh, notices).result();
+}
+
+std::shared_ptr<const FileResults> read_extras_of_whole(const ExodusSource& source, std::vector<std::string>& notices,
+                                                        std::vector<std::string>& lost) {
+  return ExtrasReader(source, {}, notices).of_whole(lost);
 }
 
 }  // namespace hextwist::io

@@ -13,6 +13,7 @@
 #include "hextwist/parts/mpi/directory.h"
 #include "hextwist/parts/mpi/share_out.h"
 #include "hextwist/parts/own_skin.h"
+#include "hextwist/parts/source.h"
 #include "hextwist/session/core.h"
 #include "hextwist/session/session.h"
 
@@ -61,6 +62,36 @@ void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& 
                   " nodes are not done in parts; write it with 'set order 1' first");
   if (std::ranges::find(extras->periodic, 2, &PeriodicPairs::dim) != extras->periodic.end())
     throw Error(name + ": periodic surfaces are not kept alike in parts; run it with hextwist");
+}
+
+/// This rank's slice of a file. Nothing, on all ranks, where it is not read so.
+std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::path& mesh, std::int64_t& n_nodes,
+                                          const Say& say) {
+  std::optional<MeshSlice> slice;
+  std::string lost;
+  ranks.together([&] {
+    slice = read_slice(mesh, ranks.rank(), ranks.size());
+    if (!slice) return;
+    refuse_more(slice->file.mesh, &slice->file.extras, mesh.string());
+    need_ids(slice->file.mesh);
+    lost = lost_text(*slice, mesh);
+    slice->file.mesh.results = nullptr;
+  });
+  if (ranks.largest(!slice) != 0) return std::nullopt;
+  n_nodes = slice->n_nodes;
+  for (const std::string& line : slice->file.notices) say(line);
+  if (!lost.empty()) say(lost);
+  return MeshedModel{std::move(slice->file.mesh), nullptr, {}};
+}
+
+/// Nodes of the whole that no rank's part has.
+void say_loose_nodes(Ranks& ranks, const Mesh& own, std::int64_t n_nodes, const Say& say) {
+  std::vector<std::int64_t> skin;
+  ranks.together([&] { skin = skin_nodes(own); });
+  std::int64_t n_here = own.n_nodes();
+  for (const NodeAtOthers& node : at_others(ranks, own, skin))
+    if (node.parts.front() < ranks.rank()) --n_here;
+  if (const std::int64_t n = n_nodes - ranks.sum(n_here); n > 0) say("left out " + counted(n, "node") + " of no hex");
 }
 
 /// What takes a mesh makes of it on its CAD. glued: the CAD had to be.
@@ -164,7 +195,14 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
   RankPart part;
   part.has_cad = !cad.empty();
   std::vector<int> rank_of_hex;
-  if (split.n_parts > 0 && cad.empty()) {
+  std::int64_t n_nodes = 0;  // of the whole, where that may be more than parts have
+  std::optional<MeshedModel> slice;
+  if (split.n_parts == 0 && cad.empty() && by != PartitionBy::scotch) slice = read_own_slice(ranks, mesh, n_nodes, say);
+  if (slice) {
+    part.own = std::move(*slice);
+    share_heads(ranks, part.own.mesh);
+    rank_of_hex = share_out(ranks, part.own.mesh, by.value_or(PartitionBy::boxes));
+  } else if (split.n_parts > 0 && cad.empty()) {
     part.own = read_own_files(ranks, split, say);
     share_heads(ranks, part.own.mesh);
     if (by == PartitionBy::scotch) {
@@ -178,6 +216,7 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
     ranks.together([&] {
       if (!ranks.is_first()) return;
       part.own = read_by_first(mesh, cad, glued, say);
+      n_nodes = part.own.mesh.n_nodes();
       rank_of_hex = partition(part.own.mesh, ranks.size(), by.value_or(partition_by("")));
       need_ids(part.own.mesh);
     });
@@ -185,6 +224,7 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
     share_heads(ranks, part.own.mesh);
   }
   if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
+  if (n_nodes = ranks.largest(n_nodes); n_nodes > 0) say_loose_nodes(ranks, part.own.mesh, n_nodes, say);
   if (!part.has_cad) {
     ranks.together([&] { check_part(part.own.mesh, mesh.string()); });
     put_on_own_skin(ranks, part.own);

@@ -21,8 +21,9 @@ struct RankPart {
 void count_whole(Ranks& ranks, RankPart& part);
 
 /// Reads a mesh on its CAD, or on its own skin where there is none. Parts that were split are read by ranks side by
-/// side, each its own, and stay where they are when there are as many as ranks and `by` is empty. All else, and what
-/// lies on CAD, is read by the first rank and sent out. say: called on all ranks. Throws Error on all ranks: "rank 3:
+/// side, each its own, and stay where they are when there are as many as ranks and `by` is empty. So is a file that can
+/// be read in slices (io/slice.h), but for SCOTCH. All else, and what lies on CAD, is read by the first rank and sent
+/// out. say: called on all ranks. Throws Error on all ranks: "rank 3:
 /// ...".
 RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const std::filesystem::path& cad,
                        std::optional<PartitionBy> by, const Say& say);

@@ -111,6 +111,27 @@ TEST(InRanks, parts_that_are_split_already_are_read_by_their_ranks) {
             std::string::npos)
       << missing.err;
 }
+TEST(InRanks, a_file_that_is_not_split_is_read_in_slices) {
+  const auto file = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "in_slices.e";
+  Session session;
+  session.run(
+      "create brick x 4 y 3 z 2 interval 12 6 5; nodeset 7 add surface 1 2; sideset 3 add surface 5; "
+      "block 1 add hex 1 to 100");
+  session.export_mesh(file);
+  for (const char* by : {"boxes", "random", "ids"})
+    expect_same_file({file.string(), "", "refine surface 2 depth 1; refine surface 3"}, 3, by);
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(5, 2, 2);
+  mesh.points.emplace_back(9, 9, 9);
+  write_mesh(folder / "loose.e", mesh, nullptr);
+  for (const char* by : {"slabs", "scotch"}) {  // in slices, by the first
+    const Outcome outcome = run_ranks(2, "'" + (folder / "loose.e").string() + "' --by " + by +
+                                             " -c 'refine hex 1' -o '" + (folder / "fine.e").string() + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("left out 1 node of no hex"), std::string::npos) << outcome.out;
+  }
+}
+
 TEST(InRanks, what_parts_would_lose_is_refused) {
   const auto file = test::output_folder() / "wedge.msh";
   std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"

@@ -1,0 +1,109 @@
+// Exodus II in slices: of each array what the slice has, in pieces.
+#include "hextwist/io/exodus/reader_internal.h"
+
+namespace hextwist::io {
+
+bool ExodusReader::has_slices() const {
+  if (init_.num_elem == 0) return false;
+  const Int64s block_ids = ids(EX_ELEM_BLOCK, init_.num_elem_blk);
+  for (const std::int64_t id : block_ids) {
+    ex_block block{};
+    block.id = id;
+    block.type = EX_ELEM_BLOCK;
+    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+    const std::string type = lower_case(block.topology);
+    if (block.num_entry > 0 && (block.num_nodes_per_entry != 8 || !has_hexes(type, 8))) return false;
+  }
+  for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets))
+    if (!fits(id) || std::ranges::find(block_ids, id) != block_ids.end()) return false;
+  for (const auto& [type, n] : {std::pair{EX_ELEM_BLOCK, init_.num_elem_blk},
+                                {EX_NODE_SET, init_.num_node_sets},
+                                {EX_SIDE_SET, init_.num_side_sets}})
+    if (!std::ranges::all_of(ids(type, n), fits)) return false;
+  return occur_once(EX_NODE_MAP, init_.num_nodes) && occur_once(EX_ELEM_MAP, init_.num_elem);
+}
+
+bool ExodusReader::occur_once(ex_entity_type map, std::int64_t n) const {
+  std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0, last = 0;
+  bool ascend = true;
+  for_id_map(map, 0, n, [&](std::size_t, std::span<const std::int64_t> ids) {
+    for (const std::int64_t id : ids) {
+      ascend = ascend && id > last;
+      last = id;
+      low = std::min(low, id);
+      high = std::max(high, id);
+    }
+  });
+  if (ascend) return true;
+  if (low < 1 || (high - low) / 64 > n) return false;
+  std::vector<bool> is_there(static_cast<std::size_t>(high - low + 1), false);
+  bool once = true;
+  for_id_map(map, 0, n, [&](std::size_t, std::span<const std::int64_t> ids) {
+    for (const std::int64_t id : ids) {
+      once = once && !is_there[static_cast<std::size_t>(id - low)];
+      is_there[static_cast<std::size_t>(id - low)] = true;
+    }
+  });
+  return once;
+}
+
+void ExodusReader::find_nodes_of_slice() {
+  std::vector<std::uint8_t> is_here(size(init_.num_nodes, "nodes"), 0);
+  Ints nodes(exodus_piece * n_hex_corners);
+  std::int64_t first = 0;
+  for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
+    ex_block block{};
+    block.id = id;
+    block.type = EX_ELEM_BLOCK;
+    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+    const Range here = in_slice(first, block.num_entry);
+    in_pieces(static_cast<std::size_t>(here.n), [&](std::size_t begin, std::size_t n) {
+      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, id, here.first - first + exodus_position(begin),
+                                static_cast<std::int64_t>(n), nodes.data(), nullptr, nullptr),
+            "nodes of element block " + std::to_string(id));
+      for (const int position : std::span(nodes).first(n * n_hex_corners))
+        if (position >= 1 && position <= init_.num_nodes) is_here[position - 1] = 1;  // others are refused later
+    });
+    first += block.num_entry;
+  }
+  for (std::size_t i = 0; i < is_here.size(); ++i)
+    if (is_here[i]) positions_.push_back(static_cast<Index>(i));
+}
+
+int ExodusReader::values_in_slice(int step, int variable, std::vector<double>& values) const {
+  std::vector<double> piece(exodus_piece);
+  int status = 0;
+  std::size_t at = 0;
+  in_pieces(static_cast<std::size_t>(init_.num_nodes), [&](std::size_t first, std::size_t n) {
+    if (status != 0) return;
+    status = ex_get_partial_var(file_.id, step, EX_NODAL, variable, 1, exodus_position(first),
+                                static_cast<std::int64_t>(n), piece.data());
+    for (; at < positions_.size() && static_cast<std::size_t>(positions_[at]) < first + n; ++at)
+      values[at] = piece[static_cast<std::size_t>(positions_[at]) - first];
+  });
+  return status;
+}
+
+MeshSlice ExodusReader::slice() {
+  MeshSlice slice;
+  slice.n_nodes = init_.num_nodes;
+  slice.n_hexes = init_.num_elem;
+  slice.file = result();
+  std::vector<std::string> lost;
+  const auto group = [this](ex_entity_type type, std::int64_t id) { return group_id(type, id); };
+  slice.file.mesh.results =
+      read_extras_of_whole({file_.id, name_, name_length_, init_, blocks_, hex_of_element_, nodes_, group, wide_ids_},
+                           slice.file.notices, lost);
+  slice.left_out = joined(lost, ", ");
+  return slice;
+}
+
+std::optional<MeshSlice> read_exodus_slice(const std::filesystem::path& file, int number, int n, const Fence& fence) {
+  // Behind the fence all of the file would be handed over for each slice.
+  if (fence.is_there() && !is_classic_netcdf(read_bytes(file))) return std::nullopt;
+  ExodusReader reader(file, file.string(), number, n);
+  if (!reader.has_slices()) return std::nullopt;
+  return reader.slice();
+}
+
+}  // namespace hextwist::io

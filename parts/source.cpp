@@ -1,0 +1,136 @@
+#include "hextwist/parts/source.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "hextwist/base/interrupt.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/io/results.h"
+#include "hextwist/mesh/topology.h"
+#include "hextwist/parts/join.h"
+#include "hextwist/parts/pack.h"
+#include "hextwist/patch/patch.h"
+
+namespace hextwist {
+namespace {
+
+bool has_overlapping_blocks(const Mesh& mesh) {
+  std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
+  for (const Block& block : mesh.blocks)
+    for (const Index h : block.hexes)
+      if (has[h]++) return true;
+  return false;
+}
+
+/// Hexes of a file, which need not be in the order of their ids.
+std::vector<int> partition_by_ids(std::vector<Vec3> middles, std::span<const std::int64_t> ids, const Box& box,
+                                  int n_parts, PartitionBy by) {
+  if (std::ranges::is_sorted(ids)) return partition(middles, box, n_parts, by);
+  std::vector<Index> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index h) { return ids[h]; });
+  middles = items_at(middles, order);
+  const std::vector<int> sorted = partition(middles, box, n_parts, by);
+  std::vector<int> part(ids.size());
+  for (std::size_t i = 0; i < order.size(); ++i) part[order[i]] = sorted[i];
+  return part;
+}
+
+std::filesystem::path piece(const Aside& aside, int slice, int part) {
+  return aside.file(("slice." + std::to_string(slice)).c_str(), part);
+}
+
+}  // namespace
+
+std::string lost_text(const MeshSlice& slice, const std::filesystem::path& file) {
+  std::string lost = slice.file.mesh.results ? extras_text(*slice.file.mesh.results) : "";
+  if (!slice.left_out.empty()) lost += (lost.empty() ? "" : ", ") + slice.left_out;
+  return lost.empty() ? "" : file.string() + ": is read in slices without " + lost;
+}
+
+PartSource::PartSource(const std::filesystem::path& any_part, const Fence& fence) : fence_(fence) {
+  const SplitName split = split_name(any_part);
+  if (split.n_parts == 0)
+    throw Error(any_part.string() +
+                ": parts are called name.e.8.0, name.e.8.1, ..., or name_1.msh, ... as Gmsh splits meshes; "
+                "'hextwist split' makes them");
+  whole_ = split.name;
+  n_parts_ = split.n_parts;
+}
+
+std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, int n_parts, PartitionBy by,
+                                             const Aside& aside, const Fence& fence) {
+  PartSource source;
+  source.whole_ = file;
+  source.n_parts_ = n_parts;
+  source.fence_ = fence;
+  source.aside_ = &aside;
+  const std::optional<MeshSlice> smallest = read_slice(file, 0, n_parts, fence);
+  if (!smallest) return std::nullopt;
+  const int n_slices = source.n_slices_ =
+      static_cast<int>(std::clamp<std::int64_t>(smallest->n_hexes / 100000, 1, n_parts));
+  std::vector<Vec3> middles;
+  std::vector<std::int64_t> ids;
+  Box box;
+  for (int s = 0; s < n_slices; ++s) {
+    check_interrupt();
+    std::optional<MeshSlice> slice = read_slice(file, s, n_slices, fence);
+    if (!slice || has_overlapping_blocks(slice->file.mesh)) return std::nullopt;
+    source.n_nodes_ = slice->n_nodes;
+    source.n_hexes_ = slice->n_hexes;
+    source.notices_ = slice->file.notices;
+    source.left_out_ = slice->left_out;
+    source.lost_ = lost_text(*slice, file);
+    source.results_ = slice->file.mesh.results;
+    middles.reserve(static_cast<std::size_t>(slice->n_hexes));
+    const std::vector<Vec3> more = middles_of(slice->file.mesh);
+    middles.insert(middles.end(), more.begin(), more.end());
+    need_ids(slice->file.mesh);
+    ids.reserve(middles.capacity());
+    ids.insert(ids.end(), slice->file.mesh.hex_ids.begin(), slice->file.mesh.hex_ids.end());
+    box.add(hextwist::box(slice->file.mesh));
+  }
+  const std::vector<int> part_of_hex = partition_by_ids(std::move(middles), ids, box, n_parts, by);
+  ids = {};
+  std::size_t first = 0;
+  for (int s = 0; s < n_slices; ++s) {
+    check_interrupt();
+    std::optional<MeshSlice> slice = read_slice(file, s, n_slices, fence);
+    if (!slice || slice->n_hexes != source.n_hexes_) throw Error(file.string() + ": was changed while it was read");
+    MeshedModel mesh{std::move(slice->file.mesh), nullptr, {}};
+    mesh.mesh.results = nullptr;
+    need_ids(mesh.mesh);
+    std::vector<std::vector<Index>> hexes(static_cast<std::size_t>(n_parts));
+    for (Index h = 0; h < mesh.mesh.n_hexes(); ++h)
+      hexes[part_of_hex[first + static_cast<std::size_t>(h)]].push_back(h);
+    first += mesh.mesh.hexes.size();
+    for (int p = 0; p < n_parts; ++p) {
+      if (hexes[p].empty()) continue;
+      Patch patch = make_patch(mesh, std::move(hexes[p]));
+      set_ids(mesh.mesh, patch, patch.meshed.mesh);
+      write_bytes(piece(aside, s, p), packed(patch.meshed));
+    }
+  }
+  return source;
+}
+
+std::string PartSource::name(int part) const {
+  if (is_divided()) return whole_.string() + ", part " + std::to_string(part);
+  return part_name(whole_, n_parts_, part).string();
+}
+
+Mesh PartSource::read(int part, PartHead& first, std::vector<std::string>& notices) const {
+  if (!is_divided()) return read_one_part({whole_, n_parts_}, part, first, notices, fence_);
+  if (first.n_parts == 0) {
+    notices.insert(notices.end(), notices_.begin(), notices_.end());
+    if (!lost_.empty()) notices.push_back(lost_);
+  }
+  first = {n_parts_, n_nodes_, n_hexes_};
+  std::vector<MeshedModel> pieces;
+  for (int s = 0; s < n_slices_; ++s)
+    if (std::filesystem::exists(piece(*aside_, s, part)))
+      pieces.push_back(unpacked(read_all_bytes(piece(*aside_, s, part))));
+  return join(pieces, [&](std::size_t) { return whole_.string(); }).mesh;
+}
+
+}  // namespace hextwist

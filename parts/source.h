@@ -1,0 +1,48 @@
+// The parts of a mesh on disk: files that it is split into, or what a file of the whole is divided into, slice by
+// slice.
+#pragma once
+
+#include "hextwist/io/slice.h"
+#include "hextwist/parts/files.h"
+#include "hextwist/parts/on_disk_internal.h"
+
+namespace hextwist {
+
+/// "what.e: is read in slices without 2 more time steps"; empty: nothing is lost that counts.
+std::string lost_text(const MeshSlice& slice, const std::filesystem::path& file);
+
+class PartSource {
+ public:
+  /// Any part of a split mesh. Throws Error where the name is none of such a file.
+  PartSource(const std::filesystem::path& any_part, const Fence& fence);
+  /// A file of the whole, read in slices no larger than a part, or of 100,000 hexes; what each part has of each slice
+  /// is put aside, so that there is one slice in memory, and 40 bytes for each hex of the whole while it is divided.
+  /// Not by SCOTCH. Nothing where such a file is not read in slices (io/slice.h), or its blocks overlap.
+  static std::optional<PartSource> divide(const std::filesystem::path& file, int n_parts, PartitionBy by,
+                                          const Aside& aside, const Fence& fence);
+
+  int n_parts() const { return n_parts_; }
+  const std::filesystem::path& whole() const { return whole_; }
+  /// What messages call a part.
+  std::string name(int part) const;
+  /// first: as in read_one_part().
+  Mesh read(int part, PartHead& first, std::vector<std::string>& notices) const;
+  /// Nodes of no hex may be missing from the parts.
+  bool is_divided() const { return aside_ != nullptr; }
+  /// MeshSlice::left_out, and what parts keep of a file that is only divided.
+  const std::string& left_out() const { return left_out_; }
+  const std::shared_ptr<const FileResults>& results() const { return results_; }
+
+ private:
+  PartSource() = default;
+  std::filesystem::path whole_;
+  int n_parts_ = 0, n_slices_ = 0;
+  Fence fence_;
+  const Aside* aside_ = nullptr;  // where the pieces of a file that was divided are
+  std::int64_t n_nodes_ = 0, n_hexes_ = 0;
+  std::vector<std::string> notices_;
+  std::string left_out_, lost_;
+  std::shared_ptr<const FileResults> results_;
+};
+
+}  // namespace hextwist

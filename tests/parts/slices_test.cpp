@@ -1,0 +1,197 @@
+// One file of the whole read in slices, and what is made of them.
+#include <exodusII.h>
+
+#include "hextwist/io/results.h"
+#include "hextwist/io/slice.h"
+#include "hextwist/parts/files.h"
+#include "hextwist/parts/join.h"
+#include "hextwist/parts/on_disk.h"
+#include "hextwist/parts/own_part.h"
+#include "hextwist/parts/split.h"
+#include "hextwist/session/session.h"
+#include "io/io_support.h"
+#include "split_judge.h"
+#include "support/exodus_extras.h"
+#include "support/meshed.h"
+
+namespace hextwist {
+namespace {
+
+/// Blocks that do not overlap, sets, fields.
+Mesh sliceable(unsigned seed, bool gaps, const std::array<int, 3>& n) {
+  Mesh mesh = test::rich_mesh(seed, gaps, n);
+  std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
+  for (Block& block : mesh.blocks) std::erase_if(block.hexes, [&](Index h) { return has[h]++ > 0; });
+  return mesh;
+}
+
+std::string faults_text(const std::filesystem::path& name, int n_parts) {
+  std::string text;
+  for (const std::string& line : test::split_faults(name, n_parts)) text += line + "\n";
+  return text;
+}
+
+std::vector<MeshedModel> slices_of(const std::filesystem::path& file, int n) {
+  std::vector<MeshedModel> slices;
+  for (int s = 0; s < n; ++s) {
+    std::optional<MeshSlice> slice = read_slice(file, s, n);
+    EXPECT_TRUE(slice);
+    if (!slice) return {};
+    need_ids(slice->file.mesh);
+    slice->file.mesh.results = nullptr;
+    slices.push_back({std::move(slice->file.mesh), nullptr, {}});
+  }
+  return slices;
+}
+
+TEST(Slices, joined_are_what_is_read_at_once) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u})
+    for (const bool gaps : {false, true})
+      for (const int n : {1, 2, 3, 7, 200}) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(n) + " slices");
+        const auto file = test::output_folder() / "rich.e";
+        write_mesh(file, sliceable(seed, gaps, {6, 5, 4}), nullptr);
+        const Mesh whole = read_mesh(file).mesh;
+        ASSERT_FALSE(whole.fields.empty() || whole.node_sets.empty() || whole.side_sets.empty());
+        const std::vector<MeshedModel> slices = slices_of(file, n);
+        for (const MeshedModel& slice : slices) {
+          EXPECT_LE(slice.mesh.n_hexes(), whole.n_hexes() / n + 1);
+          EXPECT_EQ(slice.mesh.fields.size(), whole.fields.size()) << "also in a slice that has none of its values";
+          EXPECT_EQ(slice.mesh.blocks.size(), whole.blocks.size());
+        }
+        EXPECT_TRUE(test::same_mesh(whole, join(slices, [](std::size_t) { return std::string("slice"); }).mesh));
+      }
+}
+
+TEST(Slices, are_not_made_of_what_they_would_lose) {
+  const auto folder = test::output_folder();
+  write_mesh(folder / "far.e", test::grid(4, 3, 2), nullptr);
+  EXPECT_TRUE(read_slice(folder / "far.e", 0, 2));
+  // An id that only a table of 8 GB would show to be there once.
+  float version = 0;
+  int memory = 8, disk = 0;
+  const int file = ex_open((folder / "far.e").c_str(), EX_WRITE, &memory, &disk, &version);
+  std::vector<int> ids(60);
+  std::iota(ids.begin(), ids.end(), 1);
+  ids[58] = 2'000'000'000;
+  ASSERT_GE(ex_put_id_map(file, EX_NODE_MAP, ids.data()), 0);
+  ex_close(file);
+  for (int s = 0; s < 2; ++s) EXPECT_FALSE(read_slice(folder / "far.e", s, 2)) << "every slice says so";
+  write_mesh(folder / "grid.msh", test::grid(4, 3, 2), nullptr);
+  EXPECT_FALSE(read_slice(folder / "grid.msh", 0, 2));
+  Session session;
+  session.run("create brick x 3 interval 3");
+  session.run("set order 2");
+  session.export_mesh(folder / "second.e");
+  EXPECT_FALSE(read_slice(folder / "second.e", 0, 2));
+  write_mesh(folder / "extras.e", test::with_extras(), nullptr);
+  const std::optional<MeshSlice> extras = read_slice(folder / "extras.e", 1, 2);
+  ASSERT_TRUE(extras);
+  EXPECT_NE(extras->left_out.find("2 more time steps"), std::string::npos) << extras->left_out;
+  EXPECT_FALSE(extras->file.mesh.results->qa.empty());
+}
+
+TEST(Slices, a_damaged_file_is_refused_as_at_once) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(4, 3, 2);
+  write_mesh(folder / "damaged.e", mesh, nullptr);
+  float version = 0;
+  int memory = 8, disk = 0;
+  const int file = ex_open((folder / "damaged.e").c_str(), EX_WRITE, &memory, &disk, &version);
+  std::vector<int> nodes(static_cast<std::size_t>(8 * mesh.n_hexes()));
+  std::vector<std::int64_t> blocks(1);
+  ex_set_int64_status(file, EX_IDS_INT64_API);
+  ASSERT_GE(ex_get_ids(file, EX_ELEM_BLOCK, blocks.data()), 0);
+  ASSERT_GE(ex_get_conn(file, EX_ELEM_BLOCK, blocks[0], nodes.data(), nullptr, nullptr), 0);
+  nodes.back() = 61;
+  ASSERT_GE(ex_put_conn(file, EX_ELEM_BLOCK, blocks[0], nodes.data(), nullptr, nullptr), 0);
+  ex_close(file);
+  const auto said = [&](const auto& read) -> std::string {
+    try {
+      read();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string at_once = said([&] { read_mesh(folder / "damaged.e"); });
+  EXPECT_EQ(at_once, (folder / "damaged.e").string() + ": element 24 names node 61 of 60");
+  EXPECT_EQ(said([&] { read_slice(folder / "damaged.e", 1, 2); }), at_once);
+  EXPECT_EQ(said([&] { read_slice(folder / "damaged.e", 0, 2); }), "no error") << "not its business";
+}
+
+TEST(Slices, a_file_is_divided_as_in_memory) {
+  const auto folder = test::output_folder();
+  for (const bool gaps : {false, true})
+    for (const PartitionBy by : {PartitionBy::boxes, PartitionBy::slabs, PartitionBy::ids, PartitionBy::random}) {
+      const Mesh mesh = sliceable(5, gaps, {7, 5, 4});
+      write_mesh(folder / "whole.e", mesh, nullptr);
+      OnDiskOptions options;
+      options.n_parts = 5;
+      options.by = by;
+      std::vector<std::string> lines;
+      ASSERT_TRUE(split_on_disk(folder / "whole.e", folder / "sliced.e", options,
+                                [&](const std::string& line) { lines.push_back(line); }));
+      EXPECT_EQ(faults_text(folder / "sliced.e", 5), "");
+      const MeshedModel whole{read_mesh(folder / "whole.e").mesh, nullptr, {}};
+      const std::vector<int> part_of_hex = partition(whole.mesh, 5, by);
+      const Splitting splitting(whole, part_of_hex, 5);
+      PartOutput files(folder / "at_once.e", 5);
+      std::vector<std::string> notices;
+      for (int p = 0; p < 5; ++p) {
+        MeshPart part = splitting.part(p);
+        files.write({std::move(part.mesh), {}, std::move(part.file), {}}, notices);
+      }
+      files.commit();
+      for (int p = 0; p < 5; ++p)
+        EXPECT_TRUE(test::text_of(part_name(folder / "sliced.e", 5, p)) ==
+                    test::text_of(part_name(folder / "at_once.e", 5, p)))
+            << "part " << p;
+      ASSERT_FALSE(lines.empty());
+      EXPECT_EQ(lines.back().substr(0, lines.back().find(" of at")), "140 hexes in 5 parts");
+    }
+}
+
+TEST(Slices, nodes_of_no_hex_are_told) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(5, 2, 2);
+  mesh.points.emplace_back(9, 9, 9);
+  write_mesh(folder / "loose.e", mesh, nullptr);
+  OnDiskOptions options;
+  options.n_parts = 3;
+  std::string lines;
+  split_on_disk(folder / "loose.e", folder / "parts.e", options,
+                [&](const std::string& line) { lines += line + "\n"; });
+  EXPECT_NE(lines.find("left out 1 node of no hex"), std::string::npos) << lines;
+}
+
+TEST(Slices, a_file_of_the_whole_is_refined_part_after_part_as_at_once) {
+  const auto folder = test::output_folder();
+  Session session;
+  session.run("create brick x 4 y 3 z 2 interval 12 6 5; nodeset 7 add surface 1 2; sideset 3 add surface 5");
+  session.export_mesh(folder / "whole.e");
+  Session again;
+  again.import_mesh(folder / "whole.e");
+  const std::string commands = "refine surface 2 depth 1; refine surface 3";
+  again.run(commands);
+  again.export_mesh(folder / "serial.e");
+  OnDiskOptions options;
+  options.n_parts = 3;
+  options.by = PartitionBy::ids;
+  refine_on_disk(folder / "whole.e", PartCommands(std::vector{commands}), folder / "fine.e", options,
+                 [](const std::string&) {});
+  EXPECT_EQ(faults_text(folder / "fine.e", 3), "");
+  join_files(part_name(folder / "fine.e", 3, 0), folder / "joined.e");
+  EXPECT_TRUE(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"));
+  options.n_parts = 500;
+  try {
+    refine_on_disk(folder / "whole.e", PartCommands(std::vector{commands}), folder / "no.e", options,
+                   [](const std::string&) {});
+    ADD_FAILURE() << "more parts than hexes";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a mesh of 360 hexes has no 500 parts");
+  }
+}
+
+}  // namespace
+}  // namespace hextwist
