@@ -93,7 +93,7 @@ class Output {
 
   void raw(const void* bytes, std::size_t n) {
     if (n > capacity - used_) return raw_large(bytes, n);
-    std::memcpy(buffer_.get() + used_, bytes, n);
+    if (n > 0) std::memcpy(buffer_.get() + used_, bytes, n);  // nothing may be at no address
     used_ += n;
   }
   /// One value as the machine stores it.

@@ -4,13 +4,6 @@
 #include "io/hdf_support.h"
 #include "support/meshed.h"
 
-/// The library forgets eight bytes for each file in HDF5 that is no CGNS (cg_version); whether the leak checker sees
-/// it depends on what is left in registers.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libcgns\n";
-}
-
 namespace hextwist {
 namespace {
 
