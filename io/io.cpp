@@ -288,10 +288,14 @@ MeshFile read_mesh(const std::filesystem::path& file, std::string_view name, con
   return format->read(file, fence);
 }
 
-std::optional<MeshSlice> read_slice(const std::filesystem::path& file, int number, int n, const Fence& fence) {
+std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence) {
   const Format* format = format_to_read(file, {});
   if (!format || format->read != io::read_exodus) return std::nullopt;
-  return io::read_exodus_slice(file, number, n, fence);
+  return io::exodus_in_slices(file, fence);
+}
+
+MeshSlice read_slice(const SlicedFile& file, int number, int n) {
+  return io::read_exodus_slice(file, number, n);
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,

@@ -9,17 +9,24 @@
 
 namespace hextwist {
 
-struct MeshSlice {
-  MeshFile file;  ///< with the ids, groups and fields of the whole; of FileResults what has no places
-  std::int64_t n_nodes = 0, n_hexes = 0;  ///< of the whole file
-  std::string left_out;                   ///< the rest of FileResults, for a message; empty: nothing
+/// A file that can be read in slices.
+struct SlicedFile {
+  std::filesystem::path file;
+  std::int64_t n_nodes = 0, n_hexes = 0;
 };
 
-/// Slice `number` (from 0) of n, equal counts in the order of the file; a file of fewer hexes has empty ones. Nothing
-/// where such files are not read so: other formats than Exodus, other elements or hexes of second order, ids that are
-/// out of order and far apart, element sets that are element blocks with more hexes. All slices of a file have the same
-/// answer. What is not of the hexes alone (whether nodes are of no hex, say) no slice can tell. Throws Error as
-/// read_mesh() does.
-std::optional<MeshSlice> read_slice(const std::filesystem::path& file, int number, int n, const Fence& fence = {});
+/// Looks through all ids of a file once. Nothing where it is not read in slices: other formats than Exodus, other
+/// elements or hexes of second order, ids that are out of order and far apart, element sets that are element blocks
+/// with more hexes. Throws Error as read_mesh() does.
+std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence = {});
+
+struct MeshSlice {
+  MeshFile file;         ///< with the ids, groups and fields of the whole; of FileResults what has no places
+  std::string left_out;  ///< the rest of FileResults, for a message; empty: nothing
+};
+
+/// Slice `number` (from 0) of n, equal counts in the order of the file; a file of fewer hexes has empty ones. What is
+/// not of the hexes alone (whether nodes are of no hex, say) no slice can tell. Throws Error as read_mesh() does.
+MeshSlice read_slice(const SlicedFile& file, int number, int n);
 
 }  // namespace hextwist

@@ -130,12 +130,9 @@ class OnDisk {
     if (mine != heads)
       throw Error(name(p) + ": has other blocks, sets or variables than " + name(0) +
                   "; 'hextwist join' and 'hextwist split' make them the same");
-    std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
-    for (const Block& block : mesh.blocks)
-      for (const Index h : block.hexes)
-        if (has[h]++)
-          throw Error(name(p) + ": hex " + std::to_string(hex_id(mesh, h)) +
-                      " is in two blocks; blocks that overlap are not refined from disk to disk");
+    if (const Index h = in_two_blocks(mesh); h >= 0)
+      throw Error(name(p) + ": hex " + std::to_string(hex_id(mesh, h)) +
+                  " is in two blocks; blocks that overlap are not refined from disk to disk");
   }
 
   void put_on_own_skin(std::vector<SkinFace> open, std::vector<SkinFace> walls,
@@ -554,7 +551,7 @@ void refine_on_disk(const std::filesystem::path& input, const PartCommands& comm
   std::optional<PartSource> source;
   if (options.n_parts == 0) source.emplace(input, options.fence);
   const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
-  if (!source) source = PartSource::divide(input, options.n_parts, options.by, aside, options.fence);
+  if (!source) source = PartSource::divide(input, options.n_parts, options.by, aside, options.fence, false);
   if (!source)
     throw Error(input.string() +
                 ": is not read in slices, which Exodus files are that have only hexes of 8 nodes and blocks that "
@@ -565,8 +562,8 @@ void refine_on_disk(const std::filesystem::path& input, const PartCommands& comm
 bool split_on_disk(const std::filesystem::path& file, const std::filesystem::path& output, const OnDiskOptions& options,
                    const std::function<void(const std::string&)>& say) {
   const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
-  std::optional<PartSource> source = PartSource::divide(file, options.n_parts, options.by, aside, options.fence);
-  if (!source || !source->left_out().empty()) return false;  // what parts of the whole have
+  std::optional<PartSource> source = PartSource::divide(file, options.n_parts, options.by, aside, options.fence, true);
+  if (!source) return false;
   OnDisk(std::move(*source), aside, PartCommands(), options.n_rings, say).run(output);
   return true;
 }

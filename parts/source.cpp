@@ -14,14 +14,6 @@
 namespace hextwist {
 namespace {
 
-bool has_overlapping_blocks(const Mesh& mesh) {
-  std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
-  for (const Block& block : mesh.blocks)
-    for (const Index h : block.hexes)
-      if (has[h]++) return true;
-  return false;
-}
-
 /// Hexes of a file, which need not be in the order of their ids.
 std::vector<int> partition_by_ids(std::vector<Vec3> middles, std::span<const std::int64_t> ids, const Box& box,
                                   int n_parts, PartitionBy by) {
@@ -42,6 +34,14 @@ std::filesystem::path piece(const Aside& aside, int slice, int part) {
 
 }  // namespace
 
+Index in_two_blocks(const Mesh& mesh) {
+  std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
+  for (const Block& block : mesh.blocks)
+    for (const Index h : block.hexes)
+      if (has[h]++) return h;
+  return -1;
+}
+
 std::string lost_text(const MeshSlice& slice, const std::filesystem::path& file) {
   std::string lost = slice.file.mesh.results ? extras_text(*slice.file.mesh.results) : "";
   if (!slice.left_out.empty()) lost += (lost.empty() ? "" : ", ") + slice.left_out;
@@ -59,45 +59,45 @@ PartSource::PartSource(const std::filesystem::path& any_part, const Fence& fence
 }
 
 std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, int n_parts, PartitionBy by,
-                                             const Aside& aside, const Fence& fence) {
+                                             const Aside& aside, const Fence& fence, bool keeps_all) {
+  const std::optional<SlicedFile> sliced = in_slices(file, fence);
+  if (!sliced) return std::nullopt;
   PartSource source;
   source.whole_ = file;
   source.n_parts_ = n_parts;
   source.fence_ = fence;
   source.aside_ = &aside;
-  const std::optional<MeshSlice> smallest = read_slice(file, 0, n_parts, fence);
-  if (!smallest) return std::nullopt;
+  source.n_nodes_ = sliced->n_nodes;
+  source.n_hexes_ = sliced->n_hexes;
   const int n_slices = source.n_slices_ =
-      static_cast<int>(std::clamp<std::int64_t>(smallest->n_hexes / 100000, 1, n_parts));
+      static_cast<int>(std::clamp<std::int64_t>(sliced->n_hexes / 100000, 1, n_parts));
   std::vector<Vec3> middles;
   std::vector<std::int64_t> ids;
+  middles.reserve(static_cast<std::size_t>(sliced->n_hexes));
+  ids.reserve(static_cast<std::size_t>(sliced->n_hexes));
   Box box;
   for (int s = 0; s < n_slices; ++s) {
     check_interrupt();
-    std::optional<MeshSlice> slice = read_slice(file, s, n_slices, fence);
-    if (!slice || has_overlapping_blocks(slice->file.mesh)) return std::nullopt;
-    source.n_nodes_ = slice->n_nodes;
-    source.n_hexes_ = slice->n_hexes;
-    source.notices_ = slice->file.notices;
-    source.left_out_ = slice->left_out;
-    source.lost_ = lost_text(*slice, file);
-    source.results_ = slice->file.mesh.results;
-    middles.reserve(static_cast<std::size_t>(slice->n_hexes));
-    const std::vector<Vec3> more = middles_of(slice->file.mesh);
+    MeshSlice slice = read_slice(*sliced, s, n_slices);
+    Mesh& mesh = slice.file.mesh;
+    if (in_two_blocks(mesh) >= 0 || (keeps_all && !slice.left_out.empty())) return std::nullopt;
+    if (s == 0) {
+      if (const std::string lost = lost_text(slice, file); !lost.empty()) slice.file.notices.push_back(lost);
+      source.notices_ = std::move(slice.file.notices);
+      source.results_ = mesh.results;
+    }
+    const std::vector<Vec3> more = middles_of(mesh);
     middles.insert(middles.end(), more.begin(), more.end());
-    need_ids(slice->file.mesh);
-    ids.reserve(middles.capacity());
-    ids.insert(ids.end(), slice->file.mesh.hex_ids.begin(), slice->file.mesh.hex_ids.end());
-    box.add(hextwist::box(slice->file.mesh));
+    need_ids(mesh);
+    ids.insert(ids.end(), mesh.hex_ids.begin(), mesh.hex_ids.end());
+    box.add(hextwist::box(mesh));
   }
   const std::vector<int> part_of_hex = partition_by_ids(std::move(middles), ids, box, n_parts, by);
   ids = {};
   std::size_t first = 0;
   for (int s = 0; s < n_slices; ++s) {
     check_interrupt();
-    std::optional<MeshSlice> slice = read_slice(file, s, n_slices, fence);
-    if (!slice || slice->n_hexes != source.n_hexes_) throw Error(file.string() + ": was changed while it was read");
-    MeshedModel mesh{std::move(slice->file.mesh), nullptr, {}};
+    MeshedModel mesh{read_slice(*sliced, s, n_slices).file.mesh, nullptr, {}};
     mesh.mesh.results = nullptr;
     need_ids(mesh.mesh);
     std::vector<std::vector<Index>> hexes(static_cast<std::size_t>(n_parts));
@@ -121,10 +121,7 @@ std::string PartSource::name(int part) const {
 
 Mesh PartSource::read(int part, PartHead& first, std::vector<std::string>& notices) const {
   if (!is_divided()) return read_one_part({whole_, n_parts_}, part, first, notices, fence_);
-  if (first.n_parts == 0) {
-    notices.insert(notices.end(), notices_.begin(), notices_.end());
-    if (!lost_.empty()) notices.push_back(lost_);
-  }
+  if (first.n_parts == 0) notices.insert(notices.end(), notices_.begin(), notices_.end());
   first = {n_parts_, n_nodes_, n_hexes_};
   std::vector<MeshedModel> pieces;
   for (int s = 0; s < n_slices_; ++s)

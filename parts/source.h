@@ -11,15 +11,19 @@ namespace hextwist {
 /// "what.e: is read in slices without 2 more time steps"; empty: nothing is lost that counts.
 std::string lost_text(const MeshSlice& slice, const std::filesystem::path& file);
 
+/// The first hex that is in two blocks, -1 where there is none.
+Index in_two_blocks(const Mesh& mesh);
+
 class PartSource {
  public:
   /// Any part of a split mesh. Throws Error where the name is none of such a file.
   PartSource(const std::filesystem::path& any_part, const Fence& fence);
   /// A file of the whole, read in slices no larger than a part, or of 100,000 hexes; what each part has of each slice
   /// is put aside, so that there is one slice in memory, and 40 bytes for each hex of the whole while it is divided.
-  /// Not by SCOTCH. Nothing where such a file is not read in slices (io/slice.h), or its blocks overlap.
+  /// Not by SCOTCH. Nothing where such a file is not read in slices (io/slice.h), its blocks overlap, or (keeps_all)
+  /// slices leave something out.
   static std::optional<PartSource> divide(const std::filesystem::path& file, int n_parts, PartitionBy by,
-                                          const Aside& aside, const Fence& fence);
+                                          const Aside& aside, const Fence& fence, bool keeps_all);
 
   int n_parts() const { return n_parts_; }
   const std::filesystem::path& whole() const { return whole_; }
@@ -29,8 +33,7 @@ class PartSource {
   Mesh read(int part, PartHead& first, std::vector<std::string>& notices) const;
   /// Nodes of no hex may be missing from the parts.
   bool is_divided() const { return aside_ != nullptr; }
-  /// MeshSlice::left_out, and what parts keep of a file that is only divided.
-  const std::string& left_out() const { return left_out_; }
+  /// What parts keep of a file that is only divided.
   const std::shared_ptr<const FileResults>& results() const { return results_; }
 
  private:
@@ -41,7 +44,6 @@ class PartSource {
   const Aside* aside_ = nullptr;  // where the pieces of a file that was divided are
   std::int64_t n_nodes_ = 0, n_hexes_ = 0;
   std::vector<std::string> notices_;
-  std::string left_out_, lost_;
   std::shared_ptr<const FileResults> results_;
 };
 

@@ -27,9 +27,8 @@ int read_mpi_options(int argc, char** argv, bool is_first, MpiOptions& options) 
                  "splits meshes; in .pvtu, to a .vtu file");
   app.add_option("--by", options.by,
                  "how hexes are shared out: scotch (default where the first process reads all, and it was built in), "
-                 "boxes (default "
-                 "for an Exodus file read in slices), slabs, ids or random; parts of "
-                 "a split mesh stay what they are where there are as many as processes, or go by boxes")
+                 "boxes (default for an Exodus file read in slices), slabs, ids or random; parts of a split mesh stay "
+                 "what they are where there are as many as processes, or go by boxes")
       ->check(CLI::IsMember({"scotch", "boxes", "slabs", "ids", "random"}));
   app.add_flag("--no-rebalance", options.fixed, "leave hexes where they are, however many each becomes");
   app.add_option("--rings", options.rings,

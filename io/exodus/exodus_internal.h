@@ -72,7 +72,8 @@ void check_classic_netcdf(const Bytes& file);
 /// What Nemesis says. Throws Error naming the file.
 PartHead read_exodus_head(const std::filesystem::path& file);
 
-std::optional<MeshSlice> read_exodus_slice(const std::filesystem::path& file, int number, int n, const Fence& fence);
+std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence);
+MeshSlice read_exodus_slice(const SlicedFile& file, int number, int n);
 
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";

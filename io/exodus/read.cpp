@@ -131,6 +131,20 @@ void ExodusReader::nodes() {
   out_.mesh.node_ids = nodes_.stored();
 }
 
+std::vector<ex_block> ExodusReader::element_blocks() const {
+  std::vector<ex_block> blocks;
+  std::int64_t n = 0;
+  for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
+    ex_block& block = blocks.emplace_back();
+    block.id = id;
+    block.type = EX_ELEM_BLOCK;
+    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+    n += static_cast<std::int64_t>(size(block.num_entry, "elements"));
+    if (n > init_.num_elem) fail("the blocks have more elements than the file says");
+  }
+  return blocks;
+}
+
 void ExodusReader::blocks() {
   const auto n_elements = static_cast<std::size_t>(end_ - begin_);
   Int64s map;
@@ -145,16 +159,10 @@ void ExodusReader::blocks() {
   resize_large(hex_of_element_, n_elements, Index{-1});
   heads_.format = "exodus";
   std::int64_t first = 0;
-  for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
-    ex_block block{};
-    block.id = id;
-    block.type = EX_ELEM_BLOCK;
-    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
-    const auto n = static_cast<std::int64_t>(size(block.num_entry, "elements"));
-    if (first + n > init_.num_elem) fail("the blocks have more elements than the file says");
-    const Range here = in_slice(first, n);
+  for (const ex_block& block : element_blocks()) {
+    const Range here = in_slice(first, block.num_entry);
     read_block(block, std::span(map).subspan(here.first - begin_, here.n), here.first - begin_, here.first - first);
-    first += n;
+    first += block.num_entry;
   }
   if (out_.mesh.hexes.empty() && !is_slice_) fail("there is no hex in the file" + only_others());
   if (out_.mesh.hexes.size() < map.size()) {

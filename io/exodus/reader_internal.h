@@ -19,6 +19,7 @@ class ExodusReader {
  public:
   /// path: where the bytes of the file are. of: slice `number` of so many is read; 0: the whole.
   ExodusReader(const std::filesystem::path& path, std::string name, int number = 0, int of = 0);
+  const ex_init_params& sizes() const { return init_; }
   /// Are there only hexes of 8 nodes, each id once, and groups that each slice sees alike?
   bool has_slices() const;
   MeshFile result();
@@ -102,6 +103,8 @@ class ExodusReader {
     return at < 0 || nodes_.place().empty() ? at : nodes_.place()[at];
   }
 
+  /// Throws Error where they have more elements than the file says.
+  std::vector<ex_block> element_blocks() const;
   void blocks();
   /// ", but 12 SHELL4 (element block 3)"
   std::string only_others() const;

@@ -5,17 +5,12 @@ namespace hextwist::io {
 
 bool ExodusReader::has_slices() const {
   if (init_.num_elem == 0) return false;
-  const Int64s block_ids = ids(EX_ELEM_BLOCK, init_.num_elem_blk);
-  for (const std::int64_t id : block_ids) {
-    ex_block block{};
-    block.id = id;
-    block.type = EX_ELEM_BLOCK;
-    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
-    const std::string type = lower_case(block.topology);
-    if (block.num_entry > 0 && (block.num_nodes_per_entry != 8 || !has_hexes(type, 8))) return false;
-  }
+  const std::vector<ex_block> blocks = element_blocks();
+  for (const ex_block& block : blocks)
+    if (block.num_entry > 0 && (block.num_nodes_per_entry != 8 || !has_hexes(lower_case(block.topology), 8)))
+      return false;
   for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets))
-    if (!fits(id) || std::ranges::find(block_ids, id) != block_ids.end()) return false;
+    if (!fits(id) || std::ranges::find(blocks, id, &ex_block::id) != blocks.end()) return false;
   for (const auto& [type, n] : {std::pair{EX_ELEM_BLOCK, init_.num_elem_blk},
                                 {EX_NODE_SET, init_.num_node_sets},
                                 {EX_SIDE_SET, init_.num_side_sets}})
@@ -51,16 +46,12 @@ void ExodusReader::find_nodes_of_slice() {
   std::vector<std::uint8_t> is_here(size(init_.num_nodes, "nodes"), 0);
   Ints nodes(exodus_piece * n_hex_corners);
   std::int64_t first = 0;
-  for (const std::int64_t id : ids(EX_ELEM_BLOCK, init_.num_elem_blk)) {
-    ex_block block{};
-    block.id = id;
-    block.type = EX_ELEM_BLOCK;
-    check(ex_get_block_param(file_.id, &block), "element block " + std::to_string(id));
+  for (const ex_block& block : element_blocks()) {
     const Range here = in_slice(first, block.num_entry);
     in_pieces(static_cast<std::size_t>(here.n), [&](std::size_t begin, std::size_t n) {
-      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, id, here.first - first + exodus_position(begin),
+      check(ex_get_partial_conn(file_.id, EX_ELEM_BLOCK, block.id, here.first - first + exodus_position(begin),
                                 static_cast<std::int64_t>(n), nodes.data(), nullptr, nullptr),
-            "nodes of element block " + std::to_string(id));
+            "nodes of element block " + std::to_string(block.id));
       for (const int position : std::span(nodes).first(n * n_hex_corners))
         if (position >= 1 && position <= init_.num_nodes) is_here[position - 1] = 1;  // others are refused later
     });
@@ -86,8 +77,6 @@ int ExodusReader::values_in_slice(int step, int variable, std::vector<double>& v
 
 MeshSlice ExodusReader::slice() {
   MeshSlice slice;
-  slice.n_nodes = init_.num_nodes;
-  slice.n_hexes = init_.num_elem;
   slice.file = result();
   std::vector<std::string> lost;
   const auto group = [this](ex_entity_type type, std::int64_t id) { return group_id(type, id); };
@@ -98,11 +87,18 @@ MeshSlice ExodusReader::slice() {
   return slice;
 }
 
-std::optional<MeshSlice> read_exodus_slice(const std::filesystem::path& file, int number, int n, const Fence& fence) {
+std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence) {
   // Behind the fence all of the file would be handed over for each slice.
   if (fence.is_there() && !is_classic_netcdf(read_bytes(file))) return std::nullopt;
-  ExodusReader reader(file, file.string(), number, n);
+  const ExodusReader reader(file, file.string());
   if (!reader.has_slices()) return std::nullopt;
+  return SlicedFile{file, reader.sizes().num_nodes, reader.sizes().num_elem};
+}
+
+MeshSlice read_exodus_slice(const SlicedFile& file, int number, int n) {
+  ExodusReader reader(file.file, file.file.string(), number, n);
+  if (reader.sizes().num_nodes != file.n_nodes || reader.sizes().num_elem != file.n_hexes)
+    throw Error(file.file.string() + ": was changed while it was read");
   return reader.slice();
 }
 

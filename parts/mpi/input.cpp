@@ -67,21 +67,23 @@ void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& 
 /// This rank's slice of a file. Nothing, on all ranks, where it is not read so.
 std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::path& mesh, std::int64_t& n_nodes,
                                           const Say& say) {
-  std::optional<MeshSlice> slice;
+  std::optional<SlicedFile> file;
+  MeshSlice slice;
   std::string lost;
   ranks.together([&] {
-    slice = read_slice(mesh, ranks.rank(), ranks.size());
-    if (!slice) return;
-    refuse_more(slice->file.mesh, &slice->file.extras, mesh.string());
-    need_ids(slice->file.mesh);
-    lost = lost_text(*slice, mesh);
-    slice->file.mesh.results = nullptr;
+    file = in_slices(mesh);
+    if (!file) return;
+    slice = read_slice(*file, ranks.rank(), ranks.size());
+    refuse_more(slice.file.mesh, &slice.file.extras, mesh.string());
+    need_ids(slice.file.mesh);
+    lost = lost_text(slice, mesh);
+    slice.file.mesh.results = nullptr;
   });
-  if (ranks.largest(!slice) != 0) return std::nullopt;
-  n_nodes = slice->n_nodes;
-  for (const std::string& line : slice->file.notices) say(line);
+  if (ranks.largest(!file) != 0) return std::nullopt;
+  n_nodes = file->n_nodes;
+  for (const std::string& line : slice.file.notices) say(line);
   if (!lost.empty()) say(lost);
-  return MeshedModel{std::move(slice->file.mesh), nullptr, {}};
+  return MeshedModel{std::move(slice.file.mesh), nullptr, {}};
 }
 
 /// Nodes of the whole that no rank's part has.

@@ -33,13 +33,13 @@ std::string faults_text(const std::filesystem::path& name, int n_parts) {
 
 std::vector<MeshedModel> slices_of(const std::filesystem::path& file, int n) {
   std::vector<MeshedModel> slices;
-  for (int s = 0; s < n; ++s) {
-    std::optional<MeshSlice> slice = read_slice(file, s, n);
-    EXPECT_TRUE(slice);
-    if (!slice) return {};
-    need_ids(slice->file.mesh);
-    slice->file.mesh.results = nullptr;
-    slices.push_back({std::move(slice->file.mesh), nullptr, {}});
+  const std::optional<SlicedFile> sliced = in_slices(file);
+  EXPECT_TRUE(sliced);
+  for (int s = 0; sliced && s < n; ++s) {
+    MeshSlice slice = read_slice(*sliced, s, n);
+    need_ids(slice.file.mesh);
+    slice.file.mesh.results = nullptr;
+    slices.push_back({std::move(slice.file.mesh), nullptr, {}});
   }
   return slices;
 }
@@ -66,7 +66,7 @@ TEST(Slices, joined_are_what_is_read_at_once) {
 TEST(Slices, are_not_made_of_what_they_would_lose) {
   const auto folder = test::output_folder();
   write_mesh(folder / "far.e", test::grid(4, 3, 2), nullptr);
-  EXPECT_TRUE(read_slice(folder / "far.e", 0, 2));
+  EXPECT_TRUE(in_slices(folder / "far.e"));
   // An id that only a table of 8 GB would show to be there once.
   float version = 0;
   int memory = 8, disk = 0;
@@ -76,19 +76,28 @@ TEST(Slices, are_not_made_of_what_they_would_lose) {
   ids[58] = 2'000'000'000;
   ASSERT_GE(ex_put_id_map(file, EX_NODE_MAP, ids.data()), 0);
   ex_close(file);
-  for (int s = 0; s < 2; ++s) EXPECT_FALSE(read_slice(folder / "far.e", s, 2)) << "every slice says so";
+  EXPECT_FALSE(in_slices(folder / "far.e"));
   write_mesh(folder / "grid.msh", test::grid(4, 3, 2), nullptr);
-  EXPECT_FALSE(read_slice(folder / "grid.msh", 0, 2));
+  EXPECT_FALSE(in_slices(folder / "grid.msh"));
   Session session;
   session.run("create brick x 3 interval 3");
   session.run("set order 2");
   session.export_mesh(folder / "second.e");
-  EXPECT_FALSE(read_slice(folder / "second.e", 0, 2));
+  EXPECT_FALSE(in_slices(folder / "second.e"));
   write_mesh(folder / "extras.e", test::with_extras(), nullptr);
-  const std::optional<MeshSlice> extras = read_slice(folder / "extras.e", 1, 2);
-  ASSERT_TRUE(extras);
-  EXPECT_NE(extras->left_out.find("2 more time steps"), std::string::npos) << extras->left_out;
-  EXPECT_FALSE(extras->file.mesh.results->qa.empty());
+  const std::optional<SlicedFile> sliced = in_slices(folder / "extras.e");
+  ASSERT_TRUE(sliced);
+  const MeshSlice extras = read_slice(*sliced, 1, 2);
+  EXPECT_NE(extras.left_out.find("2 more time steps"), std::string::npos) << extras.left_out;
+  EXPECT_FALSE(extras.file.mesh.results->qa.empty());
+  // Another mesh under the same name meanwhile.
+  write_mesh(folder / "extras.e", test::grid(4, 3, 2), nullptr, {.overwrite = true});
+  try {
+    read_slice(*sliced, 0, 2);
+    ADD_FAILURE() << "the file was changed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), (folder / "extras.e").string() + ": was changed while it was read");
+  }
 }
 
 TEST(Slices, a_damaged_file_is_refused_as_at_once) {
@@ -114,10 +123,12 @@ TEST(Slices, a_damaged_file_is_refused_as_at_once) {
     }
     return "no error";
   };
+  const std::optional<SlicedFile> sliced = in_slices(folder / "damaged.e");
+  ASSERT_TRUE(sliced);
   const std::string at_once = said([&] { read_mesh(folder / "damaged.e"); });
   EXPECT_EQ(at_once, (folder / "damaged.e").string() + ": element 24 names node 61 of 60");
-  EXPECT_EQ(said([&] { read_slice(folder / "damaged.e", 1, 2); }), at_once);
-  EXPECT_EQ(said([&] { read_slice(folder / "damaged.e", 0, 2); }), "no error") << "not its business";
+  EXPECT_EQ(said([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(said([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, a_file_is_divided_as_in_memory) {
