@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/mesh/quality/measure.h"
 #include "hextwist/patch/verify.h"
 
 namespace hextwist {
@@ -39,6 +40,16 @@ void find_moved(ChangedPart& change);
 /// before, -1.
 MeshedModel in_former_order(const MeshedModel& before, const MeshedModel& after, std::span<const Index> old_node,
                             std::span<const Index> old_hex);
+
+/// What these values of all hexes add up to; nothing is said of the CAD.
+Measured measured_without_cad(const Mesh& mesh, const Measures& of_hexes);
+/// Tells the report what the input had, and what the result has, as measured_after() reads it.
+void set_before(const Measured& of, Report& report);
+void set_after(const Measured& of, Report& report);
+
+/// Whether the part is sound after the change if it was before, and no hex that came or has a node that moved is
+/// inverted. False where that can't be told from the change.
+bool is_sound(const ChangedPart& change);
 
 /// verify() by the change alone. False when only doing everything from scratch will do; the report is then as it was.
 bool verify_change(const ChangedPart& change, const Measured& known, Report& report);

@@ -8,13 +8,13 @@
 namespace hextwist {
 namespace {
 
-/// N hexes from `hex` on. False where a hex may not be valid.
-template <int N>
-HEXTWIST_LANES bool measure_some(const Mesh& mesh, Index hex, Measures& all) {
-  const LaneHex<N> x = load<N>(mesh, hex);
+/// N hexes, whose values come `at` there. False where a hex may not be valid.
+template <int N, class HexOf>
+HEXTWIST_LANES bool measure_some(const Mesh& mesh, const HexOf& hex_of, Index at, Measures& all) {
+  const LaneHex<N> x = load<N>(mesh, [&](int lane) { return hex_of(at + lane); });
   const HexCorners<N> terms(x);
   const auto put = [&](std::vector<double>& values, const Lanes<N>& some) {
-    Eigen::Map<Lanes<N>>(values.data() + hex) = some;
+    Eigen::Map<Lanes<N>>(values.data() + at) = some;
   };
   put(all.shape, shape_of(terms));
   put(all.scaled_jacobian, scaled_jacobian_of(terms));
@@ -22,22 +22,35 @@ HEXTWIST_LANES bool measure_some(const Mesh& mesh, Index hex, Measures& all) {
   return (affine_clearance(terms.edges) > 0).all();
 }
 
-}  // namespace
-
-Measures measure(const Mesh& mesh) {
+/// The hexes hex_of(0) to hex_of(n - 1).
+template <class HexOf>
+Measures measure(const Mesh& mesh, std::size_t n, const HexOf& hex_of) {
   Measures all;
-  for (std::vector<double>* values : {&all.shape, &all.scaled_jacobian, &all.volume})
-    resize_for_overwrite(*values, mesh.hexes.size());
+  for (std::vector<double>* values : {&all.shape, &all.scaled_jacobian, &all.volume}) resize_for_overwrite(*values, n);
   std::atomic<bool> valid = true;
-  parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    Index h = begin;
-    for (; h + n_lanes <= end; h += n_lanes)
-      if (!measure_some<n_lanes>(mesh, h, all) && !all_valid(mesh, h, h + n_lanes)) valid = false;
-    for (; h < end; ++h)
-      if (!measure_some<1>(mesh, h, all) && !all_valid(mesh, h, h + 1)) valid = false;
+  const auto are_valid = [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      if (!all_valid(mesh, hex_of(i), hex_of(i) + 1)) return false;
+    return true;
+  };
+  parallel_ranges(static_cast<Index>(n), [&](Index begin, Index end) {
+    Index i = begin;
+    for (; i + n_lanes <= end; i += n_lanes)
+      if (!measure_some<n_lanes>(mesh, hex_of, i, all) && !are_valid(i, i + n_lanes)) valid = false;
+    for (; i < end; ++i)
+      if (!measure_some<1>(mesh, hex_of, i, all) && !are_valid(i, i + 1)) valid = false;
   });
   all.all_valid = valid;
   return all;
+}
+
+}  // namespace
+
+Measures measure(const Mesh& mesh) {
+  return measure(mesh, mesh.hexes.size(), [](Index i) { return i; });
+}
+Measures measure(const Mesh& mesh, std::span<const Index> hexes) {
+  return measure(mesh, hexes.size(), [&](Index i) { return hexes[i]; });
 }
 
 }  // namespace hextwist

@@ -1,6 +1,7 @@
 // Everything that is asked of every hex of a mesh at the end of a refinement, in one walk.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hextwist/mesh/mesh.h"
@@ -13,5 +14,7 @@ struct Measures {
 };
 /// Precondition: finite coordinates, nodes that exist.
 Measures measure(const Mesh& mesh);
+/// Of these hexes alone, in their order.
+Measures measure(const Mesh& mesh, std::span<const Index> hexes);
 
 }  // namespace hextwist

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "hextwist/base/mixed.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/refine/plans/eight_internal.h"
@@ -131,14 +132,6 @@ std::vector<T> sums_along(const RegionMesh& region, const NodeTree& tree, const 
     if (tree.parent_edge[node] >= 0)
       sum[node] = sum[tree.parent[node]] ^ value(region.sheets.of_edge[tree.parent_edge[node]]);
   return sum;
-}
-
-/// Mixes the bits of a number (Steele, Lea and Flood's splitmix64, 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
-  return x ^ x >> 31;
 }
 
 /// Independent closed ways that cross some sheet an odd number of times: the sheets crossed so, ascending. Simply
