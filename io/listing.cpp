@@ -337,10 +337,6 @@ int generated_id(const std::string& name, std::string_view kind) {
   return error == std::errc{} && stop == name.data() + name.size() ? id : -1;
 }
 
-void skip_byte_order_mark(Cursor& cursor) {
-  if (std::string_view(cursor.at, cursor.left()).starts_with("\xEF\xBB\xBF")) cursor.at += 3;
-}
-
 std::string plain_name(const std::string& name, std::size_t longest) {
   std::string plain;
   for (const char c : name.substr(0, longest))

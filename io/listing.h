@@ -125,8 +125,6 @@ std::vector<int> first_block_of_hexes(const Mesh& mesh, const char* format, std:
 const char* degenerate_hex(std::span<const std::int64_t> corners);
 /// What writers call groups without a name, "block_3": its id; -1 for all else.
 int generated_id(const std::string& name, std::string_view kind);
-/// Goes behind the mark of UTF-8 (EF BB BF) that some editors put at the beginning of a file.
-void skip_byte_order_mark(Cursor& cursor);
 /// A name on one line, of letters that every program takes.
 std::string plain_name(const std::string& name, std::size_t longest);
 

@@ -23,7 +23,10 @@ T with_bytes_reversed(const T& value) {
 
 class Cursor {
  public:
-  explicit Cursor(const Bytes& bytes) : Cursor({bytes.data.get(), bytes.size}, bytes.name) {}
+  /// Behind the mark of UTF-8 (EF BB BF) that some editors put at the beginning of a file.
+  explicit Cursor(const Bytes& bytes) : Cursor({bytes.data.get(), bytes.size}, bytes.name) {
+    if (std::string_view(at, left()).starts_with("\xEF\xBB\xBF")) at += 3;
+  }
   /// Part of a file, or what was decoded from one. `file` must live on.
   Cursor(std::string_view text, std::string_view file)
       : at(text.data()), begin(at), end(at + text.size()), name(file) {}

@@ -3,7 +3,9 @@
 #include "hextwist/mesh/topology.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <memory>
 #include <tuple>
 
 #include "hextwist/base/large_array.h"
@@ -35,16 +37,46 @@ void sort_lists(CompressedRows& lists) {
   });
 }
 
+/// Most lists are of a few items.
+template <class T>
+void sort_few(std::vector<T>& items) {
+  constexpr std::size_t few = 24;
+  if (items.size() > few) std::ranges::sort(items);
+  for (std::size_t i = 1; i < items.size(); ++i) {  // by insertion
+    if (!(items[i] < items[i - 1])) continue;
+    const T item = items[i];
+    std::size_t at = i;
+    for (; at > 0 && item < items[at - 1]; --at) items[at] = items[at - 1];
+    items[at] = item;
+  }
+}
+
+/// Hexes around a node are all over the mesh, where it was refined. Waiting for them takes longer than all else.
+void fetch_ahead(std::span<const Hex> hexes, const CompressedRows& corners, Index row) {
+#if defined(__GNUC__)
+  constexpr Index ahead = 6;
+  if (row + ahead < corners.size())
+    for (const Index corner : corners[row + ahead]) __builtin_prefetch(&hexes[corner >> 3]);
+#endif
+}
+
+void fetch_for_writing([[maybe_unused]] const void* place) {
+#if defined(__GNUC__)
+  __builtin_prefetch(place, 1);
+#endif
+}
+
 /// One use of an edge by a hex, at the edge's lower node: the other node, and which use it is (3 * place + axis,
 /// place in the list of the node's corners). In one integer, so that sorting is quick.
 using EdgeUse = std::uint64_t;
 
 /// Edges that belong to a node: those to higher nodes. One from the node to itself (of a hex that names a node twice)
 /// is taken at its lower corner only.
-void collect_edges(const Mesh& mesh, Index node, std::span<const Index> corners, std::vector<EdgeUse>& uses) {
+void collect_edges(const Mesh& mesh, Index node, const CompressedRows& corners, std::vector<EdgeUse>& uses) {
   uses.clear();
+  fetch_ahead(mesh.hexes, corners, node);
   std::uint64_t use = 0;
-  for (const Index corner : corners) {
+  for (const Index corner : corners[node]) {
     const Hex& hex = mesh.hexes[corner >> 3];
     for (int axis = 0; axis < 3; ++axis, ++use) {
       const Index other = hex[(corner & 7) ^ (1 << axis)];
@@ -52,25 +84,27 @@ void collect_edges(const Mesh& mesh, Index node, std::span<const Index> corners,
         uses.push_back(static_cast<EdgeUse>(other) << 32 | use);
     }
   }
-  std::ranges::sort(uses);
+  sort_few(uses);
 }
 
 /// Calls f(first, last) for each run of equal items in a sorted list.
 template <class T, class Same, class F>
-void for_runs(const std::vector<T>& items, Same same, F f) {
+void for_runs(std::span<const T> items, Same same, F f) {
   for (std::size_t begin = 0, end; begin < items.size(); begin = end) {
     for (end = begin + 1; end < items.size() && same(items[begin], items[end]);) ++end;
-    f(std::span(items).subspan(begin, end - begin));
+    f(items.subspan(begin, end - begin));
   }
 }
 constexpr auto same_edge = [](EdgeUse a, EdgeUse b) { return a >> 32 == b >> 32; };
-constexpr auto same_face = [](const FaceUse& a, const FaceUse& b) { return a.key() == b.key(); };
+constexpr auto same_face = [](const FaceUse& a, const FaceUse& b) { return a.is_same_face(b); };
 
 }  // namespace
 
-void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index> corners, std::vector<FaceUse>& uses) {
+void collect_faces(std::span<const Hex> hexes, const CompressedRows& corners, Index first_node, Index node,
+                   std::vector<FaceUse>& uses) {
   uses.clear();
-  for (const Index corner : corners) {
+  fetch_ahead(hexes, corners, node - first_node);
+  for (const Index corner : corners[node - first_node]) {
     const Hex& hex = hexes[corner >> 3];
     const int c = corner & 7;
     // Corners whose nodes come after this one: a node that a face names twice keeps the face where it stands first.
@@ -80,11 +114,28 @@ void collect_faces(std::span<const Hex> hexes, Index node, std::span<const Index
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis == 0), v = axis == 2 ? 2 : 4;
       if (!next[axis == 0 ? 1 : 0] || !next[axis == 2 ? 1 : 2] || !comes_after(c ^ u ^ v)) continue;
-      const auto [low, high] = std::minmax(hex[c ^ u], hex[c ^ v]);
-      uses.push_back({hex[c ^ u ^ v], low, high, corner, axis});
+      const int place = ((c & u) != 0) + 2 * ((c & v) != 0);
+      uses.emplace_back(Side{corner >> 3, 2 * axis + (c >> axis & 1)}, place, hex[c ^ u ^ v], hex[c ^ u], hex[c ^ v]);
     }
   }
-  std::ranges::sort(uses);
+  sort_few(uses);
+}
+
+bool fit_together(std::span<const FaceUse> uses) {
+  for (std::size_t begin = 0, end; begin < uses.size(); begin = end) {
+    for (end = begin + 1; end < uses.size() && uses[end].is_same_face(uses[begin]);) ++end;
+    if (end - begin > 2) return false;
+    if (end - begin == 2 && uses[begin].turns_to_low() == uses[begin + 1].turns_to_low()) return false;
+    for (std::size_t i = 0; i < begin; ++i) {
+      std::array<Index, 3> one = {uses[i].diagonal(), uses[i].low(), uses[i].high()},
+                           other = {uses[begin].diagonal(), uses[begin].low(), uses[begin].high()};
+      if (std::int64_t{one[0]} + one[1] + one[2] != std::int64_t{other[0]} + other[1] + other[2]) continue;
+      std::ranges::sort(one);
+      std::ranges::sort(other);
+      if (one == other && !uses[i].is_same_face(uses[begin])) return false;
+    }
+  }
+  return true;
 }
 
 void check_nodes(const Mesh& mesh) {
@@ -181,8 +232,8 @@ Edges edges(const Mesh& mesh) {
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<EdgeUse> uses;
     for (Index node = begin; node < end; ++node) {
-      collect_edges(mesh, node, corners[node], uses);
-      for_runs(uses, same_edge, [&](auto) { ++result.first_of_node[node]; });
+      collect_edges(mesh, node, corners, uses);
+      for_runs(std::span<const EdgeUse>(uses), same_edge, [&](auto) { ++result.first_of_node[node]; });
     }
   });
   counts_to_starts(result.first_of_node);
@@ -191,9 +242,9 @@ Edges edges(const Mesh& mesh) {
   parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
     std::vector<EdgeUse> uses;
     for (Index node = begin; node < end; ++node) {
-      collect_edges(mesh, node, corners[node], uses);
+      collect_edges(mesh, node, corners, uses);
       Index edge = result.first_of_node[node];
-      for_runs(uses, same_edge, [&](std::span<const EdgeUse> run) {
+      for_runs(std::span<const EdgeUse>(uses), same_edge, [&](std::span<const EdgeUse> run) {
         result.nodes[edge] = {node, static_cast<Index>(run[0] >> 32)};
         for (const EdgeUse use : run) {
           const std::uint32_t place = static_cast<std::uint32_t>(use) / 3, axis = static_cast<std::uint32_t>(use) % 3;
@@ -216,26 +267,43 @@ LooseFaces loose_faces(const Mesh& mesh, const CompressedRows& corners) {
   LooseFaces result;
   Faces& faces = result.faces;
   resize_large(faces.first_of_node, mesh.points.size() + 1);
-  std::atomic<bool> crowded = false;
-  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
+  // Looking at the hexes around a node takes longest, so what was found is kept until faces have numbers.
+  constexpr Index chunk_size = 2048;
+  struct Uses {
+    std::vector<FaceUse> all;
+    std::array<Index, chunk_size> end_of_node;
+  };
+  std::vector<std::unique_ptr<Uses>> uses_of_chunk(n_chunks(mesh.n_nodes(), chunk_size));
+  std::atomic<bool> crowded = false, fit = true;
+  parallel_chunks(mesh.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
     std::vector<FaceUse> uses;
+    auto& kept = *(uses_of_chunk[chunk] = std::make_unique<Uses>());
     for (Index node = begin; node < end; ++node) {
-      collect_faces(mesh.hexes, node, corners[node], uses);
-      for_runs(uses, same_face, [&](auto run) {
+      collect_faces(mesh.hexes, corners, 0, node, uses);
+      for_runs(std::span<const FaceUse>(uses), same_face, [&](auto run) {
         ++faces.first_of_node[node];
         if (run.size() > 2) crowded = true;
       });
+      if (!hextwist::fit_together(uses)) fit = false;
+      kept.all.insert(kept.all.end(), uses.begin(), uses.end());
+      kept.end_of_node[node - begin] = static_cast<Index>(kept.all.size());
     }
+    kept.all.shrink_to_fit();
   });
   counts_to_starts(faces.first_of_node);
   resize_for_overwrite(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
   resize_for_overwrite(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
   resize_for_overwrite(faces.of_hex, mesh.hexes.size());
-  parallel_ranges(mesh.n_nodes(), [&](Index begin, Index end) {
-    std::vector<FaceUse> uses;
+  parallel_chunks(mesh.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
+    const std::unique_ptr<Uses> kept = std::move(uses_of_chunk[chunk]);
+    Index face = faces.first_of_node[begin], from = 0;
     for (Index node = begin; node < end; ++node) {
-      collect_faces(mesh.hexes, node, corners[node], uses);
-      Index face = faces.first_of_node[node];
+      const Index to = kept->end_of_node[node - begin];
+      const auto uses = std::span<const FaceUse>(kept->all).subspan(from, to - from);
+      constexpr Index ahead = 32;
+      for (Index i = from; i < to && i + ahead < std::ssize(kept->all); ++i)
+        fetch_for_writing(&faces.of_hex[kept->all[i + ahead].side().hex]);
+      from = to;
       for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
         faces.sides[face][1] = {};
         for (std::size_t i = 0; i < run.size(); ++i) {
@@ -243,12 +311,11 @@ LooseFaces loose_faces(const Mesh& mesh, const CompressedRows& corners) {
           if (i < 2) faces.sides[face][i] = side;
           faces.of_hex[side.hex][side.face] = face;
         }
-        const Side first = run[0].side();
-        faces.nodes[face] = face_nodes(mesh.hexes[first.hex], first.face);
-        ++face;
+        faces.nodes[face++] = run[0].nodes(node);
       });
     }
   });
+  result.fit_together = fit;
   if (crowded)
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       for (int f = 0; f < n_hex_faces; ++f) {

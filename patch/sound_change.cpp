@@ -8,7 +8,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 
 #include "hextwist/base/parallel.h"
@@ -21,15 +20,6 @@
 
 namespace hextwist {
 namespace {
-
-bool is_on_eight_nodes(const Mesh& mesh, const Hex& hex) {
-  for (int i = 0; i < n_hex_corners; ++i) {
-    if (hex[i] < 0 || hex[i] >= mesh.n_nodes()) return false;
-    for (int j = 0; j < i; ++j)
-      if (hex[i] == hex[j]) return false;
-  }
-  return true;
-}
 
 Box box_of(const Mesh& mesh, const Quad& nodes) {
   Box box;
@@ -65,8 +55,7 @@ std::vector<FaceOnCad> faces_on_cad(const MeshedModel& meshed, Index n, const au
       const Index h = hex_of(i);
       const Hex& hex = meshed.mesh.hexes[h];
       unsigned on_cad = 0;
-      for (int c = 0; c < n_hex_corners; ++c)
-        on_cad |= unsigned{meshed.association.node_owner[hex[c]].dim < 3} << c;
+      for (int c = 0; c < n_hex_corners; ++c) on_cad |= unsigned{meshed.association.node_owner[hex[c]].dim < 3} << c;
       if (on_cad == 0) continue;
       for (int face = 0; face < n_hex_faces; ++face) {
         unsigned wanted = 0;
@@ -168,7 +157,8 @@ Mesh mesh_of(const ChangedPart& change, std::span<const Index> of_part, std::spa
   return mesh;
 }
 
-/// Whether nodes hang in faces or edges of sides with nothing behind: of those of the part, and of kept hexes near them.
+/// Whether nodes hang in faces or edges of sides with nothing behind: of those of the part, and of kept hexes near
+/// them.
 bool have_joined_nodes(const ChangedPart& change, std::span<const Side> skin_of_part, std::span<const Index> kept) {
   std::vector<Index> of_part, known;
   for (const Side side : skin_of_part)
@@ -192,12 +182,7 @@ bool is_sound(const ChangedPart& change) {
   const Mesh &before = change.before.mesh, &after = change.after.mesh;
   const Index n_kept = change.n_kept, n_new = after.n_hexes() - n_kept;
   const std::span<const Hex> fresh = std::span(after.hexes).subspan(static_cast<std::size_t>(n_kept));
-  std::atomic<bool> sound = true;
-  parallel_ranges(n_new, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      if (!is_on_eight_nodes(after, fresh[i])) sound = false;
-  });
-  if (!sound) return false;
+  if (!are_on_eight_nodes(after, n_kept)) return false;
 
   const std::vector<Index> kept = kept_around(change);
   const auto n_around = static_cast<Index>(kept.size()), n_gone = static_cast<Index>(change.gone.size());

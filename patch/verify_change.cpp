@@ -78,8 +78,8 @@ ExtremeList next_extremes(const Mesh& mesh, Metric metric, const ExtremeList& kn
   return extremes(mesh, quality(metric, mesh), largest, gone);
 }
 
-/// Summary after the `taken` hexes, which had these values, and the `added` ones, which have those; the extremes (least,
-/// largest) change with them. Where these don't know the next one, all hexes are asked.
+/// Summary after the `taken` hexes, which had these values, and the `added` ones, which have those; the extremes
+/// (least, largest) change with them. Where these don't know the next one, all hexes are asked.
 Summary updated(const Summary& before, Metric metric, std::span<const double> taken, std::span<const double> values,
                 const Difference& difference, std::array<ExtremeList, 2>& lists) {
   const ChangedPart& change = difference.change;

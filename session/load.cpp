@@ -91,13 +91,14 @@ void snap(const Transaction& run, Mesh& mesh, const Association& association, co
 
 /// By the smallest tolerance that works, up to the one that was asked for: what is more than the mesh needs only takes
 /// nodes for those of other curves and surfaces. Throws what associate() has to say of the largest.
-AssociateResult associated_within(const Mesh& mesh, const Model& model, const Association* tags, double most) {
+AssociateResult associated_within(const Mesh& mesh, const Model& model, const Association* tags, double most,
+                                  const Faces* faces) {
   const Association* usable = tags && !tags->empty() ? tags : nullptr;
   for (double tolerance = std::min(most, AssociateOptions().relative_tolerance);;
        tolerance = std::min(most, 1.5 * tolerance)) {
     std::string wrong;
     try {
-      AssociateResult result = associate(mesh, model, usable, {.relative_tolerance = tolerance});
+      AssociateResult result = associate(mesh, model, usable, {.relative_tolerance = tolerance, .faces = faces});
       const std::vector<std::string> broken = most > AssociateOptions().relative_tolerance
                                                   ? check_association(mesh, result.association, model, tolerance)
                                                   : std::vector<std::string>();
@@ -114,13 +115,14 @@ AssociateResult associated_within(const Mesh& mesh, const Model& model, const As
 
 /// On the model, or on its own skin where that is null.
 MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
-                       const MiddleNodes* middles) {
+                       const MiddleNodes* middles, const Faces* faces) {
   const Interruptible interruptible = interruptible_as(run, "associate");
   if (!model) {
-    FacetResult result = associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle, .middles = middles});
+    FacetResult result =
+        associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle, .middles = middles, .faces = faces});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
   }
-  AssociateResult result = associated_within(mesh, *model, tags, run.state.tolerance);
+  AssociateResult result = associated_within(mesh, *model, tags, run.state.tolerance, faces);
   for (const std::string& line : result.notices) run.note(line);
   if (run.state.snap) snap(run, mesh, result.association, *model);
   return {std::move(mesh), std::move(model), std::move(result.association)};
@@ -168,6 +170,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
   SessionState& state = run.state;
   run.stage("check mesh");
   if (mesh.n_hexes() == 0) throw Error(what + ": there are no hexes");
+  Faces faces;
   const std::vector<Violation> violations = [&] {
     // Indices first: nothing else may be asked of a mesh that names nodes it does not have.
     const bool sound = std::ranges::all_of(mesh.hexes, [&](const Hex& hex) {
@@ -177,7 +180,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
       const OrientationRepair repair = repair_orientation(mesh);
       if (!repair.notice.empty()) run.note(what + ": " + repair.notice);
     }
-    return validate(mesh);
+    return validate(mesh, {.faces = &faces});
   }();
   const std::vector<Index> inverted = inverted_among(violations);
   const Mesh before = inverted.empty() ? Mesh() : mesh;
@@ -222,13 +225,14 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
       run.note(what + ": its middle nodes are left out, as hexes had to be untangled");
       middles = nullptr;
     }
-    result = associated(run, std::move(mesh), std::move(model), tags, middles);
+    result = associated(run, std::move(mesh), std::move(model), tags, middles, faces.nodes.empty() ? nullptr : &faces);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
     if (!tangled) throw;
     throw Error(what + ": " + wrong + "; untangling did not help (" + error.what() + ")");
   }
+  faces = {};
   if (tangled) {
     // Nodes inside volumes were not enough: those on curves and surfaces slide too, now that these are known.
     run.stage("untangle");
@@ -236,7 +240,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     if (!untangle_near(run, result.mesh, result.association, result.model.get(), still(), true).empty() && !on_cad) {
       // A fold in the skin looks like a feature of it, along which nothing can slide.
       untangle_freely(run, result.mesh, still());
-      result = associated(run, std::move(result.mesh), nullptr, tags, nullptr);
+      result = associated(run, std::move(result.mesh), nullptr, tags, nullptr, nullptr);
     }
     if (!still().empty() && !untangle_far(run, result.mesh, result.association, result.model.get(), still()).empty())
       throw Error(what + ": " + wrong + "; untangling did not help");

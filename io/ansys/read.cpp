@@ -24,7 +24,6 @@ class AnsysReader {
   explicit AnsysReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
-    skip_byte_order_mark(cursor_);
     while (cursor_.at < cursor_.end) {
       at_ = cursor_.at;
       const std::string_view line = trimmed(cursor_.line());

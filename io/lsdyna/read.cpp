@@ -9,7 +9,6 @@ class DynaReader {
   explicit DynaReader(const Bytes& bytes) : cursor_(bytes), cards_(cursor_), listing_(cursor_) {}
 
   MeshFile result() {
-    skip_byte_order_mark(cursor_);
     bool ended = false;
     while (!ended && !cards_.next_keyword().empty()) ended = read(cards_.keyword());
     if (!ended) listing_.note(cursor_.where(cursor_.end) + ": there is no *END; the file may be cut short");

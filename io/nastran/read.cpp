@@ -18,7 +18,6 @@ class NastranReader {
   explicit NastranReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_) {}
 
   MeshFile result() {
-    skip_byte_order_mark(cursor_);
     to_bulk_data();
     NastranCards cards(cursor_);
     while (!ended_) {

@@ -14,7 +14,6 @@ class UnvReader {
   explicit UnvReader(const Bytes& bytes) : cursor_(bytes), listing_(cursor_), systems_(cursor_) {}
 
   MeshFile result() {
-    skip_byte_order_mark(cursor_);
     while (cursor_.more()) {
       const char* at = cursor_.at;
       if (cursor_.integer("the mark of a dataset, -1,") != -1)

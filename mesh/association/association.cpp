@@ -180,7 +180,8 @@ AssociateResult associate(const Mesh& mesh, const Model& model, const Associatio
   if (model.count(3) == 0) throw Error("the model has no volume");
   AssociateResult result;
   ModelFacts facts(model, options.relative_tolerance);
-  const Faces mesh_faces = faces(mesh);
+  const Faces made = options.faces ? Faces() : faces(mesh);
+  const Faces& mesh_faces = options.faces ? *options.faces : made;
   Tags tags;
   if (given && options.use_tags) tags = usable_tags(mesh, mesh_faces, model, *given, result.notices);
 

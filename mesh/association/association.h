@@ -44,6 +44,8 @@ struct AssociateOptions {
   double relative_tolerance = 1e-5;
   /// Start from the tags in the file where it has them.
   bool use_tags = true;
+  /// Of the mesh, where they are known already.
+  const Faces* faces = nullptr;
 };
 
 /// The association and what was noticed while it was made, one line each: tags that name no entity, tags that the
@@ -91,6 +93,8 @@ struct SkinOptions {
   const Association* tags = nullptr;  ///< lists ascending, as in a complete association; null: by angle and blocks
   /// The skin is curved: through these. Null, or where all lie halfway: straight.
   const MiddleNodes* middles = nullptr;
+  /// Of the mesh, where they are known already.
+  const Faces* faces = nullptr;
 };
 /// The mesh's skin as its model. Volumes: the blocks where they partition the mesh, in the blocks' order, else one.
 /// With tags the skin is divided as they say instead of by angle and blocks: by the tags of hexes, of faces (0 where

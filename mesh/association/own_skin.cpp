@@ -96,7 +96,8 @@ FacetResult associate_with_own_skin(const Mesh& mesh, const SkinOptions& options
   association.hex_volume = tags ? volumes_of_tags(tags->hex_volume) : volumes_of_blocks(mesh);
   const auto& volume = association.hex_volume;
 
-  const Faces mesh_faces = faces(mesh);
+  const Faces made = options.faces ? Faces() : faces(mesh);
+  const Faces& mesh_faces = options.faces ? *options.faces : made;
   std::vector<Quad> quads;
   std::vector<std::array<int, 2>> quad_volumes;
   // Hex by hex, so that the sides ascend.

@@ -22,11 +22,10 @@ Lanes<N> mean_ratio(const LaneHex<N>& x, double) {
     const Lanes<N> det = determinant_at(edges, c);
     const Lanes<N> frobenius =
         square[0][gather_bits(0, c)] + square[1][gather_bits(1, c)] + square[2][gather_bits(2, c)];
-    for (int lane = 0; lane < N; ++lane) {
-      const double f = frobenius[lane], power = f > 0 ? det[lane] * std::abs(det[lane]) / (f * f * f) : 0;
-      least[lane] = std::min(least[lane], power);
-      if (power > 0) sum[lane] += 1 / std::cbrt(power);
-    }
+    const Lanes<N> power =
+        (frobenius > 0).select(det * det.abs() / (frobenius * frobenius * frobenius), Lanes<N>::Zero());
+    least = least.min(power);
+    sum += Lanes<N>::each([&](int lane) { return power[lane] > 0 ? 1 / std::cbrt(power[lane]) : 0; });
   }
   return (least > 0).select(24 / (least > 0).select(sum, Lanes<N>::Ones()), Lanes<N>::Zero());
 }
@@ -81,8 +80,7 @@ Lanes<N> oddy(const LaneHex<N>& x, double) {
     const Lanes<N> power = deviator * (deviator / flatness) * (deviator / flatness);
     worst = worst.max((det > 0).select(power, none));
   }
-  for (int lane = 0; lane < N; ++lane) worst[lane] = std::min(std::cbrt(worst[lane]), unbounded);
-  return worst;
+  return Lanes<N>::each([&](int lane) { return std::min(std::cbrt(worst[lane]), unbounded); });
 }
 
 template <int N>

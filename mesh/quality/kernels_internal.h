@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hextwist/mesh/quality/quality_internal.h"
+#include "hextwist/mesh/quality/validity.h"
 
 namespace hextwist {
 
@@ -29,8 +30,8 @@ HEXTWIST_LANES Lanes<N> shape_of(const HexCorners<N>& terms) {
     const Lanes<N> power = det * det.abs() / (frobenius * frobenius * frobenius);
     worst = worst.min((frobenius > 0).select(power, Lanes<N>::Zero()));
   }
-  for (int lane = 0; lane < N; ++lane) worst[lane] = worst[lane] > 0 ? 3 * std::cbrt(worst[lane]) : 0;
-  return worst;
+  return Lanes<N>::each([&](int lane)
+                            HEXTWIST_LANE_LAMBDA { return worst[lane] > 0 ? 3 * std::cbrt(worst[lane]) : 0; });
 }
 
 /// Square of det(A) / product of the lengths, with its sign; 0 where a length is 0.
@@ -52,9 +53,8 @@ HEXTWIST_LANES Lanes<N> scaled_jacobian_of(const HexCorners<N>& terms) {
   Lanes<N> worst =
       worst_scaled_corner<N>(terms, signed_square<N>(determinant(centre[0], centre[1], centre[2]),
                                                      centre[0].squared() * centre[1].squared() * centre[2].squared()));
-  for (int lane = 0; lane < N; ++lane)
-    worst[lane] = std::copysign(std::sqrt(std::abs(worst[lane])), worst[lane]) + 0.0;  // no -0
-  return worst;
+  const Lanes<N> root = worst.abs().sqrt();  // 0 of both signs is 0
+  return (worst < 0).select(-root, root);
 }
 
 /// The corners seen from corner 0, so that hexes far from the origin lose no digits.
@@ -102,6 +102,51 @@ HEXTWIST_LANES Lanes<N> affine_clearance(const LaneEdges<N>& edges) {
     without *= length;
   }
   return determinant(mean[0], mean[1], mean[2]) + without - above * with_radius;
+}
+
+/// Coefficients of the determinant: number i + 3 j + 9 k belongs to degree i, j, k of x, y, z.
+template <int N>
+using Coefficients = std::array<Lanes<N>, 27>;
+
+/// dx is bilinear in y and z, dy in x and z, dz in x and y; the product of three linear basis functions of one
+/// coordinate at most squared is 1 or 1/2 of a quadratic one. First dx x dy, which is quadratic in z alone.
+template <int N>
+HEXTWIST_LANES Coefficients<N> coefficients(const LaneEdges<N>& edges) {
+  const auto &dx = edges.along[0], &dy = edges.along[1], &dz = edges.along[2];
+  Coefficients<N> result;
+  result.fill(Lanes<N>::Zero());
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const std::array<LaneVec<N>, 3> area = {cross(dx[j], dy[i]),
+                                              scaled(0.5, cross(dx[j], dy[i + 2]) + cross(dx[j + 2], dy[i])),
+                                              cross(dx[j + 2], dy[i + 2])};
+      for (int k = 0; k < 3; ++k)
+        for (int other_i = 0; other_i < 2; ++other_i)
+          for (int other_j = 0; other_j < 2; ++other_j) {
+            const double weight = (i == other_i ? 1 : 0.5) * (j == other_j ? 1 : 0.5);
+            result[(i + other_i) + 3 * (j + other_j) + 9 * k] += weight * dot(area[k], dz[other_i + 2 * other_j]);
+          }
+    }
+  return result;
+}
+
+/// Product of the longest edges of the three directions: no determinant is larger.
+template <int N>
+HEXTWIST_LANES Lanes<N> longest_product(const LaneEdges<N>& edges) {
+  Lanes<N> product = Lanes<N>::Ones();
+  for (const auto& along : edges.along)
+    product *= along[0].squared().max(along[1].squared()).max(along[2].squared()).max(along[3].squared());
+  return product.sqrt();
+}
+
+/// Positive: surely valid, as no scaled Jacobian is below this times least_scaled_jacobian either. Nearly all hexes
+/// are.
+template <int N>
+HEXTWIST_LANES Lanes<N> clearance(const LaneEdges<N>& edges) {
+  const Coefficients<N> all = coefficients(edges);
+  Lanes<N> least = all[0];
+  for (int i = 1; i < 27; ++i) least = least.min(all[i]);
+  return least - least_scaled_jacobian * longest_product(edges);
 }
 
 }  // namespace hextwist

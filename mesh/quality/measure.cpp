@@ -13,13 +13,10 @@ template <int N, class HexOf>
 HEXTWIST_LANES bool measure_some(const Mesh& mesh, const HexOf& hex_of, Index at, Measures& all) {
   const LaneHex<N> x = load<N>(mesh, [&](int lane) { return hex_of(at + lane); });
   const HexCorners<N> terms(x);
-  const auto put = [&](std::vector<double>& values, const Lanes<N>& some) {
-    Eigen::Map<Lanes<N>>(values.data() + at) = some;
-  };
-  put(all.shape, shape_of(terms));
-  put(all.scaled_jacobian, scaled_jacobian_of(terms));
-  put(all.volume, volume_of<N>(x));
-  return (affine_clearance(terms.edges) > 0).all();
+  shape_of(terms).store(all.shape.data() + at);
+  scaled_jacobian_of(terms).store(all.scaled_jacobian.data() + at);
+  volume_of<N>(x).store(all.volume.data() + at);
+  return (affine_clearance(terms.edges) > 0).all() || (clearance(terms.edges) > 0).all();
 }
 
 /// The hexes hex_of(0) to hex_of(n - 1).
@@ -30,15 +27,13 @@ Measures measure(const Mesh& mesh, std::size_t n, const HexOf& hex_of) {
   std::atomic<bool> valid = true;
   const auto are_valid = [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
-      if (!all_valid(mesh, hex_of(i), hex_of(i) + 1)) return false;
+      if (judge(mesh, hex_of(i)).fault != HexFault::none) return false;
     return true;
   };
   parallel_ranges(static_cast<Index>(n), [&](Index begin, Index end) {
-    Index i = begin;
-    for (; i + n_lanes <= end; i += n_lanes)
-      if (!measure_some<n_lanes>(mesh, hex_of, i, all) && !are_valid(i, i + n_lanes)) valid = false;
-    for (; i < end; ++i)
-      if (!measure_some<1>(mesh, hex_of, i, all) && !are_valid(i, i + 1)) valid = false;
+    for_lanes(begin, end, [&](auto lanes, Index i) HEXTWIST_LANE_LAMBDA {
+      if (!measure_some<lanes>(mesh, hex_of, i, all) && !are_valid(i, i + lanes)) valid = false;
+    });
   });
   all.all_valid = valid;
   return all;

@@ -66,8 +66,7 @@ std::vector<double> evaluate(const Kernel& kernel, const Mesh& mesh, double aver
   parallel_ranges(static_cast<Index>(n), [&](Index begin, Index end) {
     Index i = begin;
     for (; i + n_lanes <= end; i += n_lanes)
-      Eigen::Map<Lanes<n_lanes>>(values.data() + i) =
-          kernel.some(load<n_lanes>(mesh, [&](int lane) { return hex_of(i + lane); }), average);
+      kernel.some(load<n_lanes>(mesh, [&](int lane) { return hex_of(i + lane); }), average).store(values.data() + i);
     for (; i < end; ++i) values[i] = kernel.one(load<1>(mesh, hex_of(i)), average)[0];
   });
   return values;

@@ -9,8 +9,6 @@
 
 namespace hextwist {
 
-inline constexpr int n_lanes = 4;
-
 /// One metric for one hex, and for several at once. The second argument is the volume that relative size compares with.
 struct Kernel {
   Lanes<1> (*one)(const LaneHex<1>&, double average);
@@ -22,9 +20,6 @@ extern const Kernel shape_kernel, scaled_jacobian_kernel, mean_ratio_kernel, con
 extern const Kernel skew_kernel, taper_kernel, aspect_ratio_kernel;                            // axes
 extern const Kernel edge_ratio_kernel, stretch_kernel, diagonal_kernel;                        // lengths
 extern const Kernel volume_kernel, relative_size_kernel, dimension_kernel, distortion_kernel;  // sizes
-
-/// all_valid() of validity.h for the hexes begin .. end - 1.
-bool all_valid(const Mesh& mesh, Index begin, Index end);
 
 /// The worst value of a metric that has no largest one, as in Verdict: finite, so that sums stay finite.
 inline constexpr double unbounded = 1e30;
@@ -70,7 +65,7 @@ HEXTWIST_LANES std::array<LaneVec<N>, 3> principal_axes(const LaneEdges<N>& edge
 
 /// a / b where b is positive and the quotient less than `unbounded`, else `unbounded`.
 template <int N>
-Lanes<N> bounded_ratio(const Lanes<N>& a, const Lanes<N>& b) {
+HEXTWIST_LANES Lanes<N> bounded_ratio(const Lanes<N>& a, const Lanes<N>& b) {
   const Lanes<N> safe = (b > 0).select(b, Lanes<N>::Ones());
   return (b > 0).select((a / safe).min(unbounded), Lanes<N>::Constant(unbounded));
 }

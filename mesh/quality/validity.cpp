@@ -14,51 +14,6 @@
 namespace hextwist {
 namespace {
 
-/// Coefficients of the determinant: number i + 3 j + 9 k belongs to degree i, j, k of x, y, z.
-template <int N>
-using Coefficients = std::array<Lanes<N>, 27>;
-
-/// dx is bilinear in y and z, dy in x and z, dz in x and y; the product of three linear basis functions of one
-/// coordinate at most squared is 1 or 1/2 of a quadratic one. First dx x dy, which is quadratic in z alone.
-template <int N>
-Coefficients<N> coefficients(const LaneEdges<N>& edges) {
-  const auto &dx = edges.along[0], &dy = edges.along[1], &dz = edges.along[2];
-  Coefficients<N> result;
-  result.fill(Lanes<N>::Zero());
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) {
-      const std::array<LaneVec<N>, 3> area = {cross(dx[j], dy[i]),
-                                              scaled(0.5, cross(dx[j], dy[i + 2]) + cross(dx[j + 2], dy[i])),
-                                              cross(dx[j + 2], dy[i + 2])};
-      for (int k = 0; k < 3; ++k)
-        for (int other_i = 0; other_i < 2; ++other_i)
-          for (int other_j = 0; other_j < 2; ++other_j) {
-            const double weight = (i == other_i ? 1 : 0.5) * (j == other_j ? 1 : 0.5);
-            result[(i + other_i) + 3 * (j + other_j) + 9 * k] += weight * dot(area[k], dz[other_i + 2 * other_j]);
-          }
-    }
-  return result;
-}
-
-/// Product of the longest edges of the three directions: no determinant is larger.
-template <int N>
-Lanes<N> longest_product(const LaneEdges<N>& edges) {
-  Lanes<N> product = Lanes<N>::Ones();
-  for (const auto& along : edges.along)
-    product *= along[0].squared().max(along[1].squared()).max(along[2].squared()).max(along[3].squared());
-  return product.sqrt();
-}
-
-/// Positive: surely valid, as no scaled Jacobian is below this times least_scaled_jacobian either. Nearly all hexes
-/// are.
-template <int N>
-Lanes<N> clearance(const LaneEdges<N>& edges) {
-  const Coefficients<N> all = coefficients(edges);
-  Lanes<N> least = all[0];
-  for (int i = 1; i < 27; ++i) least = least.min(all[i]);
-  return least - least_scaled_jacobian * longest_product(edges);
-}
-
 constexpr double rounding = 1e-14;  // of the product above
 
 HexVerdict judge(const LaneHex<1>& x) {
@@ -90,17 +45,14 @@ bool is_valid(const Mesh& mesh, Index hex) {
 /// f(hex) for those of begin .. end - 1 that are not valid, ascending.
 template <class F>
 void for_inverted(const Mesh& mesh, Index begin, Index end, F f) {
-  Index h = begin;
-  for (; h + n_lanes <= end; h += n_lanes) {
-    const LaneEdges<n_lanes> edges(load<n_lanes>(mesh, h));
-    if ((affine_clearance(edges) > 0).all()) continue;
-    const Lanes<n_lanes> clear = clearance(edges);
-    if ((clear > 0).all()) continue;
-    for (int lane = 0; lane < n_lanes; ++lane)
+  for_lanes(begin, end, [&](auto lanes, Index h) HEXTWIST_LANE_LAMBDA {
+    const LaneEdges<lanes> edges(load<lanes>(mesh, h));
+    if ((affine_clearance(edges) > 0).all()) return;
+    const Lanes<lanes> clear = clearance(edges);
+    if ((clear > 0).all()) return;
+    for (int lane = 0; lane < lanes; ++lane)
       if (!(clear[lane] > 0) && judge(mesh, h + lane).fault != HexFault::none) f(h + lane);
-  }
-  for (; h < end; ++h)
-    if (!is_valid(mesh, h)) f(h);
+  });
 }
 
 /// What f(begin, end, list) puts into lists, for the hexes from `first` on, in order.
@@ -147,15 +99,13 @@ std::vector<Index> below(const Mesh& mesh, double limit, Index n, const HexOf& h
   std::vector<std::vector<Index>> of_chunk(n_chunks(n, size));
   parallel_chunks(n, size, [&](Index chunk, Index begin, Index end) {
     std::vector<Index>& found = of_chunk[chunk];
-    Index i = begin;
-    for (; i + n_lanes <= end; i += n_lanes) {
-      const auto x = load<n_lanes>(mesh, [&](int lane) { return hex_of(i + lane); });
-      const Lanes<n_lanes> values = scaled_jacobian_of(HexCorners<n_lanes>(x));
-      for (int lane = 0; lane < n_lanes; ++lane)
+    for_lanes(begin, end, [&](auto lanes, Index i) HEXTWIST_LANE_LAMBDA {
+      const auto x = load<lanes>(mesh, [&](int lane) { return hex_of(i + lane); });
+      const Lanes<lanes> values = scaled_jacobian_of(HexCorners<lanes>(x));
+      if ((values >= limit).all()) return;
+      for (int lane = 0; lane < lanes; ++lane)
         if (!(values[lane] >= limit)) found.push_back(hex_of(i + lane));
-    }
-    for (; i < end; ++i)
-      if (!(quality(Metric::scaled_jacobian, mesh, hex_of(i)) >= limit)) found.push_back(hex_of(i));
+    });
   });
   std::vector<Index> all;
   for (const auto& list : of_chunk) all.insert(all.end(), list.begin(), list.end());
@@ -171,16 +121,10 @@ std::vector<Index> hexes_below(const Mesh& mesh, double limit, std::span<const I
   return below(mesh, limit, static_cast<Index>(hexes.size()), [&](Index i) { return hexes[i]; });
 }
 
-bool all_valid(const Mesh& mesh, Index begin, Index end) {
-  bool all = true;
-  for_inverted(mesh, begin, end, [&](Index) { all = false; });
-  return all;
-}
-
 bool all_valid(const Mesh& mesh) {
   std::atomic<bool> all = true;
   parallel_ranges(mesh.n_hexes(), [&](Index begin, Index end) {
-    if (all.load(std::memory_order_relaxed) && !all_valid(mesh, begin, end)) all = false;
+    if (all.load(std::memory_order_relaxed)) for_inverted(mesh, begin, end, [&](Index) { all = false; });
   });
   return all;
 }

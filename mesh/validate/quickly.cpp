@@ -37,27 +37,15 @@ bool is_on_eight_nodes(const Mesh& mesh, const Hex& hex) {
   return true;
 }
 
-/// The faces of one node: at most two hexes each, on different sides; no four nodes joined in two orders. (Two hexes on
-/// the same eight nodes fail here: on the same side of their faces, in another order, or one of them is inverted.)
-bool faces_are_sound(const Mesh& mesh, std::span<const FaceUse> uses, std::vector<Side>& skin) {
-  for (std::size_t begin = 0, end; begin < uses.size(); begin = end) {
-    for (end = begin + 1; end < uses.size() && uses[end].key() == uses[begin].key();) ++end;
-    const Side a = uses[begin].side();
-    if (end - begin == 1) skin.push_back(a);
-    if (end - begin > 2) return false;
-    if (end - begin == 2) {
-      const Side b = uses[begin + 1].side();
-      if (turn_alike(mesh.hexes[a.hex], a.face, mesh.hexes[b.hex], b.face)) return false;
-    }
-    for (std::size_t i = 0; i < begin; ++i) {
-      std::array<Index, 3> one = {uses[i].diagonal, uses[i].low, uses[i].high},
-                           other = {uses[begin].diagonal, uses[begin].low, uses[begin].high};
-      if (std::int64_t{one[0]} + one[1] + one[2] != std::int64_t{other[0]} + other[1] + other[2]) continue;
-      std::ranges::sort(one);
-      std::ranges::sort(other);
-      if (one == other && uses[i].key() != uses[begin].key()) return false;
-    }
-  }
+/// The faces of one node: those with one hex go to the skin. (Two hexes on the same eight nodes don't fit together:
+/// they lie on the same side of their faces, in another order, or one of them is inverted.)
+bool faces_are_sound(std::span<const FaceUse> uses, std::vector<Side>& skin) {
+  if (!fit_together(uses)) return false;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (i + 1 < uses.size() && uses[i].is_same_face(uses[i + 1]))
+      ++i;
+    else
+      skin.push_back(uses[i].side());
   return true;
 }
 
@@ -70,12 +58,20 @@ bool faces_are_sound(const Mesh& mesh, Index begin, Index end, std::vector<Side>
   parallel_chunks(end - begin, size, [&](Index chunk, Index from, Index to) {
     std::vector<FaceUse> uses;
     for (Index i = from; i < to && sound.load(std::memory_order_relaxed); ++i) {
-      collect_faces(mesh.hexes, begin + i, corners[i], uses);
-      if (!faces_are_sound(mesh, uses, of_chunk[chunk])) sound = false;
+      collect_faces(mesh.hexes, corners, begin, begin + i, uses);
+      if (!faces_are_sound(uses, of_chunk[chunk])) sound = false;
     }
   });
   for (const auto& list : of_chunk) skin.insert(skin.end(), list.begin(), list.end());
   return sound;
+}
+
+/// Whether all are finite, each on eight nodes, and valid.
+bool hexes_are_sound(const Mesh& mesh, bool known_valid) {
+  if (!all_hold(mesh.n_nodes(), [&](Index n) { return mesh.points[n].allFinite(); })) return false;
+  if (!are_on_eight_nodes(mesh)) return false;
+  check_nodes(mesh);  // for their number
+  return known_valid || all_valid(mesh);
 }
 
 /// How many nodes are looked at together: a few hundred megabytes of lists.
@@ -83,16 +79,31 @@ constexpr Index nodes_at_once = 8 << 20;
 
 }  // namespace
 
+bool are_on_eight_nodes(const Mesh& mesh, Index first) {
+  return all_hold(mesh.n_hexes() - first, [&](Index i) { return is_on_eight_nodes(mesh, mesh.hexes[first + i]); });
+}
+
 bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, bool known_valid) {
   skin.clear();
-  if (!all_hold(mesh.n_nodes(), [&](Index n) { return mesh.points[n].allFinite(); })) return false;
-  if (!all_hold(mesh.n_hexes(), [&](Index h) { return is_on_eight_nodes(mesh, mesh.hexes[h]); })) return false;
-  check_nodes(mesh);  // for their number
-  if (!known_valid && !all_valid(mesh)) return false;
+  if (!hexes_are_sound(mesh, known_valid)) return false;
   for (std::int64_t begin = 0; begin < mesh.n_nodes(); begin += nodes_at_once) {
     const auto end = static_cast<Index>(std::min<std::int64_t>(begin + nodes_at_once, mesh.n_nodes()));
     if (!faces_are_sound(mesh, static_cast<Index>(begin), end, skin)) return false;
   }
+  tbb::parallel_sort(skin.begin(), skin.end());
+  return true;
+}
+
+bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, SoundTopology& topology) {
+  skin.clear();
+  if (!hexes_are_sound(mesh, false)) return false;
+  topology.corners = node_corners(mesh.hexes, mesh.n_nodes());
+  LooseFaces loose = loose_faces(mesh, topology.corners);
+  if (!loose.fit_together) return false;
+  const Faces& faces = topology.faces = std::move(loose.faces);
+  const auto is_open = [&](Index face) { return faces.sides[face][1].hex < 0; };
+  for (const Index face : indices_where(static_cast<Index>(faces.sides.size()), is_open))
+    skin.push_back(faces.sides[face][0]);
   tbb::parallel_sort(skin.begin(), skin.end());
   return true;
 }

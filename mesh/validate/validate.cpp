@@ -419,14 +419,17 @@ bool is_warning(ViolationKind kind) {
 std::vector<Violation> validate(const Mesh& mesh, const ValidateOptions& options) {
   std::vector<Violation> found;
   Report report(mesh, found);
-  if (std::vector<Side> skin;
-      is_sound_without_skin(mesh, skin)) {  // most are: only warnings and hanging nodes are left
+  SoundTopology topology;
+  if (std::vector<Side> skin; options.faces ? is_sound_without_skin(mesh, skin, topology)
+                                            : is_sound_without_skin(mesh, skin)) {  // most are: only warnings are left
     const Part whole(mesh);
-    const CompressedRows corners = node_corners(mesh);
+    const CompressedRows corners = options.faces ? std::move(topology.corners) : node_corners(mesh);
     find_duplicate_nodes(mesh, options.relative_tolerance, report);
     find_unused_nodes(mesh, report);
     find_hanging_nodes(whole, corners, skin, report);
     find_torn_edges(whole, corners, skin, report);
+    if (options.faces && std::ranges::all_of(found, is_warning, &Violation::kind))
+      *options.faces = std::move(topology.faces);
     return found;
   }
   std::vector<Index> unsound = find_bad_indices(mesh, report);

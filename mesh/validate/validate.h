@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hextwist/mesh/mesh.h"
+#include "hextwist/mesh/topology.h"
 
 namespace HEXTWIST_API hextwist {
 
@@ -42,6 +42,8 @@ struct Violation {
 struct ValidateOptions {
   /// Nodes nearer than this times the size of the box count as one place (0 .. 1e-4). 0 switches the search off.
   double relative_tolerance = 1e-10;
+  /// Gets the faces of a mesh of which only warnings are told, for who goes on with them; those of others stay as is.
+  Faces* faces = nullptr;
 };
 
 /// Every violation, by kind, then by first hex or node. Empty: the mesh is conformal, uninverted and clean.

@@ -31,9 +31,18 @@ bool may_have_joined_nodes(const Mesh& mesh, std::span<const Side> skin);
 /// Whether one of them is.
 bool has_joined_nodes(const Mesh& mesh, std::span<const Side> skin);
 
+/// Whether the hexes from `first` on have eight different nodes each that exist.
+bool are_on_eight_nodes(const Mesh& mesh, Index first = 0);
+
 /// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when
 /// true). known_valid: that all hexes are valid (validity.h) has been found out already.
 bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, bool known_valid = false);
+/// The same, keeping what it made.
+struct SoundTopology {
+  CompressedRows corners;  ///< node_corners()
+  Faces faces;
+};
+bool is_sound_without_skin(const Mesh& mesh, std::vector<Side>& skin, SoundTopology& topology);
 
 /// Whether two hexes turn alike around a face that they share: then they lie on the same side of it, or one of them is
 /// mirrored. Face f of hex a and face g of hex b have the same nodes in the same cyclic order, up to direction.

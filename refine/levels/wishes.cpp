@@ -59,14 +59,20 @@ Asked in_order(AskedCells cells) {
 template <class AskedLevel>
 std::vector<Asked> asked_of_leaves(const HandedHexes& hexes, std::span<const Index> whole, const AskedLevel& asked) {
   std::vector<std::array<AskedCells, 2>> cells(1);  // per level: whole ones, and those of which there are pieces
+  const auto add = [](AskedCells& list, CellNumber cell, int level) {  // pieces of a cell mostly follow each other
+    if (!list.empty() && list.back().first == cell)
+      list.back().second = std::max(list.back().second, level);
+    else
+      list.emplace_back(cell, level);
+  };
   for (const Index h : whole)
-    if (const int level = asked(h, hexes.leaf(h)); level >= 0) cells[0][0].emplace_back(hexes.leaf(h).cell, level);
+    if (const int level = asked(h, hexes.leaf(h)); level >= 0) add(cells[0][0], hexes.leaf(h).cell, level);
   for (std::size_t i = 0; i < hexes.cell.size(); ++i) {
     const LevelPieces::Leaf leaf = hexes.leaf_of_piece(i);
     const int level = asked(hexes.n_whole() + static_cast<Index>(i), leaf);
     if (level < 0) continue;
     if (cells.size() <= static_cast<std::size_t>(leaf.level)) cells.resize(leaf.level + std::size_t{1});
-    cells[leaf.level][leaf.level != hexes.block(i)].emplace_back(leaf.cell, level);
+    add(cells[leaf.level][leaf.level != hexes.block(i)], leaf.cell, level);
   }
   std::vector<Asked> result;
   for (auto& [of_whole, of_pieces] : cells)

@@ -48,6 +48,7 @@ std::optional<Sizes> sizes_of(const Execution& run) {
 }
 
 std::string sizes_text(const Mesh& mesh, const SizeReport& sizes) {
+  if (sizes.hexes.empty()) return "no hex has a wished size";
   std::string text =
       "actual / wished size of " + counted(static_cast<std::int64_t>(sizes.hexes.size()), EntityKind::hex) + " after " +
       counted(sizes.n_passes, "pass") + ": " + text_of_sizes(sizes.counts()) + "\n" + histogram(sizes.ratio);

@@ -41,6 +41,19 @@ TEST(text_formats, groups_names_and_ids_come_back) {
     }
 }
 
+TEST(text_formats, all_may_begin_with_a_byte_order_mark) {
+  const auto folder = test::output_folder();
+  const Mesh mesh = test::tidy_mesh(7, false);
+  for (const std::string ending : {"inp", "msh", "mesh", "mfem", "bdf", "unv", "k", "cdb", "vtu", "xdmf"}) {
+    SCOPED_TRACE(ending);
+    const auto file = folder / ("plain." + ending);
+    write_mesh(file, mesh, nullptr);
+    const Mesh plain = read_mesh(file).mesh;
+    const auto marked = test::write_text(folder / ("marked." + ending), "\xEF\xBB\xBF" + test::text_of(file));
+    EXPECT_TRUE(test::same_mesh(plain, read_mesh(marked).mesh));
+  }
+}
+
 /// Of a mesh that was written: hexes in the same order, nodes at the same places.
 void expect_same_hexes(const Mesh& found, const Mesh& expected, double relative) {
   test::expect_points_near(test::corners_of_hexes(found), test::corners_of_hexes(expected), relative);

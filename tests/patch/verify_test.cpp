@@ -121,9 +121,17 @@ TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
   std::mt19937 random(seed);
   const MeshedModel input = brick(12);
   const Measured known = measured(input);
-  for (const Index target : {0, 5, 6 + 12 * (6 + 12 * 6)}) {  // at a corner, at an edge, inside
-    Request request;
-    request.target.ids = {target};
+  std::vector<Request> requests;
+  for (const Index hex : {0, 5, 6 + 12 * (6 + 12 * 6)}) {  // at a corner, at an edge, inside
+    requests.emplace_back();
+    requests.back().target.ids = {hex};
+  }
+  for (const EntityKind kind : {EntityKind::surface, EntityKind::volume}) {  // much of it, all of it
+    requests.emplace_back();
+    requests.back().target = {kind, {1}};
+    if (kind == EntityKind::surface) requests.back().target.depth = 1;
+  }
+  for (const Request& request : requests) {
     const MeshedModel sound = refine(input, known, request).refined;
     // New hexes have the ids that follow the old ones.
     Index first_new = sound.mesh.n_hexes();
@@ -159,7 +167,7 @@ TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
       Report change, all;
       verify(input, &known, broken, nullptr, change);
       verify(input, nullptr, broken, nullptr, all);
-      ASSERT_EQ(change.violations.size(), all.violations.size()) << "round " << round << ", hex " << target;
+      ASSERT_EQ(change.violations.size(), all.violations.size()) << "round " << round;
       for (std::size_t i = 0; i < all.violations.size(); ++i)
         EXPECT_EQ(change.violations[i].text, all.violations[i].text) << "round " << round;
       n_found += !all.violations.empty();

@@ -105,6 +105,9 @@ TEST(Sizing, functions_by_expression_name_and_the_last_one) {
   EXPECT_EQ(h.mesh().n_hexes(), n);
   h.session.run("sizing list");
   EXPECT_EQ(h.output.back(), "no sizing functions");
+  h.session.run("refine volume 1 sizing_function \"1/0\"");
+  EXPECT_EQ(h.output.back(), "no hex has a wished size") << "infinite: no wish";
+  EXPECT_EQ(h.mesh().n_hexes(), n);
 }
 
 TEST(Sizing, errors_in_expressions_point_into_them) {
