@@ -138,14 +138,9 @@ struct LaneVec {
 
 template <int N>
 HEXTWIST_LANES Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
-  const auto cofactor = [](const Lanes<N>& p, const Lanes<N>& q, const Lanes<N>& r, const Lanes<N>& s) {
-    Lanes<N> result = p * q;
-    result -= r * s;
-    return result;
-  };
-  Lanes<N> sum = a.x * cofactor(b.y, c.z, b.z, c.y);
-  sum += a.y * cofactor(b.z, c.x, b.x, c.z);
-  sum += a.z * cofactor(b.x, c.y, b.y, c.x);
+  Lanes<N> sum = a.x * (b.y * c.z - b.z * c.y);
+  sum += a.y * (b.z * c.x - b.x * c.z);
+  sum += a.z * (b.x * c.y - b.y * c.x);
   return sum;
 }
 

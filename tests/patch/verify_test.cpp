@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
+#include <span>
 
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/primitives.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 #include "support/seed.h"
 
 namespace hextwist::test {
@@ -115,27 +118,16 @@ TEST(verify, new_nodes_on_one_side_of_a_crack_are_no_fault) {
   EXPECT_TRUE(result.report.violations.empty()) << result.report.violations.front().text;
 }
 
-TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
-  const unsigned seed = random_seed();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
-  const MeshedModel input = brick(12);
+/// Results of these requests, broken in all ways, are reported alike by the change and from scratch.
+void expect_broken_told_alike(const MeshedModel& input, std::span<const Request> requests, std::mt19937& random) {
   const Measured known = measured(input);
-  std::vector<Request> requests;
-  for (const Index hex : {0, 5, 6 + 12 * (6 + 12 * 6)}) {  // at a corner, at an edge, inside
-    requests.emplace_back();
-    requests.back().target.ids = {hex};
-  }
-  for (const EntityKind kind : {EntityKind::surface, EntityKind::volume}) {  // much of it, all of it
-    requests.emplace_back();
-    requests.back().target = {kind, {1}};
-    if (kind == EntityKind::surface) requests.back().target.depth = 1;
-  }
+  const std::int64_t last_old = hex_id(input.mesh, input.mesh.n_hexes() - 1);
   for (const Request& request : requests) {
     const MeshedModel sound = refine(input, known, request).refined;
     // New hexes have the ids that follow the old ones.
     Index first_new = sound.mesh.n_hexes();
-    while (hex_id(sound.mesh, first_new - 1) > input.mesh.n_hexes()) --first_new;
+    while (first_new > 0 && hex_id(sound.mesh, first_new - 1) > last_old) --first_new;
+    ASSERT_LT(first_new, sound.mesh.n_hexes());
     const auto any_new = [&] {
       const Index n = sound.mesh.n_hexes() - first_new;
       return first_new + static_cast<Index>(random() % static_cast<unsigned>(n));
@@ -174,6 +166,37 @@ TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
     }
     EXPECT_GT(n_found, 30);
   }
+}
+
+Request of(EntityKind kind, Index id, std::optional<int> depth = std::nullopt) {
+  Request request;
+  request.target.kind = kind;
+  request.target.ids = {id};
+  if (depth) request.target.depth = depth;
+  return request;
+}
+
+TEST(verify, a_broken_result_is_reported_as_if_everything_had_been_looked_at) {
+  const unsigned seed = random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const Request requests[] = {of(EntityKind::hex, 0), of(EntityKind::hex, 5),             // at a corner, at an edge
+                              of(EntityKind::hex, 6 + 12 * (6 + 12 * 6)),                 // inside
+                              of(EntityKind::surface, 1, 1), of(EntityKind::volume, 1)};  // much of it, all of it
+  expect_broken_told_alike(brick(12), requests, random);
+}
+
+TEST(verify, so_it_is_where_volumes_meet) {
+  const unsigned seed = random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const MeshedModel input = shipped("inclusion");
+  std::vector<Request> requests;
+  for (int round = 0; round < 4; ++round)
+    requests.push_back(of(EntityKind::hex, static_cast<Index>(random() % input.mesh.hexes.size())));
+  for (Index id = 1; id <= input.model->count(2); id += 3) requests.push_back(of(EntityKind::surface, id, 0));
+  requests.push_back(of(EntityKind::volume, 1));
+  expect_broken_told_alike(input, requests, random);
 }
 
 }  // namespace
