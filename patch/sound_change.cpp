@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/validate/boundary_sum.h"
 #include "hextwist/mesh/validate/validate_parts.h"
@@ -38,14 +40,8 @@ std::vector<Index> kept_around(const ChangedPart& change) {
   return touching_hexes(std::span(mesh.hexes).first(change.n_kept), near);
 }
 
-/// A face with all nodes on vertices, curves or surfaces, of one hex.
-struct FaceOnCad {
-  Quad nodes;    ///< ascending
-  Index across;  ///< from the first of them
-  Side side;
-
-  auto operator<=>(const FaceOnCad&) const = default;
-};
+/// A face with all nodes on vertices, curves or surfaces, of one hex: its lowest node, and the rest.
+using FaceOnCad = std::pair<Index, FaceUse>;
 
 std::vector<FaceOnCad> faces_on_cad(const MeshedModel& meshed, Index n, const auto& hex_of) {
   constexpr Index size = 4096;
@@ -62,10 +58,9 @@ std::vector<FaceOnCad> faces_on_cad(const MeshedModel& meshed, Index n, const au
         for (int k = 0; k < 4; ++k) wanted |= 1U << face_corner(face, k);
         if ((on_cad & wanted) != wanted) continue;
         const Quad nodes = face_nodes(hex, face);
-        const auto lowest = std::ranges::min_element(nodes) - nodes.begin();
-        FaceOnCad found{nodes, nodes[3 - lowest], {h, face}};
-        std::ranges::sort(found.nodes);
-        of_chunk[chunk].push_back(found);
+        const auto place = static_cast<int>(std::ranges::min_element(nodes) - nodes.begin());
+        const FaceUse use({h, face}, place, nodes[place ^ 3], nodes[place ^ 1], nodes[place ^ 2]);
+        of_chunk[chunk].emplace_back(nodes[place], use);
       }
     }
   });
@@ -76,17 +71,16 @@ std::vector<FaceOnCad> faces_on_cad(const MeshedModel& meshed, Index n, const au
 }
 
 /// Sides with nothing behind of the hexes hex_of(0) to hex_of(n - 1), ascending, of those on the CAD. Nothing where
-/// more than two share a face, or two that don't fit together.
+/// hexes don't fit together at one.
 std::optional<std::vector<Side>> open_on_cad(const MeshedModel& meshed, Index n, const auto& hex_of) {
   const std::vector<FaceOnCad> all = faces_on_cad(meshed, n, hex_of);
-  const auto& hexes = meshed.mesh.hexes;
   std::vector<Side> open;
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    while (end < all.size() && all[end].nodes == all[begin].nodes) ++end;
-    const Side a = all[begin].side, b = all[end - 1].side;
-    if (end - begin == 1) open.push_back(a);
-    if (end - begin > 2 || all[begin].across != all[end - 1].across) return std::nullopt;
-    if (end - begin == 2 && turn_alike(hexes[a.hex], a.face, hexes[b.hex], b.face)) return std::nullopt;
+  std::vector<FaceUse> of_node;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    of_node.push_back(all[i].second);
+    if (i + 1 < all.size() && all[i + 1].first == all[i].first) continue;
+    if (!faces_are_sound(of_node, open)) return std::nullopt;
+    of_node.clear();
   }
   tbb::parallel_sort(open.begin(), open.end());
   return open;
@@ -119,9 +113,7 @@ std::vector<Index> hexes_near_new_boundary(const ChangedPart& change) {
     if (!apart(nodes, 0) && !apart(nodes, 1) && !apart(nodes, 2)) near.push_back(side.hex);
   }
   near.erase(std::ranges::unique(near).begin(), near.end());
-  std::vector<Index> gone;
-  for (const Index h : change.gone) gone.push_back(change.whole_hex(h));
-  std::erase_if(near, [&](Index h) { return std::ranges::binary_search(gone, h); });
+  std::erase_if(near, [gone = change.whole_gone()](Index h) { return std::ranges::binary_search(gone, h); });
   return near;
 }
 

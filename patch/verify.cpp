@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 #include <ranges>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/same_bits.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
-#include "hextwist/mesh/association/off_model.h"
 #include "hextwist/mesh/neighbourhood.h"
-#include "hextwist/mesh/others.h"
 #include "hextwist/mesh/quality/measure.h"
 #include "hextwist/mesh/validate/validate_parts.h"
 #include "hextwist/patch/verify_internal.h"
@@ -134,6 +131,12 @@ Measured measured(const MeshedModel& meshed) {
 
 Measured measured_after(const Report& report) {
   return {report.shape_after, report.scaled_jacobian_after, report.volume_after, report.off_cad, report.extremes};
+}
+
+std::vector<Index> ChangedPart::whole_gone() const {
+  std::vector<Index> whole;
+  for (const Index h : gone) whole.push_back(whole_hex(h));
+  return whole;
 }
 
 Index ChangedPart::whole_node_after(Index node) const {

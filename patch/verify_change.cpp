@@ -19,13 +19,18 @@ struct Difference {
   std::vector<Index> whole_taken, whole_gone;  ///< in the whole
   std::vector<std::int64_t> taken_ids;         ///< ascending
   Index n_whole = 0;                           ///< hexes of the whole afterwards
+  std::int64_t id_shift;                       ///< new ids follow the highest one, of the part and of the whole
 
-  explicit Difference(const ChangedPart& part) : change(part), taken(part.gone), added(part.touched) {
+  explicit Difference(const ChangedPart& part)
+      : change(part),
+        taken(part.gone),
+        added(part.touched),
+        whole_gone(part.whole_gone()),
+        id_shift(highest_element_id(part.input.mesh) - highest_element_id(part.before.mesh)) {
     for (const Index h : part.touched) taken.push_back(before_gaps(part.gone, h));
     std::ranges::sort(taken);
     for (Index h = part.n_kept; h < part.after.mesh.n_hexes(); ++h) added.push_back(h);
     for (const Index h : taken) whole_taken.push_back(part.whole_hex(h));
-    for (const Index h : part.gone) whole_gone.push_back(part.whole_hex(h));
     for (const Index h : whole_taken) taken_ids.push_back(hex_id(part.input.mesh, h));
     std::ranges::sort(taken_ids);
     n_whole = part.input.mesh.n_hexes() + part.after.mesh.n_hexes() - part.before.mesh.n_hexes();
@@ -41,11 +46,9 @@ struct Difference {
     return hex - change.n_kept + change.input.mesh.n_hexes() - static_cast<Index>(change.gone.size());
   }
   std::int64_t id_after(Index hex) const {
-    const Mesh &input = change.input.mesh, &before = change.before.mesh;
-    if (hex < change.n_kept) return hex_id(input, change.whole_hex(before_gaps(change.gone, hex)));
+    if (hex < change.n_kept) return hex_id(change.input.mesh, change.whole_hex(before_gaps(change.gone, hex)));
     if (!change.come_ids.empty()) return change.come_ids[hex - change.n_kept];
-    // New ids follow the highest one.
-    return hex_id(change.after.mesh, hex) - highest_element_id(before) + highest_element_id(input);
+    return hex_id(change.after.mesh, hex) + id_shift;
   }
 };
 
@@ -161,9 +164,10 @@ bool verify_change(const ChangedPart& change, const Measured& known, Report& rep
   if (std::ranges::any_of(change.moved, [&](Index n) { return change.whole_node(n) == known.off_cad.node; }))
     return false;
   if (change.renamed_nodes && change.renamed_nodes->is_gone(known.off_cad.node)) return false;
+  if (!is_sound(change)) return false;  // first: measuring needs nodes that exist
   const Difference difference(change);
   const Measures added = measure(change.after.mesh, difference.added);
-  if (!added.all_valid || !is_sound(change)) return false;
+  if (!added.all_valid) return false;
 
   set_before(known, report);
   const bool is_all = difference.added.size() == static_cast<std::size_t>(difference.n_whole);

@@ -29,6 +29,7 @@ struct ChangedPart {
   /// Numbers in the whole: before, of nodes and hexes of `before`; after, of nodes of `after`.
   Index whole_hex(Index hex) const { return hexes.empty() ? hex : hexes[hex]; }
   Index whole_node(Index node) const { return nodes.empty() ? node : nodes[node]; }
+  std::vector<Index> whole_gone() const;  ///< `gone` in the whole
   Index whole_node_after(Index node) const;
 };
 

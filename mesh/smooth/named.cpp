@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hextwist/base/mixed.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
@@ -17,9 +18,7 @@ constexpr double flat_sine = 1e-5;
 /// Sets of names as numbers: equal for equal sets, whatever the order in which they are added up.
 using Label = std::uint64_t;
 Label label_of(std::uint64_t kind, std::uint64_t number) {
-  std::uint64_t h = (number + 1) * 0x9e3779b97f4a7c15 + kind * 0xbf58476d1ce4e5b9;
-  h = (h ^ h >> 30) * 0x94d049bb133111eb;
-  return h ^ h >> 31;
+  return mixed(mixed(kind) + number);
 }
 
 /// Per hex a number that is the same for hexes of the same blocks and values of fields; empty when all are.

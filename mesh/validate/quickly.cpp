@@ -37,18 +37,6 @@ bool is_on_eight_nodes(const Mesh& mesh, const Hex& hex) {
   return true;
 }
 
-/// The faces of one node: those with one hex go to the skin. (Two hexes on the same eight nodes don't fit together:
-/// they lie on the same side of their faces, in another order, or one of them is inverted.)
-bool faces_are_sound(std::span<const FaceUse> uses, std::vector<Side>& skin) {
-  if (!fit_together(uses)) return false;
-  for (std::size_t i = 0; i < uses.size(); ++i)
-    if (i + 1 < uses.size() && uses[i].is_same_face(uses[i + 1]))
-      ++i;
-    else
-      skin.push_back(uses[i].side());
-  return true;
-}
-
 /// The faces whose lowest node is in begin .. end - 1; sides with nothing behind go to skin.
 bool faces_are_sound(const Mesh& mesh, Index begin, Index end, std::vector<Side>& skin) {
   const CompressedRows corners = node_corners(mesh.hexes, begin, end);
@@ -78,6 +66,16 @@ bool hexes_are_sound(const Mesh& mesh, bool known_valid) {
 constexpr Index nodes_at_once = 8 << 20;
 
 }  // namespace
+
+bool faces_are_sound(std::span<const FaceUse> uses, std::vector<Side>& skin) {
+  if (!fit_together(uses)) return false;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (i + 1 < uses.size() && uses[i].is_same_face(uses[i + 1]))
+      ++i;
+    else
+      skin.push_back(uses[i].side());
+  return true;
+}
 
 bool are_on_eight_nodes(const Mesh& mesh, Index first) {
   return all_hold(mesh.n_hexes() - first, [&](Index i) { return is_on_eight_nodes(mesh, mesh.hexes[first + i]); });

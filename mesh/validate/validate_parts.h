@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "hextwist/mesh/topology.h"
+#include "hextwist/mesh/loose_topology.h"
 
 namespace hextwist {
 
@@ -33,6 +33,11 @@ bool has_joined_nodes(const Mesh& mesh, std::span<const Side> skin);
 
 /// Whether the hexes from `first` on have eight different nodes each that exist.
 bool are_on_eight_nodes(const Mesh& mesh, Index first = 0);
+
+/// Faces with the same lowest node, sorted: whether hexes fit together at them (loose_topology.h); sides with nothing
+/// behind go to the end of the skin. (Two hexes on the same eight nodes don't fit together: they lie on the same side
+/// of their faces, in another order, or one of them is inverted.)
+bool faces_are_sound(std::span<const FaceUse> uses, std::vector<Side>& skin);
 
 /// What has_only_warnings() asks, all but hanging nodes. skin gets the sides with nothing behind, ascending (when
 /// true). known_valid: that all hexes are valid (validity.h) has been found out already.
