@@ -5,6 +5,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/arrays.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/patch/patch.h"
@@ -84,6 +85,29 @@ struct CutOut {
   }
 };
 
+/// Leaves out curve edges of which a patch has both nodes, but no hex: such an edge runs past its border. In a base they
+/// would stay where the whole has cut them.
+void leave_out_edges_elsewhere(const Mesh& mesh, Association& association) {
+  const std::vector<Edge>& listed = association.curve_edges;
+  if (listed.empty()) return;
+  std::vector<std::uint8_t> is_end(mesh.points.size(), 0), is_here(listed.size(), 0);
+  for (const auto& [a, b] : listed) is_end[a] = is_end[b] = 1;
+  for (const Hex& hex : mesh.hexes)
+    for (int e = 0; e < n_hex_edges; ++e) {
+      const auto [a, b] = std::minmax(hex[edge_corner(e, 0)], hex[edge_corner(e, 1)]);
+      if (!is_end[a] || !is_end[b]) continue;
+      if (const Index i = position_in(listed, Edge{a, b}); i >= 0) is_here[i] = 1;
+    }
+  const auto keep = [&](auto& list) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (is_here[i]) list[n++] = list[i];
+    list.resize(n);
+  };
+  keep(association.edge_curve);
+  keep(association.curve_edges);
+}
+
 }  // namespace
 
 Index Patch::local_node(Index node) const {
@@ -100,6 +124,7 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   copy_heads(whole.mesh, patch.meshed.mesh);
   patch.meshed.mesh.others = nullptr;
   for_each_array(CutOut{patch, number}, whole, patch.meshed);
+  leave_out_edges_elsewhere(patch.meshed.mesh, patch.meshed.association);
   return patch;
 }
 

@@ -7,6 +7,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/patch/neighbours.h"
 #include "hextwist/patch/patch_refine.h"
@@ -221,6 +222,43 @@ void expect_same_for(MeshedModel meshed, int n_wanted, std::mt19937& random) {
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(n_used, 0) << "of " << n_tried;
+}
+
+TEST(patch, lists_the_curve_edges_of_its_own_hexes_only) {
+  const unsigned seed = random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const MeshedModel meshed = shipped("inclusion");
+  int n_elsewhere = 0;  // both nodes here, the hexes elsewhere
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Index> hexes;
+    for (Index h = 0; h < meshed.mesh.n_hexes(); ++h)
+      if (random() % 8 == 0) hexes.push_back(h);
+    const Patch patch = make_patch(meshed, hexes);
+    std::vector<Edge> mine;
+    for (const Hex& hex : patch.meshed.mesh.hexes)
+      for (int e = 0; e < n_hex_edges; ++e) {
+        const Index a = patch.nodes[hex[edge_corner(e, 0)]], b = patch.nodes[hex[edge_corner(e, 1)]];
+        mine.push_back({std::min(a, b), std::max(a, b)});
+      }
+    sort_unique(mine);
+    const Association &whole = meshed.association, &part = patch.meshed.association;
+    std::vector<std::pair<Edge, int>> expected, listed;
+    for (std::size_t e = 0; e < whole.curve_edges.size(); ++e) {
+      const auto [a, b] = whole.curve_edges[e];
+      if (std::ranges::binary_search(mine, whole.curve_edges[e]))
+        expected.emplace_back(whole.curve_edges[e], whole.edge_curve[e]);
+      else
+        n_elsewhere += patch.local_node(a) >= 0 && patch.local_node(b) >= 0;
+    }
+    ASSERT_EQ(part.curve_edges.size(), part.edge_curve.size());
+    for (std::size_t e = 0; e < part.curve_edges.size(); ++e) {
+      const auto [a, b] = part.curve_edges[e];
+      listed.push_back({{patch.nodes[a], patch.nodes[b]}, part.edge_curve[e]});
+    }
+    EXPECT_TRUE(listed == expected);
+  }
+  EXPECT_GT(n_elsewhere, 0);
 }
 
 TEST(patch, requests_by_chance_on_grids_give_what_they_give_over_the_whole_mesh) {
