@@ -298,6 +298,11 @@ MeshSlice read_slice(const SlicedFile& file, int number, int n) {
   return io::read_exodus_slice(file, number, n);
 }
 
+bool is_written_in_pieces(const std::filesystem::path& file) {
+  const Format* format = format_to_write(file, {});
+  return format && format->write == write_exodus;
+}
+
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh, const Association* association,
                                     const WriteOptions& options) {
   const Format* format = format_to_write(file, options.format);

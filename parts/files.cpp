@@ -8,6 +8,7 @@
 #include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/join_on_disk.h"
 #include "hextwist/parts/on_disk.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/split.h"
@@ -121,11 +122,15 @@ MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
   result.mesh = join(pieces, [&](std::size_t p) {
                   return part_name(split.name, split.n_parts, static_cast<int>(p)).string();
                 }).mesh;
-  if (head.n_hexes > 0 && (result.mesh.n_hexes() != head.n_hexes || result.mesh.n_nodes() != head.n_nodes))
-    throw Error(split.name.string() + ": its parts have " + std::to_string(result.mesh.n_hexes()) + " hexes and " +
-                std::to_string(result.mesh.n_nodes()) + " nodes together, and say " + std::to_string(head.n_hexes) +
-                " and " + std::to_string(head.n_nodes));
+  check_counts(split, head, result.mesh.n_nodes(), result.mesh.n_hexes());
   return result;
+}
+
+void check_counts(const SplitName& split, const PartHead& said, std::int64_t n_nodes, std::int64_t n_hexes) {
+  if (said.n_hexes > 0 && (n_hexes != said.n_hexes || n_nodes != said.n_nodes))
+    throw Error(split.name.string() + ": its parts have " + std::to_string(n_hexes) + " hexes and " +
+                std::to_string(n_nodes) + " nodes together, and say " + std::to_string(said.n_hexes) + " and " +
+                std::to_string(said.n_nodes));
 }
 
 void check_part(const Mesh& mesh, const std::string& name) {
@@ -183,13 +188,19 @@ std::string split_text(std::int64_t n_hexes, int n_parts, std::int64_t largest, 
          ", " + counted(n_shared_faces, "face") + " between them";
 }
 
+std::string joined_text(std::int64_t n_hexes, std::int64_t n_nodes, int n_parts) {
+  return std::to_string(n_hexes) + " hexes and " + std::to_string(n_nodes) + " nodes of " + counted(n_parts, "part");
+}
+
 std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,
                                     const Fence& fence) {
+  const SplitName split = split_name(any_part);
+  if (split.n_parts > 0)
+    if (std::optional<std::vector<std::string>> notices = join_on_disk(split, to, fence)) return std::move(*notices);
   MeshFile file = read_parts(any_part, fence);
   std::vector<std::string> notices = std::move(file.notices);
   for (std::string& line : write_mesh(to, file.mesh, nullptr, {})) notices.push_back(std::move(line));
-  notices.push_back(std::to_string(file.mesh.n_hexes()) + " hexes and " + std::to_string(file.mesh.n_nodes()) +
-                    " nodes of " + counted(split_name(any_part).n_parts, "part"));
+  notices.push_back(joined_text(file.mesh.n_hexes(), file.mesh.n_nodes(), split.n_parts));
   return notices;
 }
 

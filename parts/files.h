@@ -29,6 +29,9 @@ MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence = 
 Mesh read_one_part(const SplitName& split, int part, PartHead& first, std::vector<std::string>& notices,
                    const Fence& fence = {});
 
+/// Throws Error where all parts together do not have what they say (`said`) of the whole.
+void check_counts(const SplitName& split, const PartHead& said, std::int64_t n_nodes, std::int64_t n_hexes);
+
 /// Throws Error where a part, by itself, is no mesh that can be refined. name: what messages call it.
 void check_part(const Mesh& part, const std::string& name);
 /// Fills in ids that were left out.
@@ -41,8 +44,11 @@ std::vector<std::string> split_file(const std::filesystem::path& mesh, const std
                                     PartitionBy by, const Fence& fence = {});
 /// "1000 hexes in 8 parts of at most 125, 300 faces between them"
 std::string split_text(std::int64_t n_hexes, int n_parts, std::int64_t largest, std::int64_t n_shared_faces);
-/// Reads parts and writes one file.
+/// Reads parts and writes one file, with a part in memory at a time where that can be done (join_on_disk()).
 std::vector<std::string> join_files(const std::filesystem::path& any_part, const std::filesystem::path& to,
                                     const Fence& fence = {});
+
+/// "1000 hexes and 1331 nodes of 8 parts"
+std::string joined_text(std::int64_t n_hexes, std::int64_t n_nodes, int n_parts);
 
 }  // namespace hextwist

@@ -59,15 +59,10 @@ class ExodusWriter {
   /// of_whole: null unless it is a part of one.
   ExodusWriter(const Replacement& file, const Mesh& mesh, const SecondOrder* second, const FilePart* of_whole,
                std::vector<std::string>& notices)
-      : replacement_(file),
-        mesh_(mesh),
-        second_(second),
-        of_whole_(of_whole),
-        notices_(notices),
-        values_(mesh, notices) {
+      : out_(file), mesh_(mesh), second_(second), of_whole_(of_whole), notices_(notices), values_(mesh, notices) {
     if (mesh.results) extras_ = mesh.results.get();
     divide();
-    tell_names();
+    say_exodus_names(mesh_, notices_);
     create();
   }
 
@@ -81,21 +76,11 @@ class ExodusWriter {
     values_.write_properties(to);
     values_.write_records(to);
     values_.write_results(to);
-    const int id = std::exchange(id_, -1);
-    if (ex_close(id) < 0) fail();
+    out_.close();
   }
-
-  ~ExodusWriter() {
-    if (id_ >= 0) ex_close(id_);
-  }
-  ExodusWriter(const ExodusWriter&) = delete;
-  ExodusWriter& operator=(const ExodusWriter&) = delete;
 
  private:
-  [[noreturn]] void fail() const { replacement_.fail("cannot be written (disk full?)"); }
-  void check(int status) const {
-    if (status < 0) fail();
-  }
+  void check(int status) const { out_.check(status); }
 
   std::int64_t in_file(Of of, int id) const { return extras_ ? extras_->in_file(of, id) : id; }
 
@@ -128,9 +113,7 @@ class ExodusWriter {
       if (block_of_hex[h] == nobody) rest.own.push_back(h);
     rest.hexes = rest.own;
     rest.in_whole = counts_.rest;
-    if (!rest.hexes.empty() && !blocks.empty() && !of_whole_)
-      notices_.push_back(std::to_string(rest.own.size()) + " hexes that are in no block are in " +
-                         named("element block", id, rest.name));
+    if (!blocks.empty() && !of_whole_) say_rest_block(std::ssize(rest.hexes), id, notices_);
     if (counts_.rest > 0) parts_.push_back(std::move(rest));
     if (mesh_.others) divide_others();
   }
@@ -244,34 +227,18 @@ class ExodusWriter {
                        where + "; all of it is " + named("element set", in_file(Of::block, block.id), block.name));
   }
 
-  void tell_names() {
-    const auto tell = [&](const auto& groups, const char* kind) {
-      for (const auto& group : groups)
-        say_renamed(kind + std::to_string(group.id), group.name, exodus_name(group.name), notices_);
-    };
-    tell(mesh_.blocks, "block "), tell(mesh_.node_sets, "nodeset "), tell(mesh_.side_sets, "sideset ");
-  }
-
   void create() {
     const std::int64_t highest = of_whole_ ? of_whole_->highest_id
                                            : std::max({mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
                                                        mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1),
                                                        other_ids_.empty() ? 0 : std::ranges::max(other_ids_)});
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    wide_ =
-        highest > most ||
+    const bool wide =
+        highest > highest_narrow_id ||
         (extras_ && (!extras_->wide_ids.empty() || std::ranges::any_of(extras_->properties, [](const auto& property) {
-           return std::ranges::any_of(property.values, [](const auto& value) { return std::abs(value.second) > most; });
+           return std::ranges::any_of(property.values,
+                                      [](const auto& value) { return std::abs(value.second) > highest_narrow_id; });
          })));
-    // One variable of a 64-bit offset file holds at most 4 GiB; beyond that, and for wide ids, HDF5.
-    const std::size_t bytes_per_hex = 4 * static_cast<std::size_t>(second_ ? second_->nodes_per_hex : 8);
-    const bool large = mesh_.hexes.size() > (std::size_t{1} << 32) / bytes_per_hex - 1;
-    int mode = EX_CLOBBER | (wide_ || large ? EX_NETCDF4 | EX_NOCLASSIC : EX_LARGE_MODEL);
-    if (wide_) mode |= EX_ALL_INT64_DB | EX_MAPS_INT64_API | EX_IDS_INT64_API;
-    int memory = 8, disk = 8;
-    ex_opts(0);
-    id_ = ex_create(replacement_.temporary().c_str(), mode, &memory, &disk);
-    if (id_ < 0) fail();
+    out_.create(wide, mesh_.hexes.size(), second_ ? second_->nodes_per_hex : 8);
   }
 
   void sizes() {
@@ -281,18 +248,14 @@ class ExodusWriter {
     };
     measure(parts_), measure(mesh_.blocks), measure(mesh_.node_sets), measure(mesh_.side_sets);
     longest = std::max(longest, values_.longest_name());
-    check(ex_set_max_name_length(id_, static_cast<int>(std::min<std::size_t>(longest, 255))));
     ex_init_params init{};
-    const bool has_title = extras_ && !extras_->title.empty();
-    std::strncpy(init.title, has_title ? extras_->title.c_str() : "hextwist", sizeof init.title - 1);
-    init.num_dim = 3;
     init.num_nodes = mesh_.n_nodes();
     for (const ExodusPart& part : parts_) init.num_elem += std::ssize(part.hexes) + std::ssize(part.others);
     init.num_elem_blk = std::ssize(parts_);
     init.num_node_sets = std::ssize(mesh_.node_sets);
     init.num_side_sets = std::ssize(mesh_.side_sets);
     init.num_elem_sets = std::ssize(whole_);
-    check(ex_put_init_ext(id_, &init));
+    out_.put_sizes(init, extras_ ? extras_->title : std::string(), longest);
   }
 
   void nodes() {
@@ -303,26 +266,13 @@ class ExodusWriter {
         for (std::size_t i = 0; i < n; ++i) values[i] = mesh_.points[first + i][axis];
         std::array<const double*, 3> x{};
         x[axis] = values.data();
-        check(ex_put_partial_coord(id_, exodus_position(first), exodus_position(n - 1), x[0], x[1], x[2]));
+        check(ex_put_partial_coord(out_.file(), exodus_position(first), exodus_position(n - 1), x[0], x[1], x[2]));
       });
     std::array<std::string, 3> names = {"x", "y", "z"};
     if (extras_ && extras_->coordinate_names.size() == 3) std::ranges::copy(extras_->coordinate_names, names.begin());
-    std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
-    check(ex_put_coord_names(id_, pointers.data()));
-    put_map(EX_NODE_MAP, mesh_.points.size(),
-            [&](std::size_t n) { return id_of(mesh_.node_ids, static_cast<Index>(n)); });
-  }
-  /// 1-based, as the library counts.
-  /// id(0) .. id(n_items - 1).
-  template <class F>
-  void put_map(ex_entity_type type, std::size_t n_items, F&& id) {
-    const auto put = [&]<class T>(std::vector<T> ids) {
-      in_pieces(n_items, [&](std::size_t first, std::size_t n) {
-        for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<T>(id(first + i));
-        check(ex_put_partial_id_map(id_, type, exodus_position(first), exodus_position(n - 1), ids.data()));
-      });
-    };
-    wide_ ? put(std::vector<std::int64_t>(exodus_piece)) : put(Ints(exodus_piece));
+    out_.put_coordinate_names(names);
+    out_.put_map(EX_NODE_MAP, mesh_.points.size(),
+                 [&](std::size_t n) { return id_of(mesh_.node_ids, static_cast<Index>(n)); });
   }
 
   void blocks() {
@@ -334,11 +284,8 @@ class ExodusWriter {
         other_block(part);
         continue;
       }
-      const auto n = std::ssize(part.hexes);
       std::vector<std::string> attributes = values_.attributes(part);
-      check(
-          ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, type.c_str(), n, nodes_per_hex, 0, 0, std::ssize(attributes)));
-      put_name(EX_ELEM_BLOCK, part.in_file, part.name);
+      out_.put_block(part, type, std::ssize(part.hexes), nodes_per_hex, std::ssize(attributes));
       in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
         Index* to = nodes.data();
         for (std::size_t i = 0; i < size; ++i) {
@@ -349,23 +296,23 @@ class ExodusWriter {
           const FileHex hex = file_hex(mesh_, second_, part.hexes[first + i], exodus_middles);
           for (const Index node : hex.all()) *to++ = node + 1;
         }
-        check(ex_put_partial_elem_conn(id_, part.in_file, exodus_position(first), exodus_position(size - 1),
+        check(ex_put_partial_elem_conn(out_.file(), part.in_file, exodus_position(first), exodus_position(size - 1),
                                        nodes.data()));
       });
       std::vector<char*> names;
       for (std::size_t a = 0; a < attributes.size(); ++a) {
-        check(ex_put_one_attr(id_, EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1,
+        check(ex_put_one_attr(out_.file(), EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1,
                               values_.attribute(part, attributes[a]).data()));
         attributes[a].resize(257);
         names.push_back(attributes[a].data());
       }
-      if (!names.empty()) check(ex_put_attr_names(id_, EX_ELEM_BLOCK, part.in_file, names.data()));
+      if (!names.empty()) check(ex_put_attr_names(out_.file(), EX_ELEM_BLOCK, part.in_file, names.data()));
     }
     // Parts follow each other.
     std::size_t part = 0, before = 0;
     std::size_t n_elements = 0;
     for (const ExodusPart& one : parts_) n_elements += one.size();
-    put_map(EX_ELEM_MAP, n_elements, [&](std::size_t element) {
+    out_.put_map(EX_ELEM_MAP, n_elements, [&](std::size_t element) {
       while (element - before == parts_[part].size()) before += parts_[part++].size();
       const ExodusPart& of = parts_[part];
       return of.others.empty() ? id_of(mesh_.hex_ids, of.hexes[element - before])
@@ -381,9 +328,7 @@ class ExodusWriter {
       if (field.is_attribute && field.components == 1 &&
           std::ranges::any_of(part.others, [&](Index e) { return !std::isnan(field.values[others.of[e]]); }))
         attributes.push_back(&field);
-    check(ex_put_block(id_, EX_ELEM_BLOCK, part.in_file, part.type.c_str(), std::ssize(part.others), type.n_nodes, 0, 0,
-                       std::ssize(attributes)));
-    put_name(EX_ELEM_BLOCK, part.in_file, part.name);
+    out_.put_block(part, part.type, std::ssize(part.others), type.n_nodes, std::ssize(attributes));
     Ints nodes;
     for (const Index e : part.others) {
       const std::size_t first = nodes.size();
@@ -391,33 +336,22 @@ class ExodusWriter {
       if (type.shape == OtherShape::wedge && type.n_nodes == 15)
         std::swap_ranges(&nodes[first + 9], &nodes[first + 12], &nodes[first + 12]);
     }
-    check(ex_put_conn(id_, EX_ELEM_BLOCK, part.in_file, nodes.data(), nullptr, nullptr));
+    check(ex_put_conn(out_.file(), EX_ELEM_BLOCK, part.in_file, nodes.data(), nullptr, nullptr));
     std::vector<std::string> names;
     for (std::size_t a = 0; a < attributes.size(); ++a) {
       std::vector<double> values;
       for (const Index e : part.others) values.push_back(attributes[a]->values[others.of[e]]);
-      check(ex_put_one_attr(id_, EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1, values.data()));
+      check(ex_put_one_attr(out_.file(), EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1, values.data()));
       names.push_back(exodus_name(attributes[a]->name));
       names.back().resize(257);
     }
     std::vector<char*> pointers;
     for (std::string& name : names) pointers.push_back(name.data());
-    if (!pointers.empty()) check(ex_put_attr_names(id_, EX_ELEM_BLOCK, part.in_file, pointers.data()));
-  }
-
-  void put_name(ex_entity_type type, std::int64_t id, const std::string& name) {
-    if (!name.empty()) check(ex_put_name(id_, type, id, exodus_name(name).c_str()));
-  }
-  void put_set(ex_entity_type type, std::int64_t id, const std::string& name, const Ints& members, const Ints& sides,
-               const std::vector<double>& factors) {
-    check(ex_put_set_param(id_, type, id, std::ssize(members), std::ssize(factors)));
-    if (!members.empty()) check(ex_put_set(id_, type, id, members.data(), sides.empty() ? nullptr : sides.data()));
-    if (!factors.empty()) check(ex_put_set_dist_fact(id_, type, id, factors.data()));
-    put_name(type, id, name);
+    if (!pointers.empty()) check(ex_put_attr_names(out_.file(), EX_ELEM_BLOCK, part.in_file, pointers.data()));
   }
 
   ExodusTarget target() {
-    return {id_, mesh_, parts_, [this](int status) { check(status); }, notices_};
+    return {out_.file(), mesh_, parts_, [this](int status) { check(status); }, notices_};
   }
   ExodusGlobals globals() const {
     ExodusGlobals result;
@@ -486,7 +420,7 @@ class ExodusWriter {
     for (const NodeSet& set : mesh_.node_sets) {
       Ints members;
       for (const Index n : set.nodes) members.push_back(n + 1);
-      put_set(EX_NODE_SET, in_file(Of::node_set, set.id), set.name, members, {}, values_.factors(set));
+      out_.put_set(EX_NODE_SET, in_file(Of::node_set, set.id), set.name, members, {}, values_.factors(set));
     }
     std::array<int, 6> side_of_face{};
     for (int side = 0; side < 6; ++side) side_of_face[exodus_face[side]] = side + 1;
@@ -524,18 +458,18 @@ class ExodusWriter {
         notices_.push_back("side set " + std::to_string(set.id) +
                            ": left out its distribution factors, as it has sides of other elements");
       }
-      put_set(EX_SIDE_SET, in_file(Of::side_set, set.id), set.name, members, sides, factors);
+      out_.put_set(EX_SIDE_SET, in_file(Of::side_set, set.id), set.name, members, sides, factors);
     }
     for (const Block* block : whole_) {
       Ints members;
       for (const Index h : block->hexes) members.push_back(element_of_hex[h]);
       for (const Index e : others_of_block(mesh_, block->id))
         if (element_of_other[e] > 0) members.push_back(element_of_other[e]);
-      put_set(EX_ELEM_SET, in_file(Of::block, block->id), block->name, members, {}, {});
+      out_.put_set(EX_ELEM_SET, in_file(Of::block, block->id), block->name, members, {}, {});
     }
   }
 
-  const Replacement& replacement_;
+  ExodusOutput out_;
   const Mesh& mesh_;
   const SecondOrder* second_;
   const FilePart* of_whole_;
@@ -546,8 +480,6 @@ class ExodusWriter {
   std::vector<ExodusPart> parts_;
   std::vector<const Block*> whole_;  // written as element sets
   std::vector<std::int64_t> other_ids_;
-  int id_ = -1;
-  bool wide_ = false;  // ids beyond 32 bits
 };
 
 }  // namespace

@@ -146,7 +146,7 @@ void ExodusValues::write_properties(const ExodusTarget& to) const {
   write(Of::side_set, EX_SIDE_SET, mesh_.side_sets);
 }
 
-void ExodusValues::write_results(const ExodusTarget& to) {
+void ExodusValues::declare_results(const ExodusTarget& to, std::vector<int>& is_on) const {
   if (times_.empty()) return;
   const auto declare = [&](ex_entity_type type, std::vector<std::string> names) {
     if (names.empty()) return;
@@ -161,6 +161,13 @@ void ExodusValues::write_results(const ExodusTarget& to) {
   declare(EX_GLOBAL, names_of(extras_.of_all));
   declare(EX_NODAL, names_of(on_nodes_));
   declare(EX_ELEM_BLOCK, names_of(on_hexes_));
+  if (!on_hexes_.empty())
+    to.check(ex_put_truth_table(to.file, EX_ELEM_BLOCK, static_cast<int>(to.parts.size()),
+                                static_cast<int>(on_hexes_.size()), is_on.data()));
+}
+
+void ExodusValues::write_results(const ExodusTarget& to) {
+  if (times_.empty()) return;
   // Where a block has no value at all, the variable is not on it.
   const std::size_t n = on_hexes_.size();
   std::vector<int> is_on(to.parts.size() * n, 0);
@@ -169,9 +176,7 @@ void ExodusValues::write_results(const ExodusTarget& to) {
       is_on[p * n + v] = std::ranges::any_of(to.parts[p].hexes, [&, &variable = on_hexes_[v]](Index h) {
         return !std::isnan(variable.now ? (*variable.now)[h] : (*variable.timed->at[0])[mesh_.file_hexes[h]]);
       });
-  if (n > 0)
-    to.check(ex_put_truth_table(to.file, EX_ELEM_BLOCK, static_cast<int>(to.parts.size()), static_cast<int>(n),
-                                is_on.data()));
+  declare_results(to, is_on);
   std::size_t kept = times_.size() == extras_.times.size() ? extras_.step : 0;
   for (std::size_t t = 0; t < times_.size(); ++t) {
     const int step = static_cast<int>(t) + 1;

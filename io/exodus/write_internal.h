@@ -1,6 +1,9 @@
 // The parts of writing an Exodus II file.
 #pragma once
 
+#include <limits>
+
+#include "hextwist/base/replacement.h"
 #include "hextwist/io/exodus/exodus_internal.h"
 
 namespace hextwist {
@@ -22,6 +25,50 @@ struct ExodusPart {
 
   std::size_t size() const { return hexes.size() + others.size(); }
 };
+
+/// The file while it is written: calls of the library that say when they fail.
+class ExodusOutput {
+ public:
+  explicit ExodusOutput(const Replacement& to) : to_(to) {}
+  ~ExodusOutput() {
+    if (file_ >= 0) ex_close(file_);
+  }
+  ExodusOutput(const ExodusOutput&) = delete;
+  ExodusOutput& operator=(const ExodusOutput&) = delete;
+
+  int file() const { return file_; }
+  [[noreturn]] void fail() const { to_.fail("cannot be written (disk full?)"); }
+  void check(int status) const {
+    if (status < 0) fail();
+  }
+  /// wide: with ids or properties beyond 32 bits.
+  void create(bool wide, std::size_t n_hexes, int nodes_per_hex);
+  void put_sizes(ex_init_params sizes, const std::string& title, std::size_t longest_name);
+  void put_coordinate_names(std::array<std::string, 3> names = {"x", "y", "z"});
+  void put_block(const ExodusPart& part, const std::string& type, std::int64_t n, int nodes_each,
+                 std::int64_t n_attributes);
+  void put_name(ex_entity_type type, std::int64_t id, const std::string& name);
+  void put_set(ex_entity_type type, std::int64_t id, const std::string& name, const std::vector<int>& members,
+               const std::vector<int>& sides, const std::vector<double>& factors);
+  /// id(0) .. id(n_items - 1), in order.
+  template <class F>
+  void put_map(ex_entity_type type, std::size_t n_items, F&& id) {
+    const auto put = [&]<class T>(std::vector<T> ids) {
+      in_pieces(n_items, [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<T>(id(first + i));
+        check(ex_put_partial_id_map(file_, type, exodus_position(first), exodus_position(n - 1), ids.data()));
+      });
+    };
+    is_wide_ ? put(std::vector<std::int64_t>(exodus_piece)) : put(std::vector<int>(exodus_piece));
+  }
+  void close();
+
+ private:
+  const Replacement& to_;
+  int file_ = -1;
+  bool is_wide_ = false;
+};
+constexpr std::int64_t highest_narrow_id = std::numeric_limits<std::int32_t>::max();
 
 struct ExodusTarget {
   int file = -1;  ///< of the library
@@ -53,6 +100,10 @@ class ExodusValues {
   void write_records(const ExodusTarget& to) const;
   void write_properties(const ExodusTarget& to) const;
   void write_results(const ExodusTarget& to);
+  /// Only what variables there are. is_on: per element block, for each variable of hexes, whether the
+  /// block has values of it.
+  void declare_results(const ExodusTarget& to, std::vector<int>& is_on) const;
+  std::size_t n_variables(Field::On on) const { return (on == Field::On::node ? on_nodes_ : on_hexes_).size(); }
 
  private:
   struct Variable {
@@ -84,6 +135,10 @@ struct ExodusGlobals {
 /// To be called when the sizes are written and nothing else is: the library moves what is there already.
 void write_exodus_part(const ExodusTarget& to, const FilePart& part, const ExodusGlobals& globals,
                        std::span<const int> element_of_hex);
+
+/// Says which groups are called otherwise in the file, and which element block the hexes of no block are in.
+void say_exodus_names(const Mesh& mesh, std::vector<std::string>& notices);
+void say_rest_block(std::int64_t n_hexes, std::int64_t id, std::vector<std::string>& notices);
 
 /// At most as long as the library takes.
 std::string exodus_name(const std::string& name);
