@@ -6,6 +6,7 @@
 #include "hextwist/io/exodus/exodus_internal.h"
 #include "hextwist/io/format.h"
 #include "hextwist/io/results.h"
+#include "hextwist/io/vtk/vtu_internal.h"
 #include "hextwist/mesh/others.h"
 
 namespace hextwist {
@@ -290,12 +291,15 @@ MeshFile read_mesh(const std::filesystem::path& file, std::string_view name, con
 
 std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence) {
   const Format* format = format_to_read(file, {});
-  if (!format || format->read != io::read_exodus) return std::nullopt;
-  return io::exodus_in_slices(file, fence);
+  if (format && format->read == io::read_exodus) return io::exodus_in_slices(file, fence);
+  if (format && format->read == read_whole<io::read_vtu>) return io::vtu_in_slices(file);
+  return std::nullopt;
 }
 
 MeshSlice read_slice(const SlicedFile& file, int number, int n) {
-  return io::read_exodus_slice(file, number, n);
+  const Format* format = format_to_read(file.file, {});
+  return format && format->read == read_whole<io::read_vtu> ? io::read_vtu_slice(file, number, n)
+                                                            : io::read_exodus_slice(file, number, n);
 }
 
 bool is_written_in_pieces(const std::filesystem::path& file) {

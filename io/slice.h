@@ -15,9 +15,10 @@ struct SlicedFile {
   std::int64_t n_nodes = 0, n_hexes = 0;
 };
 
-/// Looks through all ids of a file once. Nothing where it is not read in slices: other formats than Exodus, other
-/// elements or hexes of second order, ids that are out of order and far apart, element sets that are element blocks
-/// with more hexes. Throws Error as read_mesh() does.
+/// Looks through all ids, or cells, of a file once. Nothing where it is not read in slices: other formats than Exodus
+/// and .vtu, other elements or hexes of second order. Of Exodus: ids that are out of order and far apart, element sets
+/// that are element blocks with more hexes. Of .vtu: arrays as text, arrays that VTK calls global ids. Throws Error as
+/// read_mesh() does.
 std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence = {});
 
 struct MeshSlice {

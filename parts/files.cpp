@@ -163,7 +163,7 @@ std::vector<std::string> split_file(const std::filesystem::path& mesh, const std
   MeshFile file = split_name(mesh).n_parts ? read_parts(mesh, fence) : read_mesh(mesh, {}, fence);
   refuse_second_order(file, mesh);
   std::vector<std::string> notices = std::move(file.notices);
-  if (!file.tags.empty()) notices.push_back("parts are made without the owners that the file names: left out");
+  if (!file.tags.empty()) notices.emplace_back(without_owners);
   const MeshedModel whole{std::move(file.mesh), nullptr, {}};
   const std::vector<int> part_of_hex = partition(whole.mesh, n_parts, by);
   const Splitting splitting(whole, part_of_hex, n_parts);

@@ -83,6 +83,7 @@ std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, 
     if (in_two_blocks(mesh) >= 0 || (keeps_all && !slice.left_out.empty())) return std::nullopt;
     if (s == 0) {
       if (const std::string lost = lost_text(slice, file); !lost.empty()) slice.file.notices.push_back(lost);
+      if (!slice.file.tags.empty()) slice.file.notices.emplace_back(without_owners);
       source.notices_ = std::move(slice.file.notices);
       source.results_ = mesh.results;
     }

@@ -1,8 +1,7 @@
 // Cuts a patch out of a mesh, with all that is known of it.
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
+#include "hextwist/base/ranked_bits.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/mesh/corners.h"
@@ -12,36 +11,6 @@
 
 namespace hextwist {
 namespace {
-
-/// Some nodes of a mesh, numbered in ascending order: a bit for each node of the mesh, and sums of bits.
-class NodeNumbers {
- public:
-  NodeNumbers(const Mesh& mesh, std::span<const Index> hexes)
-      : bits_(mesh.points.size() / width + 1), before_(bits_.size()) {
-    for (const Index h : hexes)
-      for (const Index n : mesh.hexes[h]) bits_[word(n)] |= bit(n);
-    for (std::size_t w = 1; w < bits_.size(); ++w) before_[w] = before_[w - 1] + std::popcount(bits_[w - 1]);
-  }
-  std::vector<Index> nodes() const {
-    std::vector<Index> list;
-    list.reserve(static_cast<std::size_t>(before_.back()) + static_cast<std::size_t>(std::popcount(bits_.back())));
-    for (std::size_t w = 0; w < bits_.size(); ++w)
-      for (std::uint64_t rest = bits_[w]; rest; rest &= rest - 1)
-        list.push_back(static_cast<Index>(w * width) + std::countr_zero(rest));
-    return list;
-  }
-  /// Of a node that is one of them.
-  Index operator[](Index node) const {
-    return before_[word(node)] + std::popcount(bits_[word(node)] & (bit(node) - 1));
-  }
-
- private:
-  static constexpr std::size_t width = 64;
-  static std::size_t word(Index node) { return static_cast<std::size_t>(node) / width; }
-  static std::uint64_t bit(Index node) { return std::uint64_t{1} << (static_cast<std::size_t>(node) % width); }
-  std::vector<std::uint64_t> bits_;
-  std::vector<Index> before_;  // per word: how many stand in lower ones
-};
 
 /// Calls use(place in the list, position in `wanted`) for the items that name one of these first. Cheap where `wanted`
 /// is short.
@@ -60,7 +29,7 @@ void for_each_naming(const std::vector<Item>& list, std::span<const Index> wante
 /// Fills the arrays of a patch from those of the whole.
 struct CutOut {
   const Patch& patch;
-  const NodeNumbers& number;
+  const RankedBits& number;  // of its nodes
 
   const std::vector<Index>& wanted(const ArrayTag& tag) const {
     return tag.per == Per::node ? patch.nodes : patch.hexes;
@@ -85,8 +54,8 @@ struct CutOut {
   }
 };
 
-/// Leaves out curve edges of which a patch has both nodes, but no hex: such an edge runs past its border. In a base they
-/// would stay where the whole has cut them.
+/// Leaves out curve edges of which a patch has both nodes, but no hex: such an edge runs past its border. In a base
+/// they would stay where the whole has cut them.
 void leave_out_edges_elsewhere(const Mesh& mesh, Association& association) {
   const std::vector<Edge>& listed = association.curve_edges;
   if (listed.empty()) return;
@@ -118,8 +87,11 @@ Index Patch::local_node(Index node) const {
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   Patch patch;
   patch.hexes = std::move(hexes);
-  const NodeNumbers number(whole.mesh, patch.hexes);
-  patch.nodes = number.nodes();
+  RankedBits number(whole.mesh.points.size());
+  for (const Index h : patch.hexes)
+    for (const Index n : whole.mesh.hexes[h]) number.set(n);
+  number.finish();
+  patch.nodes = number.list();
   patch.meshed.model = whole.model;
   copy_heads(whole.mesh, patch.meshed.mesh);
   patch.meshed.mesh.others = nullptr;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "hextwist/base/large_array.h"
+#include "hextwist/base/ranked_bits.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/exodus_internal.h"
@@ -99,7 +100,7 @@ class ExodusReader {
     if (position < 1 || position > init_.num_nodes)
       fail(who + " names node " + std::to_string(position) + " of " + std::to_string(init_.num_nodes));
     const Index at =
-        is_slice_ ? position_in(positions_, static_cast<Index>(position - 1)) : static_cast<Index>(position - 1);
+        is_slice_ ? is_here_.find(static_cast<Index>(position - 1)) : static_cast<Index>(position - 1);
     return at < 0 || nodes_.place().empty() ? at : nodes_.place()[at];
   }
 
@@ -127,7 +128,7 @@ class ExodusReader {
         if (static_cast<unsigned>(positions[i]) >= n)
           node(std::int64_t{positions[i]} + 1, "element " + std::to_string(element(i)));
     if (is_slice_)
-      for (int& position : positions) position = position_in(positions_, position);
+      for (int& position : positions) position = is_here_.find(position);
     if (!nodes_.place().empty())
       for (int& position : positions) position = nodes_.place()[position];
   }
@@ -163,7 +164,8 @@ class ExodusReader {
   Handle file_;
   bool is_slice_;
   std::int64_t begin_ = 0, end_ = 0;  // elements that are read
-  std::vector<Index> positions_;      // of a slice: nodes that are read
+  RankedBits is_here_;                // of a slice: nodes that are read, by their positions
+  std::vector<Index> positions_;      // these
   std::int64_t most_items_ = 0;
   std::size_t name_length_ = 256;
   ex_init_params init_{};

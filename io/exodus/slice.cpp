@@ -43,7 +43,7 @@ bool ExodusReader::occur_once(ex_entity_type map, std::int64_t n) const {
 }
 
 void ExodusReader::find_nodes_of_slice() {
-  std::vector<std::uint8_t> is_here(size(init_.num_nodes, "nodes"), 0);
+  is_here_ = RankedBits(size(init_.num_nodes, "nodes"));
   Ints nodes(exodus_piece * n_hex_corners);
   std::int64_t first = 0;
   for (const ex_block& block : element_blocks()) {
@@ -53,12 +53,12 @@ void ExodusReader::find_nodes_of_slice() {
                                 static_cast<std::int64_t>(n), nodes.data(), nullptr, nullptr),
             "nodes of element block " + std::to_string(block.id));
       for (const int position : std::span(nodes).first(n * n_hex_corners))
-        if (position >= 1 && position <= init_.num_nodes) is_here[position - 1] = 1;  // others are refused later
+        if (position >= 1 && position <= init_.num_nodes) is_here_.set(position - 1);  // others are refused later
     });
     first += block.num_entry;
   }
-  for (std::size_t i = 0; i < is_here.size(); ++i)
-    if (is_here[i]) positions_.push_back(static_cast<Index>(i));
+  is_here_.finish();
+  positions_ = is_here_.list();
 }
 
 int ExodusReader::values_in_slice(int step, int variable, std::vector<double>& values) const {

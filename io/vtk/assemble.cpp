@@ -32,9 +32,6 @@ std::string type_name(std::int64_t type) {
   return "cell of type " + std::to_string(type);
 }
 
-constexpr std::string_view group_arrays[] = {"MaterialID",    "CellEntityIds",    "medit:ref",
-                                             "gmsh:physical", "gmsh:geometrical", "BlockId"};
-
 class VtkAssembly {
  public:
   VtkAssembly(VtkContents&& contents, const Cursor& cursor) : in_(std::move(contents)), cursor_(cursor) {}
@@ -476,13 +473,10 @@ class VtkAssembly {
   void groups() {
     const auto sides = oriented_sides(out_.mesh, quads_);
     is_side_.assign(other_cells_.size(), 0);
-    for (const std::string_view name : group_arrays) {
+    for (const std::string_view name : vtk_group_arrays) {
       const VtkArray* array = find(VtkArray::On::cell, name);
       if (!array || array->components != 1 || array->size() != in_.types.size()) continue;
-      const auto value = [&](std::size_t cell) {
-        const double x = array->real(cell);
-        return x >= 1 && x < std::numeric_limits<int>::max() && x == std::floor(x) ? static_cast<int>(x) : 0;
-      };
+      const auto value = [&](std::size_t cell) { return vtk_group(array->real(cell)); };
       std::map<int, std::vector<Index>> blocks;
       std::map<int, std::vector<Side>> sets;
       const bool zero_is_none = name.find(':') != std::string_view::npos;  // with Gmsh and MEDIT

@@ -124,6 +124,14 @@ struct VtkContents {
 /// Before the name of an array of ours, as often as a field is called like it: "hextwist_hex_id".
 inline constexpr std::string_view made_prefix = "hextwist_";
 
+/// Cell arrays of other programs that give blocks, the first that is there; and the block that a value means, 0: none.
+inline constexpr std::string_view vtk_group_arrays[] = {"MaterialID",    "CellEntityIds",    "medit:ref",
+                                                        "gmsh:physical", "gmsh:geometrical", "BlockId"};
+inline int vtk_group(double value) {
+  return value >= 1 && value < std::numeric_limits<int>::max() && value == std::floor(value) ? static_cast<int>(value)
+                                                                                             : 0;
+}
+
 /// A cell type for other elements of a shape with so many nodes; 0: none.
 int vtk_type_of(OtherShape shape, std::size_t n_nodes);
 /// The other way round. Pixels are quads with their last two nodes exchanged.

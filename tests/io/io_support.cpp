@@ -77,4 +77,30 @@ Association brick_association(const Mesh& mesh, const Vec3& size) {
   return a;
 }
 
+bool vtk_python(const std::filesystem::path& folder, const std::string& script) {
+  constexpr const char* head = R"(
+import vtk
+def write_all_ways(grid, name):
+    for mode in ('Ascii', 'Binary', 'Appended'):
+        for compressor in (None, vtk.vtkZLibDataCompressor()):
+            for header in (32, 64):
+                for encode in (0, 1):
+                    for order in (0, 1):
+                        writer = vtk.vtkXMLUnstructuredGridWriter()
+                        writer.SetInputData(grid)
+                        getattr(writer, 'SetDataModeTo' + mode)()
+                        writer.SetCompressor(compressor)
+                        if compressor: writer.SetBlockSize(1024)
+                        writer.SetHeaderType(header)
+                        writer.SetEncodeAppendedData(encode)
+                        writer.SetByteOrder(order)
+                        writer.SetFileName('%s%s_%d_%d_%d_%d.vtu' % (name, mode, bool(compressor), header, encode, order))
+                        assert writer.Write()
+)";
+  const auto file = write_text(folder / "script.py", head + script);
+  if (std::system("/usr/bin/python3 -c 'import vtk' > /dev/null 2>&1") != 0) return false;
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + file.string()).c_str()), 0) << script;
+  return true;
+}
+
 }  // namespace hextwist::test

@@ -190,4 +190,9 @@ inline testing::AssertionResult same_owners(const Association& a, const Associat
   return testing::AssertionSuccess();
 }
 
+/// Runs a Python script with the system's VTK; false where there is none. It may call write_all_ways(grid, name), which
+/// writes .vtu files name + "Binary_1_64_0_1.vtu" ... in 48 ways: Ascii, Binary or Appended, compressed or not,
+/// header, appended data encoded or not, byte order.
+bool vtk_python(const std::filesystem::path& folder, const std::string& script);
+
 }  // namespace hextwist::test

@@ -4,14 +4,6 @@
 namespace hextwist {
 namespace {
 
-/// Runs a Python script with the system's VTK; false where there is none.
-bool python(const std::filesystem::path& folder, const std::string& script) {
-  const auto file = test::write_text(folder / "script.py", script);
-  if (std::system("/usr/bin/python3 -c 'import vtk' > /dev/null 2>&1") != 0) return false;
-  EXPECT_EQ(std::system(("/usr/bin/python3 " + file.string()).c_str()), 0) << script;
-  return true;
-}
-
 TEST(vtk_files, a_mesh_with_everything_comes_back_bit_for_bit) {
   for (const bool binary : {false, true})
     for (unsigned seed = 1; seed < 5; ++seed) {
@@ -49,7 +41,7 @@ TEST(vtk_files, vtk_reads_what_we_write_and_we_read_what_vtk_writes) {
   write_mesh(folder / "binary.vtu", mesh, &tags, options);
   options.binary = false;
   write_mesh(folder / "text.vtu", mesh, &tags, options);
-  const bool there = python(folder, "folder = '" + folder.string() + R"('
+  const bool there = test::vtk_python(folder, "folder = '" + folder.string() + R"('
 import vtk
 for name in ('binary', 'text'):
     reader = vtk.vtkXMLUnstructuredGridReader()
@@ -64,21 +56,7 @@ for name in ('binary', 'text'):
     assert 0.5 < low <= high <= 1
     low, high = grid.GetCellData().GetArray('scaled_jacobian').GetRange()
     assert 0.5 < low <= high <= 1
-for mode in ('Ascii', 'Binary', 'Appended'):
-    for compressor in (None, vtk.vtkZLibDataCompressor()):
-        for header in (32, 64):
-            for encode in (0, 1):
-                for order in (0, 1):
-                    writer = vtk.vtkXMLUnstructuredGridWriter()
-                    writer.SetInputData(grid)
-                    getattr(writer, 'SetDataModeTo' + mode)()
-                    writer.SetCompressor(compressor)
-                    if compressor: writer.SetBlockSize(1024)
-                    writer.SetHeaderType(header)
-                    writer.SetEncodeAppendedData(encode)
-                    writer.SetByteOrder(order)
-                    writer.SetFileName('%s/%s_%d_%d_%d_%d.vtu' % (folder, mode, bool(compressor), header, encode, order))
-                    assert writer.Write()
+write_all_ways(grid, folder + '/')
 for version in (42, 51):
     for binary in (1, 2):
         writer = vtk.vtkUnstructuredGridWriter()

@@ -49,23 +49,108 @@ std::vector<MeshedModel> slices_of(const std::filesystem::path& file, int n) {
   return slices;
 }
 
+void expect_slices_make(const std::filesystem::path& file, const Mesh& whole, int n) {
+  const std::vector<MeshedModel> slices = slices_of(file, n);
+  for (const MeshedModel& slice : slices) {
+    EXPECT_LE(slice.mesh.n_hexes(), whole.n_hexes() / n + 1);
+    if (slice.mesh.n_hexes() == 0) continue;
+    EXPECT_EQ(slice.mesh.fields.size(), whole.fields.size()) << "also in a slice that has none of its values";
+    EXPECT_EQ(slice.mesh.blocks.size(), whole.blocks.size());
+  }
+  EXPECT_TRUE(test::same_mesh(whole, join(slices, [](std::size_t) { return std::string("slice"); }).mesh));
+}
+
 TEST(Slices, joined_are_what_is_read_at_once) {
-  for (const unsigned seed : {1u, 2u, 3u, 4u})
-    for (const bool gaps : {false, true})
-      for (const int n : {1, 2, 3, 7, 200}) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(n) + " slices");
-        const auto file = test::output_folder() / "rich.e";
-        write_mesh(file, sliceable(seed, gaps, {6, 5, 4}), nullptr);
-        const Mesh whole = read_mesh(file).mesh;
-        ASSERT_FALSE(whole.fields.empty() || whole.node_sets.empty() || whole.side_sets.empty());
-        const std::vector<MeshedModel> slices = slices_of(file, n);
-        for (const MeshedModel& slice : slices) {
-          EXPECT_LE(slice.mesh.n_hexes(), whole.n_hexes() / n + 1);
-          EXPECT_EQ(slice.mesh.fields.size(), whole.fields.size()) << "also in a slice that has none of its values";
-          EXPECT_EQ(slice.mesh.blocks.size(), whole.blocks.size());
+  for (const std::string extension : {".e", ".vtu"})
+    for (const unsigned seed : {1u, 2u, 3u, 4u})
+      for (const bool gaps : {false, true})
+        for (const int n : {1, 2, 3, 7, 200}) {
+          SCOPED_TRACE(extension + ", seed " + std::to_string(seed) + ", " + std::to_string(n) + " slices");
+          const auto file = test::output_folder() / ("rich" + extension);
+          write_mesh(file, sliceable(seed, gaps, {6, 5, 4}), nullptr);
+          const Mesh whole = read_mesh(file).mesh;
+          ASSERT_FALSE(whole.fields.empty() || whole.node_sets.empty() || whole.side_sets.empty());
+          expect_slices_make(file, whole, n);
         }
-        EXPECT_TRUE(test::same_mesh(whole, join(slices, [](std::size_t) { return std::string("slice"); }).mesh));
-      }
+}
+
+/// What VTK writes in all its ways, and with blocks as others give them.
+TEST(Slices, of_vtu_as_vtk_writes_it_are_what_is_read_at_once) {
+  const auto folder = test::output_folder();
+  write_mesh(folder / "ours.vtu", sliceable(3, true, {6, 5, 4}), nullptr);
+  const bool there = test::vtk_python(folder, "folder = '" + folder.string() + R"('
+import vtk
+reader = vtk.vtkXMLUnstructuredGridReader()
+reader.SetFileName(folder + '/ours.vtu')
+reader.Update()
+ours = reader.GetOutput()
+theirs = vtk.vtkUnstructuredGrid()
+theirs.CopyStructure(ours)
+material = vtk.vtkIntArray()
+material.SetName('MaterialID')
+speed = vtk.vtkFloatArray()
+speed.SetName('speed')
+speed.SetNumberOfComponents(3)
+for i in range(ours.GetNumberOfCells()):
+    material.InsertNextValue(9 if i == 2 else 4 if i > 50 else 0 if i == 7 else 3)
+for i in range(ours.GetNumberOfPoints()):
+    speed.InsertNextTuple3(i, i / 7, -i)
+theirs.GetCellData().AddArray(material)
+theirs.GetPointData().AddArray(speed)
+for name, grid in (('ours', ours), ('theirs', theirs)):
+    write_all_ways(grid, folder + '/' + name + '_')
+)");
+  if (!there) GTEST_SKIP() << "no python3 with VTK";
+  int n_sliced = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto name = entry.path().filename().string();
+    if (!name.starts_with("ours_") && !name.starts_with("theirs_")) continue;
+    SCOPED_TRACE(name);
+    if (name.find("Ascii") != std::string::npos) {
+      EXPECT_FALSE(in_slices(entry.path()));
+      continue;
+    }
+    ++n_sliced;
+    const Mesh whole = read_mesh(entry.path()).mesh;
+    EXPECT_EQ(whole.blocks.size(), name.starts_with("ours") ? sliceable(3, true, {6, 5, 4}).blocks.size() : 3u);
+    for (const int n : {1, 3, 8}) expect_slices_make(entry.path(), whole, n);
+  }
+  EXPECT_EQ(n_sliced, 64);
+}
+
+TEST(Slices, of_vtu_are_not_made_of_what_they_would_lose) {
+  const auto folder = test::output_folder();
+  const Mesh grid = test::grid(4, 3, 2);
+  write_mesh(folder / "text.vtu", grid, nullptr, {.binary = false});
+  EXPECT_FALSE(in_slices(folder / "text.vtu"));
+  write_mesh(folder / "whole.vtu", grid, nullptr);
+  ASSERT_TRUE(in_slices(folder / "whole.vtu"));
+  Session session;
+  session.run("create brick x 3 interval 3");
+  session.run("set order 2");
+  session.export_mesh(folder / "second.vtu");
+  EXPECT_FALSE(in_slices(folder / "second.vtu"));
+  // Damage is found by the slice that has it, in the same words.
+  std::string text = test::text_of(folder / "whole.vtu");
+  const auto error_of = [&](const auto& read) -> std::string {
+    try {
+      read();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::size_t at = text.find("Name=\"connectivity\""), offset_at = text.find("offset=\"", at) + 8;
+  const std::size_t data = text.find('_', text.find("<AppendedData")) + 1 + std::stoul(text.substr(offset_at));
+  const std::int32_t wrong = 77;
+  std::memcpy(&text[data + 8 + 4 * (8 * 23 + 3)], &wrong, sizeof wrong);
+  test::write_text(folder / "damaged.vtu", text);
+  const std::string at_once = error_of([&] { read_mesh(folder / "damaged.vtu"); });
+  EXPECT_EQ(at_once, (folder / "damaged.vtu").string() + ": cell 24 names point 77 of 60 (counted from 0)");
+  const std::optional<SlicedFile> sliced = in_slices(folder / "damaged.vtu");
+  ASSERT_TRUE(sliced);
+  EXPECT_EQ(error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, are_not_made_of_what_they_would_lose) {

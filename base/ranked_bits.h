@@ -1,0 +1,45 @@
+// Some of many numbers, and how many lower ones there are of them: a bit and a half for each of the many.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "hextwist/base/types.h"
+
+namespace hextwist {
+
+class RankedBits {
+ public:
+  /// Of 0 .. n - 1.
+  explicit RankedBits(std::size_t n = 0) : bits_(n / width + 1), before_(bits_.size()) {}
+
+  void set(Index i) { bits_[word(i)] |= bit(i); }
+  bool has(Index i) const { return (bits_[word(i)] & bit(i)) != 0; }
+  /// After the last set().
+  void finish() {
+    for (std::size_t w = 1; w < bits_.size(); ++w) before_[w] = before_[w - 1] + std::popcount(bits_[w - 1]);
+  }
+  /// Of one that is set: its place among them.
+  Index operator[](Index i) const { return before_[word(i)] + std::popcount(bits_[word(i)] & (bit(i) - 1)); }
+  /// The same of any; -1 where it is not set.
+  Index find(Index i) const { return has(i) ? (*this)[i] : -1; }
+  /// All that are set, ascending.
+  std::vector<Index> list() const {
+    std::vector<Index> list;
+    list.reserve(static_cast<std::size_t>(before_.back()) + static_cast<std::size_t>(std::popcount(bits_.back())));
+    for (std::size_t w = 0; w < bits_.size(); ++w)
+      for (std::uint64_t rest = bits_[w]; rest; rest &= rest - 1)
+        list.push_back(static_cast<Index>(w * width) + std::countr_zero(rest));
+    return list;
+  }
+
+ private:
+  static constexpr std::size_t width = 64;
+  static std::size_t word(Index i) { return static_cast<std::size_t>(i) / width; }
+  static std::uint64_t bit(Index i) { return std::uint64_t{1} << (static_cast<std::size_t>(i) % width); }
+  std::vector<std::uint64_t> bits_;
+  std::vector<Index> before_;  // per word: how many are set in lower ones
+};
+
+}  // namespace hextwist
