@@ -1,7 +1,9 @@
 #include "io/io_support.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "hextwist/io/slice.h"
 #include "hextwist/mesh/topology.h"
 
 namespace hextwist::test {
@@ -75,6 +77,40 @@ Association brick_association(const Mesh& mesh, const Vec3& size) {
     for (const Index n : face_nodes(mesh.hexes[a.surface_faces[i].hex], a.surface_faces[i].face))
       if (a.node_owner[n].dim == 2) a.node_owner[n].id = a.face_surface[i];
   return a;
+}
+
+void read_or_refuse(const std::filesystem::path& file) {
+  const auto check = [&](const auto& read) {
+    try {
+      const Mesh mesh = read();
+      EXPECT_TRUE(sets_valid(mesh));
+      for (const Hex& hex : mesh.hexes)
+        for (const Index n : hex) EXPECT_TRUE(n >= 0 && n < mesh.n_nodes());
+      for (const Vec3& p : mesh.points) EXPECT_TRUE(p.allFinite());
+      return mesh.n_hexes();
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(what.starts_with(file.string())) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      return Index{-1};
+    }
+  };
+  const Index n_whole = check([&] { return read_mesh(file).mesh; });
+  std::optional<SlicedFile> sliced;
+  check([&] {
+    sliced = in_slices(file);
+    return Mesh();
+  });
+  if (!sliced) return;
+  Index n_hexes = 0;
+  for (int s = 0; s < 2; ++s)
+    if (const Index n = check([&] { return read_slice(*sliced, s, 2).file.mesh; }); n >= 0 && n_hexes >= 0)
+      n_hexes += n;
+    else
+      n_hexes = -1;
+  if (n_whole >= 0) {
+    EXPECT_EQ(n_hexes, n_whole);
+  }
 }
 
 bool vtk_python(const std::filesystem::path& folder, const std::string& script) {

@@ -190,6 +190,9 @@ inline testing::AssertionResult same_owners(const Association& a, const Associat
   return testing::AssertionSuccess();
 }
 
+/// Never a crash: a message of one line, or a mesh whose parts fit together. In slices, too.
+void read_or_refuse(const std::filesystem::path& file);
+
 /// Runs a Python script with the system's VTK; false where there is none. It may call write_all_ways(grid, name), which
 /// writes .vtu files name + "Binary_1_64_0_1.vtu" ... in 48 ways: Ascii, Binary or Appended, compressed or not,
 /// header, appended data encoded or not, byte order.

@@ -1,5 +1,6 @@
 #include "hextwist/mesh/others.h"
 #include "io/io_support.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
@@ -94,6 +95,26 @@ for version in (42, 51):
     }
   }
   EXPECT_EQ(n_files, 2 + 48 + 4);
+  // Every encoding, with bytes that are wrong.
+  const unsigned seed = test::random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const std::string name : {"Binary_0_32_0_0", "Binary_1_64_0_1", "Appended_0_64_0_1", "Appended_1_32_0_0",
+                                 "Appended_1_64_1_1", "Appended_0_32_1_0"}) {
+    SCOPED_TRACE(name);
+    const std::string text = test::text_of(folder / (name + ".vtu"));
+    const std::size_t data = text.find("<AppendedData");
+    for (int i = 0; i < 100; ++i) {
+      std::string wrong = text;
+      for (unsigned k = 0; k <= random() % 4; ++k) {
+        const std::size_t at =
+            i % 2 || data == std::string::npos ? random() % text.size() : data + random() % (text.size() - data);
+        wrong[at] = static_cast<char>(i % 3 ? "0123456789=A/z\" >"[random() % 17] : static_cast<char>(random()));
+      }
+      if (i % 5 == 0) wrong.resize(random() % wrong.size() + 1);
+      test::read_or_refuse(test::write_text(folder / "wrong.vtu", wrong));
+    }
+  }
 }
 
 constexpr const char* legacy =
