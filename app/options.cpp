@@ -114,7 +114,7 @@ int read_join(int argc, char** argv, Options& options) {
 int read_in_parts(int argc, char** argv, Options& options) {
   CLI::App app(
       "Refines a mesh in parts, part after part, from disk to disk: with one part in memory at a time. Refinements "
-      "only. With --parts an Exodus or .vtu file of the whole, read in slices.",
+      "only. With --parts an Exodus, .msh or .vtu file of the whole, read in slices.",
       "hextwist refine-in-parts");
   std::vector<std::string> commands;
   app.add_option("PART", options.mesh,

@@ -1,6 +1,7 @@
 // Some of many numbers, and how many lower ones there are of them: a bit and a half for each of the many.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -15,9 +16,17 @@ class RankedBits {
   explicit RankedBits(std::size_t n = 0) : bits_(n / width + 1), before_(bits_.size()) {}
 
   void set(Index i) { bits_[word(i)] |= bit(i); }
+  /// The same of any, of which there may be more than was said: but for finish(), which is for all.
+  void set_more(Index i) {
+    if (word(i) >= bits_.size()) bits_.resize(std::max(word(i) + 1, 2 * bits_.size()));
+    set(i);
+  }
+  /// Of any that is not negative.
+  bool has_any(Index i) const { return word(i) < bits_.size() && has(i); }
   bool has(Index i) const { return (bits_[word(i)] & bit(i)) != 0; }
   /// After the last set().
   void finish() {
+    before_.resize(bits_.size());
     for (std::size_t w = 1; w < bits_.size(); ++w) before_[w] = before_[w - 1] + std::popcount(bits_[w - 1]);
   }
   /// Of one that is set: its place among them.

@@ -5,6 +5,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/exodus_internal.h"
 #include "hextwist/io/format.h"
+#include "hextwist/io/gmsh/slice_internal.h"
 #include "hextwist/io/results.h"
 #include "hextwist/io/vtk/vtu_internal.h"
 #include "hextwist/mesh/others.h"
@@ -293,10 +294,12 @@ std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fen
   const Format* format = format_to_read(file, {});
   if (format && format->read == io::read_exodus) return io::exodus_in_slices(file, fence);
   if (format && format->read == read_whole<io::read_vtu>) return io::vtu_in_slices(file);
+  if (format && format->read == read_whole<io::read_gmsh>) return io::gmsh_in_slices(file);
   return std::nullopt;
 }
 
 MeshSlice read_slice(const SlicedFile& file, int number, int n) {
+  if (file.gmsh) return io::read_gmsh_slice(file, number, n);
   const Format* format = format_to_read(file.file, {});
   return format && format->read == read_whole<io::read_vtu> ? io::read_vtu_slice(file, number, n)
                                                             : io::read_exodus_slice(file, number, n);

@@ -2,22 +2,28 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "hextwist/base/fence.h"
 #include "hextwist/io/io.h"
 
 namespace hextwist {
+namespace io {
+struct GmshWhole;
+}
 
 /// A file that can be read in slices.
 struct SlicedFile {
   std::filesystem::path file;
   std::int64_t n_nodes = 0, n_hexes = 0;
+  std::shared_ptr<const io::GmshWhole> gmsh = nullptr;  ///< what slices of a .msh file have to know of the others
 };
 
 /// Looks through all ids, or cells, of a file once. Nothing where it is not read in slices: other formats than Exodus
 /// and .vtu, other elements or hexes of second order. Of Exodus: ids that are out of order and far apart, element sets
-/// that are element blocks with more hexes. Of .vtu: arrays as text, arrays that VTK calls global ids. Throws Error as
+/// that are element blocks with more hexes. Of .vtu: arrays as text, arrays that VTK calls global ids. Of .msh:
+/// other versions than 4.1, partitions, values of elements that are no hexes, ids far apart. Throws Error as
 /// read_mesh() does.
 std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence = {});
 

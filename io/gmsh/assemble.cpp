@@ -11,6 +11,7 @@
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/io/gmsh/others.h"
+#include "hextwist/io/gmsh/slice_internal.h"
 #include "hextwist/mesh/corners.h"
 
 namespace hextwist::io {
@@ -90,6 +91,9 @@ class GmshAssembly {
     std::map<int, std::vector<Member>> groups;
     for (const auto& [group, name] : in_.physical_names)
       if (group.dim == dim && group.id > 0) groups[group.id];
+    if (in_.slice)
+      for (const Owner group : in_.slice->whole.groups)
+        if (group.dim == dim) groups[group.id];
     const auto& elements = in_.elements[dim];
     const auto& key = elements.physical.empty() ? elements.entity : elements.physical;
     for (std::size_t i = 0, end = 0; i < key.size(); i = end) {
@@ -215,7 +219,8 @@ class GmshAssembly {
     for (std::size_t i = 0; i < cycles.size(); ++i)
       for (int k = 0; k < 4; ++k) cycles[i][k] = elements.nodes[4 * i + k];
     std::vector<Side> lower;
-    const auto sides = oriented_sides(file_.mesh, cycles, &lower);
+    auto sides = oriented_sides(file_.mesh, cycles, &lower);
+    if (in_.slice) leave_out_sides_elsewhere(cycles, sides);
     for (std::size_t i = 0; i < sides.size(); ++i)
       if (sides[i].hex < 0) beside(2, i);
     for (auto& [id, set] : members<Side>(2, [&](std::size_t i, std::vector<Side>&group) {
@@ -229,6 +234,20 @@ class GmshAssembly {
       file_.tags.face_surface.push_back(owner.id);
     }
     derive_node_owners(2);
+  }
+
+  /// A quad between two hexes is a side of the one it turns outwards from, which may be in another slice.
+  void leave_out_sides_elsewhere(std::span<const Quad> cycles, std::span<Side> sides) const {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (sides[i].hex < 0) continue;
+      std::array<std::int64_t, 4> ids{};
+      for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = node_id(file_.mesh, cycles[i][k]);
+      const Quad outward = face_node_cycle(file_.mesh.hexes[sides[i].hex], sides[i].face);
+      const auto at = std::ranges::find(outward, cycles[i][0]) - outward.begin();
+      if (cycles[i][1] != outward[(at + 1) % 4] &&
+          std::ranges::binary_search(in_.slice->whole.inner_quads, nodes_key(ids)))
+        sides[i] = {};
+    }
   }
 
   void lines_and_points() {
@@ -259,7 +278,7 @@ class GmshAssembly {
       for (const std::size_t i : of_group) nodes.insert(nodes.end(), {lines.nodes[2 * i], lines.nodes[2 * i + 1]});
       sort_unique(nodes);
     }
-    find_line_blocks(lines_of, good);
+    if (!in_.slice) find_line_blocks(lines_of, good);
 
     auto& sets = file_.mesh.node_sets;
     for (const int dim : {0, 1})
@@ -296,6 +315,7 @@ class GmshAssembly {
   }
   /// A line or quad that lies on no hex. Of second order only its corners are known.
   void beside(int dim, std::size_t i) {
+    if (in_.slice) return;  // it is on a hex of another one
     const GmshElements& elements = in_.elements[dim];
     if (in_.middles.any()) {
       ++n_bent_[dim];
@@ -366,10 +386,10 @@ class GmshAssembly {
       }
       if (n_steps[data] > 1)
         notice("field '" + field.name + "' has " + std::to_string(n_steps[data]) + " steps: the last is read");
-      if (const auto n_lost = static_cast<std::int64_t>(data->tags.size()) - found; found && n_lost > 0)
+      if (const auto n_lost = static_cast<std::int64_t>(data->tags.size()) - found; found && n_lost > 0 && !in_.slice)
         notice("field '" + field.name + "': " + counted(n_lost, "value") + " left out, which " +
                (n_lost == 1 ? "is" : "are") + " not of a " + (node ? "node" : "hex"));
-      if (found)
+      if (found || in_.slice)
         fields.push_back(std::move(field));
       else
         notice("dropped field '" + field.name + "', which has no value on a " + (node ? "node" : "hex"));

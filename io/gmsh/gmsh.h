@@ -39,9 +39,12 @@ struct GmshData {
   std::vector<std::int64_t> tags;
 };
 
+struct GmshSlice;  // gmsh/slice_internal.h
+
 /// What the sections say. Entities and physical groups are (dim, tag).
 struct GmshContents {
-  int version = 0;  ///< 1, 22, 41
+  int version = 0;             ///< 1, 22, 41
+  GmshSlice* slice = nullptr;  ///< what is read of nodes and elements; null: all
   Ids nodes;
   std::vector<Vec3> points;
   std::vector<Owner> node_entity;                      ///< 4.1 only
@@ -123,6 +126,24 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
 /// Adds an element of a kept type by the ids of its nodes.
 void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std::int64_t tag,
                       std::span<const std::int64_t> node_ids, const char* at);
+
+/// What stands before the nodes, or the elements, of an entity of version 4.1.
+struct GmshBlock {
+  int dim = 0, entity = 0;
+  int kind = 0;  ///< of nodes: whether they have parameters; of elements: their type
+  std::size_t size = 0;
+  const char* at = nullptr;  ///< of the header
+};
+/// Calls begin(number of all) and use(block), which reads what the block has.
+void for_each_gmsh_node_block(GmshSource& source, const std::function<void(std::size_t)>& begin,
+                              const std::function<void(const GmshBlock&)>& use);
+void for_each_gmsh_element_block(GmshSource& source, const std::function<void(std::size_t)>& begin,
+                                 const std::function<void(const GmshBlock&)>& use);
+// The same sections where contents.slice is given.
+void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source);
+void read_sliced_gmsh_elements(GmshContents& contents, GmshSource& source);
+/// Sections of a file, all that are known.
+void read_gmsh_sections(GmshContents& contents, Cursor& cursor);
 
 // Sections, the cursor at the first thing after the line with the name.
 void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametric);

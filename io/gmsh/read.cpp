@@ -1,6 +1,7 @@
 // Gmsh's .msh: the sections in turn (Gmsh reference manual, "MSH file format", versions 1, 2.2 and 4.1).
 #include "hextwist/io/gmsh/gmsh.h"
 #include "hextwist/io/gmsh/others.h"
+#include "hextwist/io/gmsh/slice_internal.h"
 
 namespace hextwist::io {
 namespace {
@@ -240,7 +241,11 @@ void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on) {
   for (std::size_t i = 0; i < n; ++i) {
     data.tags.push_back(source.integer("a node or element"));
     for (int c = 0; c < integers[1]; ++c) data.field.values.push_back(source.real("a value"));
+    if (!contents.slice || keeps_of_slice(contents, on, data.tags.back())) continue;
+    data.tags.pop_back();
+    data.field.values.resize(data.field.values.size() - static_cast<std::size_t>(integers[1]));
   }
+  if (contents.slice && n == 0) contents.slice->is_possible = false;  // a field of nothing
   contents.data.push_back(std::move(data));
 }
 
@@ -262,9 +267,7 @@ void read_gmsh_parts(GmshContents& contents, Cursor& cursor) {
   }
 }
 
-MeshFile read_gmsh(const Bytes& bytes) {
-  Cursor cursor(bytes);
-  GmshContents contents;
+void read_gmsh_sections(GmshContents& contents, Cursor& cursor) {
   bool nodes = false, elements = false;
   // Sections that a file has once, with their text: views that Gmsh appends may have all of them again.
   std::map<std::string, std::string_view, std::less<>> seen;
@@ -316,6 +319,12 @@ MeshFile read_gmsh(const Bytes& bytes) {
   }
   if (!nodes || !elements)
     cursor.fail_at(cursor.end, std::string("the file ends without ") + (nodes ? "elements" : "nodes"));
+}
+
+MeshFile read_gmsh(const Bytes& bytes) {
+  Cursor cursor(bytes);
+  GmshContents contents;
+  read_gmsh_sections(contents, cursor);
   return assemble_gmsh(std::move(contents), cursor);
 }
 

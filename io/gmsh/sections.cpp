@@ -162,29 +162,49 @@ void read_gmsh_entities_4(GmshContents& contents, GmshSource& source, bool parti
   sort_unique(contents.partitions);
 }
 
-void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
+void for_each_gmsh_node_block(GmshSource& source, const std::function<void(std::size_t)>& begin,
+                              const std::function<void(const GmshBlock&)>& use) {
   Cursor& cursor = source.cursor;
   const auto n_blocks = source.large("the number of node blocks");
   const auto n = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
   source.large("the lowest node id");
   source.large("the highest node id");
+  begin(n);
+  std::size_t done = 0;
+  cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "node blocks");
+  for (std::int64_t i = 0; i < n_blocks; ++i) {
+    cursor.skip_text_blanks();
+    GmshBlock block;
+    block.at = cursor.at;
+    block.dim = source.integer("a dimension");
+    block.entity = source.integer("an entity");
+    block.kind = source.integer("whether nodes have parameters");
+    if (block.dim < 0 || block.dim > 3)
+      cursor.fail_at(block.at, "nodes on an entity of dimension " + std::to_string(block.dim));
+    block.size = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
+    if (block.size > n - done) cursor.fail_at(block.at, "more nodes than the header says");
+    cursor.skip_text_blanks();
+    use(block);
+    done += block.size;
+  }
+  if (done != n) cursor.fail("the header says " + std::to_string(n) + " nodes, there are " + std::to_string(done));
+}
+
+void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
+  if (contents.slice) return read_sliced_gmsh_nodes(contents, source);
+  Cursor& cursor = source.cursor;
   std::vector<std::int64_t> ids;
   std::vector<Run> runs;
-  resize_for_overwrite(ids, n);
-  resize_for_overwrite(contents.points, n);
-  reserve_large(contents.node_entity, n);
-  std::size_t done = 0;
+  std::size_t n = 0, done = 0;
   bool any_parametric = false;
-  cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "node blocks");
-  for (std::int64_t block = 0; block < n_blocks; ++block) {
-    cursor.skip_text_blanks();
-    const char* at = cursor.at;
-    const int dim = source.integer("a dimension"), entity = source.integer("an entity");
-    const int parametric = source.integer("whether nodes have parameters");
-    if (dim < 0 || dim > 3) cursor.fail_at(at, "nodes on an entity of dimension " + std::to_string(dim));
-    const auto size = cursor.check_count(source.large("the number of nodes"), cursor.binary ? 32 : 8, "nodes");
-    if (size > n - done) cursor.fail_at(at, "more nodes than the header says");
-    cursor.skip_text_blanks();
+  const auto begin = [&](std::size_t n_all) {
+    n = n_all;
+    resize_for_overwrite(ids, n);
+    resize_for_overwrite(contents.points, n);
+    reserve_large(contents.node_entity, n);
+  };
+  for_each_gmsh_node_block(source, begin, [&](const GmshBlock& block) {
+    const auto [dim, entity, parametric, size, at] = block;
     runs.push_back({done, cursor.at});
     const auto block_ids = std::span(ids).subspan(done, size);
     const auto points = std::span(contents.points).subspan(done, size);
@@ -204,32 +224,47 @@ void read_gmsh_nodes_4(GmshContents& contents, GmshSource& source) {
     }
     contents.node_entity.insert(contents.node_entity.end(), size, entity > 0 ? Owner{dim, entity} : Owner{});
     done += size;
-  }
-  if (done != n) cursor.fail("the header says " + std::to_string(n) + " nodes, there are " + std::to_string(done));
+  });
   contents.nodes = Ids(std::move(ids), "node", cursor, runs);
   contents.nodes.sort(contents.points);
   contents.nodes.sort(contents.node_entity);
   if (any_parametric) contents.nodes.sort(contents.node_parameters);
 }
 
-void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
+void for_each_gmsh_element_block(GmshSource& source, const std::function<void(std::size_t)>& begin,
+                                 const std::function<void(const GmshBlock&)>& use) {
   Cursor& cursor = source.cursor;
   const auto n_blocks = source.large("the number of element blocks");
   const auto n = cursor.check_count(source.large("the number of elements"), cursor.binary ? 16 : 4, "elements");
   source.large("the lowest element tag");
   source.large("the highest element tag");
   cursor.check_count(n_blocks, cursor.binary ? 20 : 8, "element blocks");
+  begin(n);
   std::size_t done = 0;
-  for (std::int64_t block = 0; block < n_blocks; ++block) {
+  for (std::int64_t i = 0; i < n_blocks; ++i) {
     cursor.skip_text_blanks();
-    const char* at = cursor.at;
-    const int entity_dim = source.integer("a dimension"), entity = source.integer("an entity");
-    const int type = source.integer("an element type");
-    const auto size = cursor.check_count(source.large("the number of elements"), cursor.binary ? 16 : 4, "elements");
-    if (size > n - done) cursor.fail_at(at, "more elements than the header says");
-    done += size;
-    if (size == 0) continue;
+    GmshBlock block;
+    block.at = cursor.at;
+    block.dim = source.integer("a dimension");
+    block.entity = source.integer("an entity");
+    block.kind = source.integer("an element type");
+    block.size = cursor.check_count(source.large("the number of elements"), cursor.binary ? 16 : 4, "elements");
+    if (block.size > n - done) cursor.fail_at(block.at, "more elements than the header says");
+    done += block.size;
+    if (block.size == 0) continue;
     cursor.skip_text_blanks();
+    use(block);
+  }
+  if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));
+}
+
+void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
+  if (contents.slice) return read_sliced_gmsh_elements(contents, source);
+  Cursor& cursor = source.cursor;
+  std::size_t left = 0;
+  const auto begin = [&](std::size_t n) { left = n; };
+  for_each_gmsh_element_block(source, begin, [&](const GmshBlock& block) {
+    const auto [entity_dim, entity, type, size, header] = block;
     const char* first = cursor.at;
     const std::int64_t first_tag = source.large("an element");
     const bool is_ghost = entity_dim == 3 && std::ranges::binary_search(contents.ghosts, entity);
@@ -243,23 +278,23 @@ void read_gmsh_elements_4(GmshContents& contents, GmshSource& source) {
     if (dim >= 0) {
       GmshElements& elements = contents.elements[dim];
       begin_run(elements, first);
-      const std::size_t most = n - done + size + elements.tags.size();  // however many blocks follow
+      const std::size_t most = left + elements.tags.size();  // however many blocks follow
       reserve_large(elements.tags, most);
       reserve_large(elements.entity, most);
       if (dim == 3) reserve_large(contents.hexes, most);
       elements.entity.insert(elements.entity.end(), size, entity_dim == gmsh_type(type)->dim ? std::max(entity, 0) : 0);
     }
+    left -= size;
     std::array<std::int64_t, most_gmsh_nodes> ids;
     const auto nodes = std::span(ids).first(static_cast<std::size_t>(n_nodes));
     for (std::size_t i = 0; i < size; ++i) {
       cursor.skip_text_blanks();
-      at = cursor.at;
+      const char* at = cursor.at;
       const auto tag = source.large("an element");
       source.large_ones(nodes, "a node");
       if (dim >= 0) add_gmsh_element(contents, cursor, dim, tag, nodes, at);
     }
-  }
-  if (done != n) cursor.fail("the header says " + std::to_string(n) + " elements, there are " + std::to_string(done));
+  });
 }
 
 void read_gmsh_periodic(GmshContents& contents, GmshSource& source) {

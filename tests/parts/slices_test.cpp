@@ -2,33 +2,23 @@
 #include <exodusII.h>
 
 #include <random>
-#include <regex>
 
 #include "hextwist/io/results.h"
 #include "hextwist/io/slice.h"
 #include "hextwist/parts/files.h"
-#include "hextwist/parts/id_set.h"
 #include "hextwist/parts/join.h"
-#include "hextwist/parts/join_on_disk.h"
 #include "hextwist/parts/on_disk.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/split.h"
 #include "hextwist/session/session.h"
-#include "io/io_support.h"
+#include "slices_support.h"
 #include "split_judge.h"
 #include "support/exodus_extras.h"
 #include "support/meshed.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
-
-/// Blocks that do not overlap, sets, fields.
-Mesh sliceable(unsigned seed, bool gaps, const std::array<int, 3>& n) {
-  Mesh mesh = test::rich_mesh(seed, gaps, n);
-  std::vector<std::uint8_t> has(mesh.hexes.size(), 0);
-  for (Block& block : mesh.blocks) std::erase_if(block.hexes, [&](Index h) { return has[h]++ > 0; });
-  return mesh;
-}
 
 std::string faults_text(const std::filesystem::path& name, int n_parts) {
   std::string text;
@@ -60,14 +50,23 @@ void expect_slices_make(const std::filesystem::path& file, const Mesh& whole, in
   EXPECT_TRUE(test::same_mesh(whole, join(slices, [](std::size_t) { return std::string("slice"); }).mesh));
 }
 
+/// What slices make: nodes of no hex are in none.
+Mesh without_loose_nodes(Mesh mesh) {
+  need_ids(mesh);
+  const MeshedModel whole{std::move(mesh), nullptr, {}};
+  Mesh part = Splitting(whole, std::vector<int>(whole.mesh.hexes.size(), 0), 1).part(0).mesh;
+  const MeshedModel pieces[] = {{std::move(part), nullptr, {}}};
+  return join(pieces, [](std::size_t) { return std::string("mesh"); }).mesh;
+}
+
 TEST(Slices, joined_are_what_is_read_at_once) {
-  for (const std::string extension : {".e", ".vtu"})
+  for (const std::string extension : {".e", ".vtu", ".msh"})
     for (const unsigned seed : {1u, 2u, 3u, 4u})
       for (const bool gaps : {false, true})
         for (const int n : {1, 2, 3, 7, 200}) {
           SCOPED_TRACE(extension + ", seed " + std::to_string(seed) + ", " + std::to_string(n) + " slices");
           const auto file = test::output_folder() / ("rich" + extension);
-          write_mesh(file, sliceable(seed, gaps, {6, 5, 4}), nullptr);
+          write_mesh(file, test::sliceable(seed, gaps, {6, 5, 4}), nullptr);
           const Mesh whole = read_mesh(file).mesh;
           ASSERT_FALSE(whole.fields.empty() || whole.node_sets.empty() || whole.side_sets.empty());
           expect_slices_make(file, whole, n);
@@ -77,7 +76,7 @@ TEST(Slices, joined_are_what_is_read_at_once) {
 /// What VTK writes in all its ways, and with blocks as others give them.
 TEST(Slices, of_vtu_as_vtk_writes_it_are_what_is_read_at_once) {
   const auto folder = test::output_folder();
-  write_mesh(folder / "ours.vtu", sliceable(3, true, {6, 5, 4}), nullptr);
+  write_mesh(folder / "ours.vtu", test::sliceable(3, true, {6, 5, 4}), nullptr);
   const bool there = test::vtk_python(folder, "folder = '" + folder.string() + R"('
 import vtk
 reader = vtk.vtkXMLUnstructuredGridReader()
@@ -112,10 +111,124 @@ for name, grid in (('ours', ours), ('theirs', theirs)):
     }
     ++n_sliced;
     const Mesh whole = read_mesh(entry.path()).mesh;
-    EXPECT_EQ(whole.blocks.size(), name.starts_with("ours") ? sliceable(3, true, {6, 5, 4}).blocks.size() : 3u);
+    EXPECT_EQ(whole.blocks.size(), name.starts_with("ours") ? test::sliceable(3, true, {6, 5, 4}).blocks.size() : 3u);
     for (const int n : {1, 3, 8}) expect_slices_make(entry.path(), whole, n);
   }
   EXPECT_EQ(n_sliced, 64);
+}
+
+/// Files that others made, and those of the shipped models, which have curves, surfaces and two volumes.
+TEST(Slices, of_real_files_are_what_is_read_at_once) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& folder :
+       {std::filesystem::path(HEXTWIST_SOURCE_DIR) / "models", std::filesystem::path(HEXTWIST_TEST_DATA)})
+    if (std::filesystem::exists(folder))
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".msh" || entry.path().extension() == ".vtu") files.push_back(entry.path());
+  int n_sliced = 0;
+  for (const auto& file : files) {
+    SCOPED_TRACE(file);
+    std::optional<SlicedFile> sliced;
+    Mesh whole;
+    try {
+      sliced = in_slices(file);
+      whole = read_mesh(file).mesh;
+    } catch (const Error&) {
+      EXPECT_FALSE(sliced);
+      continue;
+    }
+    if (!sliced) continue;
+    ++n_sliced;
+    EXPECT_EQ(sliced->n_nodes, whole.n_nodes());
+    EXPECT_EQ(sliced->n_hexes, whole.n_hexes());
+    for (const int n : {2, 5}) expect_slices_make(file, without_loose_nodes(whole), n);
+  }
+  EXPECT_GT(n_sliced, 10);
+}
+
+/// Both ways round, between two volumes, in all orders of hexes: a side of the hex that it turns outwards from.
+TEST(Slices, of_msh_have_quads_between_hexes_on_the_right_side) {
+  const auto folder = test::output_folder();
+  const unsigned seed = test::random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (int i = 0; i < 30; ++i) {
+    Mesh mesh = test::grid(4, 3, 3);
+    std::vector<Side> all;
+    for (Index h = 0; h < mesh.n_hexes(); ++h)
+      for (int f = 0; f < n_hex_faces; ++f) all.push_back({h, f});
+    for (int id = 1; id < 4; ++id) {
+      SideSet set{id, "", {}};
+      for (const Side& side : all)
+        if (random() % 5 == 0) set.sides.push_back(side);
+      mesh.side_sets.push_back(set);
+      NodeSet nodes{id, "", {}};
+      for (Index n = 0; n < mesh.n_nodes(); ++n)
+        if (random() % 5 == 0) nodes.nodes.push_back(n);
+      mesh.node_sets.push_back(nodes);
+    }
+    write_mesh(folder / "sides.msh", mesh, nullptr, {.binary = i % 2 == 0});
+    const Mesh whole = read_mesh(folder / "sides.msh").mesh;
+    for (const int n : {2, 3, 9}) expect_slices_make(folder / "sides.msh", whole, n);
+  }
+}
+
+TEST(Slices, of_msh_are_not_made_of_what_they_would_lose) {
+  const auto folder = test::output_folder();
+  const std::string head =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 1 1 1\n1 0 0 0 1 1 1 1 7 0\n1 0 0 0 1 1 1 1 8 0\n"
+      "1 0 0 0 1 1 1 1 9 0\n$EndEntities\n$Nodes\n1 13 1 13\n3 1 0 13\n";
+  std::string nodes;
+  for (int i = 1; i <= 13; ++i) nodes += std::to_string(i) + "\n";
+  for (int i = 0; i < 12; ++i)
+    nodes += std::to_string(i % 2) + " " + std::to_string(i / 2 % 2) + " " + std::to_string(i / 4) + "\n";
+  nodes += "9 9 9\n$EndNodes\n";
+  const auto file_of = [&](const std::string& elements, const std::string& more = "") {
+    return test::write_text(folder / "a.msh", head + nodes + "$Elements\n" + elements + "$EndElements\n" + more);
+  };
+  const std::string hexes = "3 1 5 2\n1 1 2 4 3 5 6 8 7\n2 5 6 8 7 9 10 12 11\n";
+  const auto is_sliced = [&](const std::filesystem::path& file) {
+    const bool sliced = in_slices(file).has_value();
+    if (sliced)
+      for (const int n : {1, 2}) expect_slices_make(file, without_loose_nodes(read_mesh(file).mesh), n);
+    return sliced;
+  };
+  EXPECT_TRUE(is_sliced(file_of("1 2 1 2\n" + hexes)));
+  EXPECT_TRUE(is_sliced(file_of("2 3 1 3\n2 1 3 1\n3 5 6 8 7\n" + hexes))) << "a quad between both";
+  EXPECT_TRUE(is_sliced(file_of("2 3 1 3\n2 1 3 1\n3 7 8 6 5\n" + hexes))) << "the other way round";
+  EXPECT_TRUE(is_sliced(file_of("2 4 1 4\n1 1 1 2\n3 1 5\n4 5 9\n" + hexes))) << "lines with a node in common";
+  EXPECT_FALSE(is_sliced(file_of("2 3 1 3\n2 1 3 1\n3 1 2 8 7\n" + hexes))) << "a quad that is no side";
+  EXPECT_FALSE(is_sliced(file_of("2 3 1 3\n1 1 1 1\n3 1 4\n" + hexes))) << "a line that is no edge";
+  EXPECT_FALSE(is_sliced(file_of("2 3 1 3\n2 1 2 1\n3 1 2 3\n" + hexes))) << "a triangle";
+  EXPECT_FALSE(is_sliced(file_of("1 2 1 2000000000\n3 1 5 2\n1 1 2 4 3 5 6 8 7\n2000000000 5 6 8 7 9 10 12 11\n")))
+      << "tags far apart";
+  const auto data = [](const std::string& kind, const std::string& tags) {
+    return "$" + kind + "\n1\n\"v\"\n1\n0\n3\n0\n1\n" + tags + "\n$End" + kind + "\n";
+  };
+  const std::string with_quad = "2 3 1 3\n2 1 3 1\n3 1 2 4 3\n" + hexes;
+  EXPECT_TRUE(is_sliced(file_of(with_quad, data("ElementData", "2\n2 1.5\n1 4"))));
+  std::string of_nodes = "13";
+  for (int i = 13; i > 0; --i) of_nodes += "\n" + std::to_string(i) + " " + std::to_string(i * i);
+  EXPECT_TRUE(is_sliced(file_of(with_quad, data("NodeData", of_nodes))));
+  EXPECT_FALSE(is_sliced(file_of(with_quad, data("ElementData", "1\n3 1.5")))) << "values of a quad";
+  write_mesh(folder / "old.msh", test::grid(3, 2, 2), nullptr, {.gmsh_version = 22});
+  EXPECT_FALSE(in_slices(folder / "old.msh"));
+  // Damage is found by the slice that has it.
+  const auto damaged = file_of("1 2 1 2\n3 1 5 2\n1 1 2 4 3 5 6 8 7\n2 5 6 8 7 9 10 12 77\n");
+  const auto error_of = [&](const auto& read) -> std::string {
+    try {
+      read();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::optional<SlicedFile> sliced = in_slices(damaged);
+  ASSERT_TRUE(sliced);
+  const std::string at_once = error_of([&] { read_mesh(damaged); });
+  EXPECT_NE(at_once.find("names node 77"), std::string::npos) << at_once;
+  EXPECT_EQ(error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, of_vtu_are_not_made_of_what_they_would_lose) {
@@ -167,8 +280,8 @@ TEST(Slices, are_not_made_of_what_they_would_lose) {
   ASSERT_GE(ex_put_id_map(file, EX_NODE_MAP, ids.data()), 0);
   ex_close(file);
   EXPECT_FALSE(in_slices(folder / "far.e"));
-  write_mesh(folder / "grid.msh", test::grid(4, 3, 2), nullptr);
-  EXPECT_FALSE(in_slices(folder / "grid.msh"));
+  write_mesh(folder / "grid.bdf", test::grid(4, 3, 2), nullptr);
+  EXPECT_FALSE(in_slices(folder / "grid.bdf"));
   Session session;
   session.run("create brick x 3 interval 3");
   session.run("set order 2");
@@ -225,7 +338,7 @@ TEST(Slices, a_file_is_divided_as_in_memory) {
   const auto folder = test::output_folder();
   for (const bool gaps : {false, true})
     for (const PartitionBy by : {PartitionBy::boxes, PartitionBy::slabs, PartitionBy::ids, PartitionBy::random}) {
-      const Mesh mesh = sliceable(5, gaps, {7, 5, 4});
+      const Mesh mesh = test::sliceable(5, gaps, {7, 5, 4});
       write_mesh(folder / "whole.e", mesh, nullptr);
       OnDiskOptions options;
       options.n_parts = 5;
@@ -270,20 +383,23 @@ TEST(Slices, a_file_of_the_whole_is_refined_part_after_part_as_at_once) {
   const auto folder = test::output_folder();
   Session session;
   session.run("create brick x 4 y 3 z 2 interval 12 6 5; nodeset 7 add surface 1 2; sideset 3 add surface 5");
-  session.export_mesh(folder / "whole.e");
-  Session again;
-  again.import_mesh(folder / "whole.e");
   const std::string commands = "refine surface 2 depth 1; refine surface 3";
-  again.run(commands);
-  again.export_mesh(folder / "serial.e");
   OnDiskOptions options;
-  options.n_parts = 3;
-  options.by = PartitionBy::ids;
-  refine_on_disk(folder / "whole.e", PartCommands(std::vector{commands}), folder / "fine.e", options,
-                 [](const std::string&) {});
-  EXPECT_EQ(faults_text(folder / "fine.e", 3), "");
-  join_files(part_name(folder / "fine.e", 3, 0), folder / "joined.e");
-  EXPECT_TRUE(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"));
+  for (const std::string extension : {".e", ".vtu", ".msh"}) {
+    SCOPED_TRACE(extension);
+    const auto whole = folder / ("whole" + extension);
+    write_mesh(whole, session.meshed().mesh, nullptr);
+    Session again;
+    again.import_mesh(whole);
+    again.run(commands);
+    again.export_mesh(folder / "serial.e");
+    options.n_parts = 3;
+    options.by = PartitionBy::ids;
+    refine_on_disk(whole, PartCommands(std::vector{commands}), folder / "fine.e", options, [](const std::string&) {});
+    EXPECT_EQ(faults_text(folder / "fine.e", 3), "");
+    join_files(part_name(folder / "fine.e", 3, 0), folder / "joined.e");
+    EXPECT_TRUE(test::text_of(folder / "joined.e") == test::text_of(folder / "serial.e"));
+  }
   options.n_parts = 500;
   try {
     refine_on_disk(folder / "whole.e", PartCommands(std::vector{commands}), folder / "no.e", options,
@@ -291,169 +407,6 @@ TEST(Slices, a_file_of_the_whole_is_refined_part_after_part_as_at_once) {
     ADD_FAILURE() << "more parts than hexes";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "a mesh of 360 hexes has no 500 parts");
-  }
-}
-
-/// Divides a mesh and writes the parts; pieces that differ are made of each part first.
-void write_parts(const Mesh& mesh, const std::filesystem::path& name, int n, PartitionBy by,
-                 const std::function<void(int, Mesh&)>& change = {}) {
-  const MeshedModel whole{mesh, nullptr, {}};
-  const std::vector<int> part_of_hex = partition(whole.mesh, n, by);
-  const Splitting splitting(whole, part_of_hex, n);
-  PartOutput files(name, n);
-  std::vector<std::string> notices;
-  for (int p = 0; p < n; ++p) {
-    MeshPart part = splitting.part(p);
-    if (change) change(p, part.mesh);
-    files.write({std::move(part.mesh), {}, std::move(part.file), {}}, notices);
-  }
-  files.commit();
-}
-
-/// Joined a part at a time and all at once: the same file, and the same words.
-void expect_joined_alike(const std::filesystem::path& name, int n, const std::string& extension = ".e") {
-  const auto folder = name.parent_path();
-  const SplitName split{name, n};
-  const auto lines = join_on_disk(split, folder / ("sliced" + extension), {});
-  ASSERT_TRUE(lines);
-  MeshFile at_once = read_parts(part_name(name, n, 0));
-  std::vector<std::string> told = at_once.notices;
-  for (std::string& line : write_mesh(folder / ("at_once" + extension), at_once.mesh, nullptr)) told.push_back(line);
-  told.push_back(joined_text(at_once.mesh.n_hexes(), at_once.mesh.n_nodes(), n));
-  EXPECT_EQ(*lines, told);
-  EXPECT_TRUE(test::text_of(folder / ("sliced" + extension)) == test::text_of(folder / ("at_once" + extension)));
-}
-
-TEST(Slices, parts_are_joined_one_at_a_time_as_in_memory) {
-  const auto folder = test::output_folder();
-  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u})
-    for (const bool gaps : {false, true})
-      for (const PartitionBy by : {PartitionBy::boxes, PartitionBy::ids, PartitionBy::random}) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + (gaps ? ", gaps" : ""));
-        write_parts(sliceable(seed, gaps, {7, 5, 4}), folder / "parts.e", 5, by);
-        expect_joined_alike(folder / "parts.e", 5, seed % 2 ? ".e" : ".g");
-      }
-}
-
-TEST(Slices, parts_that_lack_fields_or_groups_are_joined_as_in_memory) {
-  const auto folder = test::output_folder();
-  const Mesh mesh = sliceable(3, true, {7, 5, 4});
-  ASSERT_GT(mesh.fields.size(), 1u);
-  for (const int lacks : {0, 1, 2}) {
-    write_parts(mesh, folder / "lacks.e", 3, PartitionBy::slabs, [&](int p, Mesh& part) {
-      if (p != lacks) return;
-      part.fields.clear();
-      for (NodeSet& set : part.node_sets) set.nodes.clear();
-    });
-    expect_joined_alike(folder / "lacks.e", 3);
-  }
-}
-
-TEST(Slices, parts_of_gmsh_are_joined_one_at_a_time) {
-  const auto folder = test::output_folder();
-  Mesh mesh = sliceable(2, false, {6, 4, 4});
-  mesh.fields.clear();
-  mesh.side_sets.clear();
-  write_parts(mesh, folder / "gmsh.msh", 3, PartitionBy::boxes);
-  expect_joined_alike(folder / "gmsh.msh", 3);
-}
-
-TEST(Slices, wide_ids_are_joined_one_at_a_time) {
-  const auto folder = test::output_folder();
-  Mesh mesh = sliceable(4, false, {6, 4, 4});
-  need_ids(mesh);
-  for (std::int64_t& id : mesh.node_ids) id += std::int64_t{1} << 33;
-  for (std::int64_t& id : mesh.hex_ids) id += std::int64_t{1} << 33;
-  write_parts(mesh, folder / "wide.e", 4, PartitionBy::boxes);
-  ASSERT_TRUE(join_on_disk({folder / "wide.e", 4}, folder / "sliced.e", {}));
-  const Mesh at_once = read_parts(folder / "wide.e.4.0").mesh, sliced = read_mesh(folder / "sliced.e").mesh;
-  EXPECT_TRUE(test::same_mesh(sliced, at_once));
-  EXPECT_EQ(sliced.hex_ids.back(), mesh.hex_ids.back());
-}
-
-TEST(Slices, what_has_to_be_joined_in_memory_is) {
-  const auto folder = test::output_folder();
-  const Mesh grid = test::grid(4, 3, 3);
-  Mesh overlapping = grid, far = grid;
-  overlapping.blocks = {{1, "", {0, 1, 2, 3}}, {2, "", {3, 4}}};
-  need_ids(far);
-  far.hex_ids.back() = std::int64_t{1} << 41;
-  for (const auto& [name, mesh] : {std::pair("overlapping.e", &overlapping), {"far.e", &far}}) {
-    write_parts(*mesh, folder / name, 2, PartitionBy::ids);
-    EXPECT_FALSE(join_on_disk({folder / name, 2}, folder / "joined.e", {})) << name;
-    std::filesystem::remove(folder / "joined.e");
-    join_files(part_name(folder / name, 2, 0), folder / "joined.e");
-    EXPECT_EQ(read_mesh(folder / "joined.e").mesh.n_hexes(), 36);
-  }
-  write_parts(grid, folder / "grid.e", 2, PartitionBy::ids);
-  EXPECT_FALSE(join_on_disk({folder / "grid.e", 2}, folder / "joined.vtu", {}));
-}
-
-TEST(Slices, parts_that_do_not_fit_are_refused_and_nothing_is_written) {
-  const auto folder = test::output_folder();
-  const Mesh mesh = test::grid(4, 3, 2);
-  const auto error_of = [&](const auto& join_them) -> std::string {
-    try {
-      join_them();
-    } catch (const Error& error) {
-      return std::regex_replace(error.what(), std::regex(folder.string() + "/"), "");
-    }
-    return "joined";
-  };
-  const auto said = [&](const std::string& name) {
-    const auto first = part_name(folder / name, 3, 0);
-    const std::string text = error_of([&] { join_files(first, folder / "refused.e"); });
-    EXPECT_EQ(text, error_of([&] { read_parts(first); })) << "as in memory";
-    return text;
-  };
-  write_parts(mesh, folder / "moved.e", 3, PartitionBy::ids, [](int p, Mesh& part) {
-    if (p == 2)
-      for (Vec3& point : part.points) point.z() += 1;
-  });
-  EXPECT_EQ(said("moved.e"), "node 26 is at one place in moved.e.3.1 and at another in moved.e.3.2");
-  write_parts(mesh, folder / "twice.e", 3, PartitionBy::ids, [](int p, Mesh& part) {
-    if (p == 1) part.hex_ids.front() = 3;
-  });
-  EXPECT_EQ(said("twice.e"), "hex 3 is in twice.e.3.0 and in twice.e.3.1");
-  write_parts(mesh, folder / "missing.e", 3, PartitionBy::ids);
-  std::filesystem::remove(folder / "missing.e.3.2");
-  EXPECT_EQ(said("missing.e"), "missing.e.3.2: this part of 3 is missing");
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    EXPECT_FALSE(entry.path().filename().string().starts_with("refused") || entry.path().extension() == ".part")
-        << entry.path();
-}
-
-TEST(IdSet, knows_places_and_walks) {
-  std::mt19937 random(7);
-  for (const std::int64_t spread : {1, 3, 1000, 100000}) {
-    IdSet set;
-    std::vector<std::int64_t> ids;
-    for (int i = 0; i < 3000; ++i) {
-      const std::int64_t id =
-          static_cast<std::int64_t>(random() % 3000) * spread + static_cast<std::int64_t>(random() % 2);
-      const bool is_new = std::ranges::find(ids, id) == ids.end();
-      EXPECT_EQ(set.add(id), is_new);
-      if (is_new) ids.push_back(id);
-    }
-    std::ranges::sort(ids);
-    EXPECT_EQ(set.size(), std::ssize(ids));
-    EXPECT_EQ(set.highest(), ids.back());
-    EXPECT_FALSE(set.is_sparse());
-    IdSet::Walk walk(set);
-    for (const std::int64_t id : ids) EXPECT_EQ(walk.next(), id);
-    EXPECT_EQ(walk.next(), -1);
-    std::vector<std::int64_t> asked;
-    std::vector<Index> places;
-    for (std::size_t i = 0; i < ids.size(); i += 1 + random() % 9)
-      for (const bool is_there : {true, false}) {
-        const std::int64_t id = ids[i] + !is_there;
-        if (!is_there && i + 1 < ids.size() && ids[i + 1] == id) continue;
-        asked.push_back(id);
-        places.push_back(is_there ? static_cast<Index>(i) : -1);
-      }
-    EXPECT_EQ(set.places(asked), places);
-    set.add(std::int64_t{1} << 40);
-    EXPECT_TRUE(set.is_sparse());
   }
 }
 
