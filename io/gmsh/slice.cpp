@@ -43,7 +43,7 @@ class SlicedElements {
     if (dim < 0 || dim > 3 || block.kind != gmsh_kept[dim]) slice_.is_possible = false;
     entity_ = block.dim == gmsh_type(block.kind)->dim ? std::max(block.entity, 0) : 0;
     if (slice_.walk == GmshWalk::lower && slice_.is_possible) add_groups(dim);
-    if (slice_.walk == GmshWalk::all)
+    if (slice_.walk == GmshWalk::all && slice_.is_possible)
       contents_.elements[dim].runs.push_back({contents_.elements[dim].tags.size(), first});
     std::array<std::int64_t, most_gmsh_nodes> ids;
     const auto nodes = std::span(ids).first(n_nodes);
@@ -90,10 +90,10 @@ class SlicedElements {
   }
 
   void add_tag(std::int64_t tag) {
-    if (has_bit(slice_, tag))
-      slice_.hex_tags.set_more(static_cast<Index>(tag));
-    else
+    if (!has_bit(slice_, tag) || slice_.hex_tags.has_any(static_cast<Index>(tag)))
       slice_.is_possible = false;
+    else
+      slice_.hex_tags.set_more(static_cast<Index>(tag));
   }
   void add_key(int dim, std::span<const std::int64_t> nodes) {
     slice_.keys[dim - 1].push_back(nodes_key(nodes));
@@ -198,10 +198,12 @@ void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source) {
         }
         std::vector<bool> is_here(block.size, false);
         for (std::size_t i = 0; i < block.size; ++i) {
+          cursor.skip_text_blanks();
+          const char* before = cursor.at;
           const std::int64_t id = source.large("a node id");
           is_here[i] = is_read && has_id(slice, slice.nodes, id);
           if (!is_here[i]) continue;
-          runs.push_back({ids.size(), cursor.at});
+          if (i == 0 || !is_here[i - 1]) runs.push_back({ids.size(), before});
           ids.push_back(id);
         }
         for (std::size_t i = 0; i < block.size; ++i) {

@@ -270,6 +270,17 @@ void VtuFile::for_each_piece(const VtuArray& array, const std::function<void(std
   }
 }
 
+bool VtuFile::fits(std::size_t n_unpacked) const {
+  return n_unpacked / most_packed <= static_cast<std::size_t>(cursor_.end - cursor_.begin);
+}
+
+bool VtuFile::fits_unpacked() {
+  std::size_t sum = 0;
+  for (const VtuArray& array : arrays_)
+    if (!array.is_text && (array.is_base64 || is_compressed_)) sum += static_cast<std::size_t>(n_bytes(array));
+  return fits(sum);
+}
+
 VtkArray VtuFile::load(VtuArray& array) {
   VtkArray& to = array.head;
   if (array.is_text) {
@@ -282,10 +293,8 @@ VtkArray VtuFile::load(VtuArray& array) {
   if (!array.is_base64 && !is_compressed_) {
     for_each_piece(array, [&](std::string_view piece) { bytes = piece; });
   } else {
-    // Arrays may share what they are unpacked from.
     n_unpacked_ += static_cast<std::size_t>(n_bytes(array));
-    if (n_unpacked_ / most_packed > static_cast<std::size_t>(cursor_.end - cursor_.begin))
-      cursor_.fail("the arrays hold more than the file can");
+    if (!fits(n_unpacked_)) cursor_.fail("the arrays hold more than the file can");
     std::size_t n = 0;
     for_each_piece(array, [&](std::string_view piece) {
       to.own.resize((n + piece.size() + sizeof to.own[0] - 1) / sizeof to.own[0]);

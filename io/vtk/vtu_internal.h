@@ -39,6 +39,8 @@ class VtuFile {
   VtkArray load(VtuArray& array);
   /// How many bytes its numbers take, by what is said before them; of text -1.
   std::int64_t n_bytes(const VtuArray& array);
+  /// Whether all arrays together are no larger than the file can hold: they may share what they are unpacked from.
+  bool fits_unpacked();
   /// Calls use(bytes) for the bytes of the numbers as the file has them, piece after piece. Not of text.
   void for_each_piece(const VtuArray& array, const std::function<void(std::string_view)>& use);
   bool is_swapped() const { return is_swapped_; }
@@ -60,6 +62,7 @@ class VtuFile {
     std::uint64_t size_of(std::size_t i) const { return i + 1 == packed.size() && last > 0 ? last : plain; }
   };
   Blocks blocks(Stream& stream, const VtuArray& array);
+  bool fits(std::size_t n_unpacked) const;
   std::uint64_t number(Stream& stream, const VtuArray& array);
 
   Cursor cursor_;

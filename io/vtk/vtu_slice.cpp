@@ -290,6 +290,8 @@ class VtuSlice {
 std::optional<SlicedFile> vtu_in_slices(const std::filesystem::path& path) {
   const Bytes bytes = read_bytes(path);
   VtuFile file(bytes);
+  constexpr std::size_t most = std::numeric_limits<Index>::max();
+  if (file.n_points() > most || file.n_cells() > most || !file.fits_unpacked()) return std::nullopt;
   for (const VtuArray& array : file.arrays()) {
     const bool is_of_file =
         array.head.on == VtkArray::On::file && array.section != "Points" && array.section != "Cells";
