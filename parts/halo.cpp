@@ -105,9 +105,10 @@ LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPie
                      std::int64_t n_hexes) {
   MeshedModel all;
   {
-    std::vector<MeshedModel> to_join = {own};
-    for (const HaloPiece& piece : pieces) to_join.push_back(piece.meshed);
-    all = join(to_join, [&](std::size_t i) { return "part " + std::to_string(i == 0 ? number : pieces[i - 1].owner); });
+    std::vector<const MeshedModel*> to_join = {&own};
+    for (const HaloPiece& piece : pieces) to_join.push_back(&piece.meshed);
+    all = join(std::span<const MeshedModel* const>(to_join),
+               [&](std::size_t i) { return "part " + std::to_string(i == 0 ? number : pieces[i - 1].owner); });
   }
   all.model = own.model;
   const Mesh& mesh = all.mesh;
@@ -133,7 +134,7 @@ LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPie
     std::vector<Index> hexes;
     for (Index h = 0; h < mesh.n_hexes(); ++h)
       if (ring[h] != outside) hexes.push_back(h), take(h);
-    Patch patch = make_patch(all, std::move(hexes));
+    Patch patch = take_patch(all, std::move(hexes));
     for (const Index n : patch.nodes) local.base.node.push_back(node_id(mesh, n));
     local.meshed = std::move(patch.meshed);
   }

@@ -15,10 +15,10 @@ using Ids = std::vector<std::int64_t>;
 
 /// The ids of all pieces, ascending, each once.
 template <class IdOf>
-Ids all_ids(std::span<const MeshedModel> pieces, const IdOf& ids_of) {
+Ids all_ids(std::span<const MeshedModel* const> pieces, const IdOf& ids_of) {
   Ids all;
-  for (const MeshedModel& piece : pieces) {
-    const Ids ids = ids_of(piece.mesh);
+  for (const MeshedModel* piece : pieces) {
+    const Ids ids = ids_of(piece->mesh);
     all.insert(all.end(), ids.begin(), ids.end());
   }
   sort_unique(all);
@@ -117,21 +117,27 @@ struct Tidy {
 }  // namespace
 
 MeshedModel join(std::span<const MeshedModel> pieces, const std::function<std::string(std::size_t)>& name) {
+  std::vector<const MeshedModel*> all;
+  for (const MeshedModel& piece : pieces) all.push_back(&piece);
+  return join(std::span<const MeshedModel* const>(all), name);
+}
+
+MeshedModel join(std::span<const MeshedModel* const> pieces, const std::function<std::string(std::size_t)>& name) {
   MeshedModel whole;
   const Ids nodes = all_ids(pieces, node_ids_of), hexes = all_ids(pieces, hex_ids_of);
   const auto same_id = [](const auto& a, const auto& b) { return a.id == b.id; };
-  for (const MeshedModel& piece : pieces) {
-    if (!whole.model) whole.model = piece.model;
-    add_heads(piece.mesh.blocks, whole.mesh.blocks, same_id);
-    add_heads(piece.mesh.node_sets, whole.mesh.node_sets, same_id);
-    add_heads(piece.mesh.side_sets, whole.mesh.side_sets, same_id);
-    add_heads(piece.mesh.fields, whole.mesh.fields,
+  for (const MeshedModel* piece : pieces) {
+    if (!whole.model) whole.model = piece->model;
+    add_heads(piece->mesh.blocks, whole.mesh.blocks, same_id);
+    add_heads(piece->mesh.node_sets, whole.mesh.node_sets, same_id);
+    add_heads(piece->mesh.side_sets, whole.mesh.side_sets, same_id);
+    add_heads(piece->mesh.fields, whole.mesh.fields,
               [](const Field& a, const Field& b) { return a.on == b.on && a.name == b.name; });
   }
   std::vector<int> piece_of_hex(hexes.size(), -1), piece_of_node(nodes.size(), -1);
   whole.mesh.points.resize(nodes.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const MeshedModel& piece = pieces[p];
+    const MeshedModel& piece = *pieces[p];
     const std::vector<Index> node = places(node_ids_of(piece.mesh), nodes), hex = places(hex_ids_of(piece.mesh), hexes);
     const int me = static_cast<int>(p);
     for (const Index h : hex)

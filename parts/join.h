@@ -16,5 +16,6 @@ namespace hextwist {
 /// files said beyond (Mesh::results) is not joined.
 /// name: what messages call a piece. Throws Error when two pieces have the same hex, or a node at different places.
 MeshedModel join(std::span<const MeshedModel> pieces, const std::function<std::string(std::size_t)>& name);
+MeshedModel join(std::span<const MeshedModel* const> pieces, const std::function<std::string(std::size_t)>& name);
 
 }  // namespace hextwist

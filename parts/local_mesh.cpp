@@ -6,10 +6,15 @@
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/arrays.h"
 #include "hextwist/patch/patch.h"
 #include "hextwist/sizing/size_report.h"
 
 namespace hextwist {
+
+std::size_t array_bytes(const LocalMesh& local) {
+  return bytes_of_arrays(local.meshed);
+}
 
 std::int64_t n_own_hexes(const LocalMesh& local) {
   return std::ranges::count_if(local.base_of, [&](Index b) { return local.base.ring[b] == 0; });
@@ -40,7 +45,7 @@ void trim(LocalMesh& local, int n_rings, GlobalIds& ids) {
   const std::vector<Index> stay =
       indices_where(n, [&](Index h) { return local.base.ring[local.base_of[h]] <= n_rings; });
   if (std::ssize(stay) < n) {
-    Patch patch = make_patch(local.meshed, stay);
+    Patch patch = take_patch(local.meshed, stay);
     local.base_of = items_at(local.base_of, patch.hexes);
     local.meshed = std::move(patch.meshed);
     ids.node = items_at(ids.node, patch.nodes);

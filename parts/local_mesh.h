@@ -35,6 +35,8 @@ struct LocalMesh {
   int owner(Index hex) const { return base.owner[base_of[hex]]; }
 };
 std::int64_t n_own_hexes(const LocalMesh& local);
+/// Bytes of its mesh and of who owns what.
+std::size_t array_bytes(const LocalMesh& local);
 
 /// Takes away all rings beyond these, and their ids. Throws Error where what stays is not in the order of ids.
 void trim(LocalMesh& local, int n_rings, GlobalIds& ids);

@@ -18,7 +18,7 @@ OwnPart take_own(LocalMesh local, GlobalIds ids, int number, int n_parts) {
   OwnPart part;
   std::vector<Index> own = indices_where(mesh.n_hexes(), [&](Index h) { return owner[h] == number; });
   owner = {};
-  Patch patch = make_patch(local.meshed, std::move(own));
+  Patch patch = take_patch(local.meshed, std::move(own));
   local = {};
 
   part.file.number = number;

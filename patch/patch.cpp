@@ -54,6 +54,23 @@ struct CutOut {
   }
 };
 
+/// The same, and frees each array of the whole when the part has its own: but for ids, which a patch does not have.
+struct TakeOut {
+  const CutOut& cut_out;
+
+  template <class T>
+  void operator()(const ArrayTag& tag, std::vector<T>& whole, std::vector<T>& part) const {
+    cut_out(tag, whole, part);
+    if (tag.fresh != Fresh::id) std::vector<T>().swap(whole);
+  }
+  template <IsList Whole, IsList Part>
+  void operator()(const ArrayTag& tag, const Whole& whole, const Part& part) const {
+    cut_out(tag, whole, part);
+    std::remove_cvref_t<decltype(whole.items)>().swap(whole.items);
+    if (whole.values) std::remove_cvref_t<decltype(*whole.values)>().swap(*whole.values);
+  }
+};
+
 /// Leaves out curve edges of which a patch has both nodes, but no hex: such an edge runs past its border. In a base
 /// they would stay where the whole has cut them.
 void leave_out_edges_elsewhere(const Mesh& mesh, Association& association) {
@@ -84,7 +101,11 @@ Index Patch::local_node(Index node) const {
   return found != nodes.end() && *found == node ? static_cast<Index>(found - nodes.begin()) : -1;
 }
 
-Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
+namespace {
+
+/// Whole: const, or not where it is used up.
+template <class Whole>
+Patch patch_of(Whole& whole, std::vector<Index> hexes) {
   Patch patch;
   patch.hexes = std::move(hexes);
   RankedBits number(whole.mesh.points.size());
@@ -95,9 +116,23 @@ Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
   patch.meshed.model = whole.model;
   copy_heads(whole.mesh, patch.meshed.mesh);
   patch.meshed.mesh.others = nullptr;
-  for_each_array(CutOut{patch, number}, whole, patch.meshed);
+  const CutOut cut_out{patch, number};
+  if constexpr (std::is_const_v<Whole>)
+    for_each_array(cut_out, whole, patch.meshed);
+  else
+    for_each_array(TakeOut{cut_out}, whole, patch.meshed);
   leave_out_edges_elsewhere(patch.meshed.mesh, patch.meshed.association);
   return patch;
+}
+
+}  // namespace
+
+Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes) {
+  return patch_of(whole, std::move(hexes));
+}
+
+Patch take_patch(MeshedModel& whole, std::vector<Index> hexes) {
+  return patch_of(whole, std::move(hexes));
 }
 
 bool touch_others(const Mesh& mesh, std::span<const Index> hexes) {

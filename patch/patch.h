@@ -57,6 +57,8 @@ struct Patch {
 };
 /// Other elements (mesh/others.h) are not cut out: who changes a patch sees to it that none touches it.
 Patch make_patch(const MeshedModel& whole, std::vector<Index> hexes);
+/// The same of a mesh that is needed no longer: array by array, so that both are never there at once. Ids stay.
+Patch take_patch(MeshedModel& whole, std::vector<Index> hexes);
 /// Has any of these hexes a node that another element has too?
 bool touch_others(const Mesh& mesh, std::span<const Index> hexes);
 /// Gives the mesh of a patch, which has none, the ids of the whole.

@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 #include "exit_status.h"
 #include "hextwist/base/memory.h"
@@ -13,7 +14,19 @@
 namespace hextwist::app {
 namespace {
 
+/// The most that any rank takes of memory, over the arrays of its part before and after, and its halo; empty: unknown.
+std::string over_arrays(Ranks& ranks, std::size_t at_start, std::size_t array_bytes) {
+  const double times =
+      array_bytes > 0 ? static_cast<double>(peak_memory() - at_start) / static_cast<double>(array_bytes) : 0;
+  const double most = ranks.largest(std::vector{times})[0];
+  std::ostringstream text;
+  text.precision(2);
+  if (most > 0) text << ", " << most << " times its arrays beside the program";
+  return text.str();
+}
+
 void run(Ranks& ranks, const MpiOptions& options) {
+  const std::size_t at_start = peak_memory();
   const auto say = [&](const std::string& line) {
     if (ranks.is_first()) std::cout << line << "\n" << std::flush;
   };
@@ -31,12 +44,13 @@ void run(Ranks& ranks, const MpiOptions& options) {
   RankPart part = read_in_ranks(ranks, options.mesh, options.cad, by, say);
   InRanks made = refine_in_ranks(ranks, part, *commands, {options.rings, !options.fixed}, say);
   part = {};
+  const std::size_t array_bytes = made.array_bytes;
   if (!options.output.empty())
     for (const std::string& line : write_in_ranks(ranks, std::move(made), options.output)) say(line);
   const std::int64_t peak = ranks.largest(static_cast<std::int64_t>(peak_memory()));
-  say("at most " + std::to_string(peak >> 20) + " MiB a process; sent " +
-      std::to_string(ranks.sum(ranks.n_messages())) + " messages, " + std::to_string(ranks.sum(ranks.n_bytes())) +
-      " bytes");
+  say("at most " + std::to_string(peak >> 20) + " MiB a process" + over_arrays(ranks, at_start, array_bytes) +
+      "; sent " + std::to_string(ranks.sum(ranks.n_messages())) + " messages, " +
+      std::to_string(ranks.sum(ranks.n_bytes())) + " bytes");
 }
 
 int main(int argc, char** argv) {

@@ -146,6 +146,7 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
   InRanks made;
   made.n_rings = n_rings;
   made.local = with_halo(ranks, part, n_rings);
+  made.array_bytes = array_bytes(made.local);
   made.ids = {made.local.base.node, made.local.base.hex, part.highest_node, part.highest_hex};
   std::vector<Approach> approaches;
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -188,6 +189,7 @@ std::optional<InRanks> try_to_refine(Ranks& ranks, const RankPart& part, const P
     lines.push_back(std::to_string(n_before) + " -> " + std::to_string(n_after) + " hexes in " +
                     counted(ranks.size(), "part") + " of at most " + std::to_string(largest));
   }
+  made.array_bytes += array_bytes(made.local);
   std::vector<std::int64_t> n_of_base(made.local.base.hex.size(), 0);
   for (const Index b : made.local.base_of) ++n_of_base[b];
   for (std::size_t b = 0; b < n_of_base.size(); ++b)

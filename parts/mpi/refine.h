@@ -22,6 +22,7 @@ struct InRanks {
   int n_rings = 0;  ///< that halos began with
   int n_restarts = 0;
   std::vector<std::int64_t> n_made;  ///< per hex of the rank's part before: what has become of it
+  std::size_t array_bytes = 0;       ///< of the part before and after, each with its halo
 };
 
 struct RankOptions {
