@@ -99,8 +99,7 @@ class ExodusReader {
   Index node(std::int64_t position, const std::string& who) const {
     if (position < 1 || position > init_.num_nodes)
       fail(who + " names node " + std::to_string(position) + " of " + std::to_string(init_.num_nodes));
-    const Index at =
-        is_slice_ ? is_here_.find(static_cast<Index>(position - 1)) : static_cast<Index>(position - 1);
+    const Index at = is_slice_ ? is_here_.find(static_cast<Index>(position - 1)) : static_cast<Index>(position - 1);
     return at < 0 || nodes_.place().empty() ? at : nodes_.place()[at];
   }
 
