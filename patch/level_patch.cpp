@@ -52,6 +52,18 @@ void keep_border_faces(const MeshedModel& before, std::span<const std::uint8_t> 
   set_surface_faces(association, std::move(faces));
 }
 
+/// Nodes that stay are of what they were of. Where a hex of the outermost ring is on a surface by an edge alone, the
+/// face that says so is outside, and the nodes of that edge are made as if they were inside their volume.
+void keep_owners(const Association& before, std::span<const Index> old_node, Association& association) {
+  if (before.node_owner.empty()) return;
+  for (std::size_t n = 0; n < old_node.size(); ++n) {
+    const Index old = old_node[n];
+    if (old < 0 || association.node_owner[n] == before.node_owner[old]) continue;
+    association.node_owner[n] = before.node_owner[old];
+    association.node_parameters[n] = before.node_parameters[old];
+  }
+}
+
 PatchNumbers numbers_of(const ForestPatch& made, const MeshedModel& input, const RefineResult& result,
                         std::span<const Index> roots, const std::vector<Index>& cut, const Mesh& base, bool is_bare) {
   const HandedHexes& local = result.levelling->forest.grown->hexes;
@@ -298,6 +310,7 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
       for (const Index h : part.patch.hexes)
         is_border.push_back(rings->ring[position_in(rings->hexes, grown.hexes.root(h))] == n_rings);
       keep_border_faces(part.patch.meshed, is_border, numbers.old_hex, result.refined.association);
+      keep_owners(part.patch.meshed.association, numbers.old_node, result.refined.association);
     }
     if (levels.is_repaired || !is_wide_enough(*rings, grown.hexes, part, numbers, result.refined.mesh) ||
         !keeps_levels(part.patch.meshed.mesh, result.refined.mesh, numbers))
