@@ -33,7 +33,8 @@ struct WholeOfPieces {
 /// once.
 class PiecewiseFile {
  public:
-  /// Tells what can't be kept. Throws Error naming the file, as all functions do.
+  /// The whole stays where it is meanwhile. Tells what can't be kept. Throws Error naming the file, as all functions
+  /// do.
   PiecewiseFile(const std::filesystem::path& file, const WholeOfPieces& whole, std::vector<std::string>& notices);
   ~PiecewiseFile();
   /// is_known: per node of the piece, whether a piece before had it; where this one lacks a field, what that one said

@@ -13,6 +13,7 @@
 #include "hextwist/mesh/arrays.h"
 #include "hextwist/parts/id_set.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/source.h"
 
 namespace hextwist {
 namespace {
@@ -58,7 +59,7 @@ class Joining {
       check_interrupt();
       std::vector<std::string> told_before;
       const Mesh part = read(p, told_before);
-      const std::vector<Index> node = nodes_.places(ids_of(part, Field::On::node)), hex = hex_places(part);
+      const std::vector<Index> node = nodes_.places(part.node_ids), hex = places_of_hexes(part.hex_ids);
       if (sizes_[static_cast<std::size_t>(p)] != std::pair(part.n_nodes(), part.n_hexes()) ||
           std::ranges::find(node, -1) != node.end() || std::ranges::find(hex, -1) != hex.end())
         throw Error(name(p) + ": was changed while it was read");
@@ -75,31 +76,28 @@ class Joining {
 
  private:
   std::string name(int p) const { return part_name(split_.name, split_.n_parts, p).string(); }
-  Mesh read(int p, std::vector<std::string>& notices) { return read_one_part(split_, p, head_, notices, fence_); }
-
-  static LongIds ids_of(const Mesh& mesh, Field::On on) {
-    LongIds ids(on == Field::On::node ? mesh.points.size() : mesh.hexes.size());
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      ids[i] = on == Field::On::node ? node_id(mesh, static_cast<Index>(i)) : hex_id(mesh, static_cast<Index>(i));
-    return ids;
+  Mesh read(int p, std::vector<std::string>& notices) {
+    Mesh part = read_one_part(split_, p, head_, notices, fence_);
+    need_ids(part);
+    return part;
   }
-  /// Per hex the place of its block in the mesh, -1 where it has none; nothing where it has several.
-  static std::optional<std::vector<int>> blocks_of(const Mesh& mesh) {
+
+  /// Per hex the place of its block in the mesh, -1 where it has none.
+  static std::vector<int> blocks_of(const Mesh& mesh) {
     std::vector<int> block(mesh.hexes.size(), -1);
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      for (const Index h : mesh.blocks[b].hexes)
-        if (std::exchange(block[h], static_cast<int>(b)) >= 0) return std::nullopt;
+      for (const Index h : mesh.blocks[b].hexes) block[h] = static_cast<int>(b);
     return block;
   }
 
   bool look_at(int p, const Mesh& part) {
     sizes_.emplace_back(part.n_nodes(), part.n_hexes());
-    const std::optional<std::vector<int>> block = blocks_of(part);
     constexpr std::int64_t highest = std::int64_t{1} << 40;
-    const LongIds node_ids = ids_of(part, Field::On::node), hex_ids = ids_of(part, Field::On::hex);
+    const LongIds &node_ids = part.node_ids, &hex_ids = part.hex_ids;
     for (const LongIds* ids : {&node_ids, &hex_ids})
       if (!ids->empty() && (ids->front() < 0 || ids->back() > highest)) return false;
-    if (!block) return false;
+    if (in_two_blocks(part) >= 0) return false;
+    const std::vector<int> block = blocks_of(part);
     for (const std::int64_t id : node_ids) nodes_.add(id);
     std::vector<IdSet*> of_block;
     for (const Block& one : part.blocks) of_block.push_back(&in_block_[one.id]);
@@ -109,7 +107,7 @@ class Joining {
         twice_ = hex_ids[h];
         second_ = p;
       }
-      ((*block)[h] < 0 ? rest : *of_block[static_cast<std::size_t>((*block)[h])]).add(hex_ids[h]);
+      (block[h] < 0 ? rest : *of_block[static_cast<std::size_t>(block[h])]).add(hex_ids[h]);
     }
     if (nodes_.is_sparse() || hexes_.is_sparse()) return false;
     for (const NodeSet& set : part.node_sets)
@@ -119,7 +117,7 @@ class Joining {
     for (const Field& field : part.fields) {
       const auto [at, is_new] = components_.emplace(std::pair(field.on, field.name), field.components);
       if (!is_new && at->second != field.components) return false;
-      if (field.on == Field::On::hex) look_for_values(part, *block, field);
+      if (field.on == Field::On::hex) look_for_values(part, block, field);
     }
     copy_heads(part, heads_.emplace_back().mesh);
     return true;
@@ -180,7 +178,6 @@ class Joining {
     }
     return result;
   }
-  std::vector<Index> hex_places(const Mesh& part) const { return places_of_hexes(ids_of(part, Field::On::hex)); }
 
   void compare_points(int p, const Mesh& part, std::span<const Index> places, std::span<const std::uint8_t> is_known,
                       const PiecewiseFile& file) {
@@ -193,20 +190,20 @@ class Joining {
     const std::vector<Vec3> points = file.points(known);
     for (std::size_t i = 0; i < here.size(); ++i)
       if (points[i] != part.points[here[i]]) {
-        const std::int64_t id = node_id(part, here[i]);
-        throw Error("node " + std::to_string(id) + " is at one place in " + name(last_with(p, Field::On::node, id)) +
+        const std::int64_t id = part.node_ids[here[i]];
+        throw Error("node " + std::to_string(id) + " is at one place in " + name(last_with(p, &Mesh::node_ids, id)) +
                     " and at another in " + name(p));
       }
   }
   [[noreturn]] void tell_twice() {
-    throw Error("hex " + std::to_string(twice_) + " is in " + name(last_with(second_, Field::On::hex, twice_)) +
+    throw Error("hex " + std::to_string(twice_) + " is in " + name(last_with(second_, &Mesh::hex_ids, twice_)) +
                 " and in " + name(second_));
   }
   /// The last part before p that has this node or hex.
-  int last_with(int p, Field::On on, std::int64_t id) {
+  int last_with(int p, LongIds Mesh::*ids, std::int64_t id) {
     std::vector<std::string> ignored;
     while (--p > 0)
-      if (std::ranges::binary_search(ids_of(read(p, ignored), on), id)) break;
+      if (std::ranges::binary_search(read(p, ignored).*ids, id)) break;
     return p;
   }
 

@@ -17,6 +17,10 @@ inline constexpr std::array<std::array<int, 4>, 6> exodus_side = {
 inline constexpr std::array<int, 6> exodus_face = {
     face_of_file_corners(exodus_side[0]), face_of_file_corners(exodus_side[1]), face_of_file_corners(exodus_side[2]),
     face_of_file_corners(exodus_side[3]), face_of_file_corners(exodus_side[4]), face_of_file_corners(exodus_side[5])};
+/// The number of the side, from 1, that is our face.
+constexpr int exodus_side_of(int face) {
+  return static_cast<int>(std::ranges::find(exodus_face, face) - exodus_face.begin()) + 1;
+}
 /// Our corners of a face in that order.
 constexpr std::array<int, 4> exodus_cycle(int face) {
   std::array<int, 4> corners{};

@@ -25,6 +25,12 @@ void ExodusOutput::put_sizes(ex_init_params sizes, const std::string& title, std
   check(ex_put_init_ext(file_, &sizes));
 }
 
+void ExodusOutput::put_coordinates(int axis, std::size_t first, std::span<const double> values) {
+  std::array<const double*, 3> x{};
+  x[axis] = values.data();
+  check(ex_put_partial_coord(file_, exodus_position(first), std::ssize(values), x[0], x[1], x[2]));
+}
+
 void ExodusOutput::put_coordinate_names(std::array<std::string, 3> names) {
   std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
   check(ex_put_coord_names(file_, pointers.data()));

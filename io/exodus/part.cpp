@@ -67,7 +67,7 @@ void write_exodus_part(const ExodusTarget& to, const FilePart& part, const Exodu
     Int64s members, sides, parts(shared.sides.size(), shared.part);
     for (const Side& side : shared.sides) {
       members.push_back(element_of_hex[side.hex]);
-      sides.push_back(std::ranges::find(exodus_face, side.face) - exodus_face.begin() + 1);
+      sides.push_back(exodus_side_of(side.face));
     }
     to.check(ex_put_elem_cmap(to.file, shared.part + 1, members.data(), sides.data(), parts.data(), part.number));
   }

@@ -15,7 +15,6 @@ class ExodusPieces {
  public:
   ExodusPieces(const std::filesystem::path& file, const WholeOfPieces& whole, std::vector<std::string>& notices)
       : replacement_(file, true), out_(replacement_), heads_(whole.heads), values_(heads_, notices) {
-    if (replacement_.direct()) replacement_.fail("is not an ordinary file, as Exodus II needs");
     const int rest = free_id(heads_.blocks);
     for (std::size_t b = 0; b < heads_.blocks.size(); ++b)
       add_block({heads_.blocks[b].id, heads_.blocks[b].id, heads_.blocks[b].name, {}}, whole.in_block[b]);
@@ -99,7 +98,7 @@ class ExodusPieces {
       std::vector<int> members, sides;
       for (const Side& side : set.sides) {
         members.push_back(side.hex + 1);
-        sides.push_back(static_cast<int>(std::ranges::find(exodus_face, side.face) - exodus_face.begin()) + 1);
+        sides.push_back(exodus_side_of(side.face));
       }
       out_.put_set(EX_SIDE_SET, set.id, set.name, members, sides, {});
     }
@@ -141,10 +140,7 @@ class ExodusPieces {
       for_each_node_run(places, [&](std::size_t begin, std::size_t n) {
         values.clear();
         for (std::size_t i = 0; i < n; ++i) values.push_back(piece.points[begin + i][axis]);
-        std::array<const double*, 3> x{};
-        x[axis] = values.data();
-        out_.check(ex_put_partial_coord(out_.file(), places[begin] + std::int64_t{1}, static_cast<std::int64_t>(n),
-                                        x[0], x[1], x[2]));
+        out_.put_coordinates(axis, static_cast<std::size_t>(places[begin]), values);
       });
   }
 
@@ -192,7 +188,7 @@ class ExodusPieces {
 
   Replacement replacement_;
   ExodusOutput out_;
-  Mesh heads_;
+  const Mesh& heads_;
   ExodusValues values_;
   std::vector<ExodusPart> parts_;
   std::vector<std::int64_t> first_ = {0};  // places of the hexes of each part

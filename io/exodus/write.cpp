@@ -264,9 +264,7 @@ class ExodusWriter {
     for (int axis = 0; axis < 3; ++axis)
       in_pieces(mesh_.points.size(), [&](std::size_t first, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) values[i] = mesh_.points[first + i][axis];
-        std::array<const double*, 3> x{};
-        x[axis] = values.data();
-        check(ex_put_partial_coord(out_.file(), exodus_position(first), exodus_position(n - 1), x[0], x[1], x[2]));
+        out_.put_coordinates(axis, first, std::span(values).first(n));
       });
     std::array<std::string, 3> names = {"x", "y", "z"};
     if (extras_ && extras_->coordinate_names.size() == 3) std::ranges::copy(extras_->coordinate_names, names.begin());
@@ -422,13 +420,11 @@ class ExodusWriter {
       for (const Index n : set.nodes) members.push_back(n + 1);
       out_.put_set(EX_NODE_SET, in_file(Of::node_set, set.id), set.name, members, {}, values_.factors(set));
     }
-    std::array<int, 6> side_of_face{};
-    for (int side = 0; side < 6; ++side) side_of_face[exodus_face[side]] = side + 1;
     for (const SideSet& set : mesh_.side_sets) {
       Ints members, sides;
       for (const Side& side : set.sides) {
         members.push_back(element_of_hex[side.hex]);
-        sides.push_back(side_of_face[side.face]);
+        sides.push_back(exodus_side_of(side.face));
       }
       std::vector<double> factors = values_.factors(set);
       const bool alike = std::ranges::adjacent_find(factors, std::ranges::not_equal_to{}) == factors.end();
@@ -487,7 +483,6 @@ class ExodusWriter {
 void write_exodus(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options,
                   std::vector<std::string>& notices) {
   Replacement replacement(file, options.overwrite);
-  if (replacement.direct()) replacement.fail("is not an ordinary file, as Exodus II needs");
   ExodusWriter(replacement, mesh, options.second, nullptr, notices).write();
   replacement.commit();
 }
@@ -502,7 +497,6 @@ BlockCounts block_counts(const Mesh& mesh, std::span<const std::int64_t> sizes) 
 }
 
 void write_part(const Replacement& to, const Mesh& mesh, const FilePart& part, std::vector<std::string>& notices) {
-  if (to.direct()) to.fail("is not an ordinary file, as Exodus II needs");
   io::ExodusWriter(to, mesh, nullptr, &part, notices).write();
 }
 

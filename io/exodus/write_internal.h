@@ -29,7 +29,9 @@ struct ExodusPart {
 /// The file while it is written: calls of the library that say when they fail.
 class ExodusOutput {
  public:
-  explicit ExodusOutput(const Replacement& to) : to_(to) {}
+  explicit ExodusOutput(const Replacement& to) : to_(to) {
+    if (to.direct()) to.fail("is not an ordinary file, as Exodus II needs");
+  }
   ~ExodusOutput() {
     if (file_ >= 0) ex_close(file_);
   }
@@ -44,6 +46,8 @@ class ExodusOutput {
   /// wide: with ids or properties beyond 32 bits.
   void create(bool wide, std::size_t n_hexes, int nodes_per_hex);
   void put_sizes(ex_init_params sizes, const std::string& title, std::size_t longest_name);
+  /// Of one axis, for nodes from this 0-based place on.
+  void put_coordinates(int axis, std::size_t first, std::span<const double> values);
   void put_coordinate_names(std::array<std::string, 3> names = {"x", "y", "z"});
   void put_block(const ExodusPart& part, const std::string& type, std::int64_t n, int nodes_each,
                  std::int64_t n_attributes);

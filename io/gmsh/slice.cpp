@@ -255,7 +255,6 @@ MeshSlice read_gmsh_slice(const SlicedFile& file, int number, int n) {
   MeshSlice result;
   if (slice.begin == slice.end) return result;
   const Cursor cursor(bytes);
-  // Ids of the whole, also where those here are 1 .. n.
   result.file = assemble_gmsh(std::move(contents), cursor);
   return result;
 }

@@ -202,12 +202,17 @@ void VtuFile::fail_truncated(const VtuArray& array) {
   cursor_.fail_truncated("the data of array " + shown(array.head.name));
 }
 
+Cursor VtuFile::numbers(std::string_view bytes) const {
+  Cursor cursor(bytes, cursor_.name);
+  cursor.binary = true;
+  cursor.swapped = is_swapped_;
+  return cursor;
+}
+
 std::uint64_t VtuFile::number(Stream& stream, const VtuArray& array) {
   const auto bytes = stream.take(has_wide_sizes_ ? 8 : 4);
   if (!bytes) fail_truncated(array);
-  Cursor cursor(*bytes, cursor_.name);
-  cursor.binary = true;
-  cursor.swapped = is_swapped_;
+  Cursor cursor = numbers(*bytes);
   return has_wide_sizes_ ? cursor.raw<std::uint64_t>("a size") : std::uint64_t{cursor.raw<std::uint32_t>("a size")};
 }
 
@@ -303,9 +308,7 @@ VtkArray VtuFile::load(VtuArray& array) {
     });
     bytes = {reinterpret_cast<const char*>(to.own.data()), n};
   }
-  Cursor values(bytes, cursor_.name);
-  values.binary = true;
-  values.swapped = is_swapped_;
+  Cursor values = numbers(bytes);
   read_vtk_values(values, array.type, bytes.size() / vtk_size(array.type), to);
   return std::move(to);
 }

@@ -43,7 +43,8 @@ class VtuFile {
   bool fits_unpacked();
   /// Calls use(bytes) for the bytes of the numbers as the file has them, piece after piece. Not of text.
   void for_each_piece(const VtuArray& array, const std::function<void(std::string_view)>& use);
-  bool is_swapped() const { return is_swapped_; }
+  /// For numbers as the file has them.
+  Cursor numbers(std::string_view bytes) const;
 
  private:
   class Stream;

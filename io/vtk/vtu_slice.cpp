@@ -26,9 +26,7 @@ void for_each_number(VtuFile& file, const VtuArray& array, const Use& use) {
   std::string rest;  // a number that is in two pieces
   std::size_t first = 0;
   const auto hand_out = [&](std::string_view bytes) {
-    Cursor values(bytes, file.cursor().name);
-    values.binary = true;
-    values.swapped = file.is_swapped();
+    Cursor values = file.numbers(bytes);
     VtkArray numbers;
     read_vtk_values(values, array.type, bytes.size() / size, numbers);
     use(first, numbers);
@@ -82,9 +80,7 @@ VtkArray picked(VtuFile& file, const VtuArray& array, const Wanted& wanted, std:
     }
     begin = end;
   });
-  Cursor values(std::string_view(data, wanted.n * bytes_each), file.cursor().name);
-  values.binary = true;
-  values.swapped = file.is_swapped();
+  Cursor values = file.numbers({data, wanted.n * bytes_each});
   read_vtk_values(values, array.type, wanted.n * width, to);
   return to;
 }

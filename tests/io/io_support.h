@@ -29,15 +29,20 @@ inline std::filesystem::path write_text(const std::filesystem::path& file, const
   return file;
 }
 
-/// What read_mesh() says about a file that it should refuse.
-inline std::string refusal(const std::filesystem::path& file) {
+/// What the Error says that a call should throw, in one line.
+template <class Does>
+std::string error_of(const Does& does) {
   try {
-    read_mesh(file);
+    does();
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     return error.what();
   }
   return "no error";
+}
+/// What read_mesh() says about a file that it should refuse.
+inline std::string refusal(const std::filesystem::path& file) {
+  return error_of([&] { read_mesh(file); });
 }
 
 /// A shuffled grid with awkward coordinates, overlapping blocks, hexes in no block, node sets, side sets with sides

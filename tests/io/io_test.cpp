@@ -241,12 +241,7 @@ TEST(mesh_files, missing_empty_and_unknown_files_are_refused) {
 }
 
 std::string write_refusal(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options = {}) {
-  try {
-    write_mesh(file, mesh, nullptr, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { write_mesh(file, mesh, nullptr, options); });
 }
 
 std::size_t n_entries(const std::filesystem::path& folder) {

@@ -110,13 +110,8 @@ TEST(JoinOnDisk, what_has_to_be_joined_in_memory_is) {
 TEST(JoinOnDisk, parts_that_do_not_fit_are_refused_and_nothing_is_written) {
   const auto folder = test::output_folder();
   const Mesh mesh = test::grid(4, 3, 2);
-  const auto error_of = [&](const auto& join_them) -> std::string {
-    try {
-      join_them();
-    } catch (const Error& error) {
-      return std::regex_replace(error.what(), std::regex(folder.string() + "/"), "");
-    }
-    return "joined";
+  const auto error_of = [&](const auto& join_them) {
+    return std::regex_replace(test::error_of(join_them), std::regex(folder.string() + "/"), "");
   };
   const auto said = [&](const std::string& name) {
     const auto first = part_name(folder / name, 3, 0);

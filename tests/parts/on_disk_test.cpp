@@ -100,14 +100,11 @@ TEST(SlowOnDisk, is_the_same_as_at_once) {
 
 TEST(OnDisk, says_what_is_wrong_and_writes_nothing) {
   const auto folder = split_grid("6 4 4", 2, PartitionBy::slabs);
-  const auto said = [&](const std::string& commands) -> std::string {
-    try {
+  const auto said = [&](const std::string& commands) {
+    return test::error_of([&] {
       refine_on_disk(folder / "parts.e.2.1", PartCommands(std::vector{commands}), folder / "no.e", {},
                      [](const std::string&) {});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    });
   };
   EXPECT_EQ(said("refine hex 1 97 98"), "there is no hex 97");
   EXPECT_NE(said("refine hex 1; refine hex 96").find("a second level: "), std::string::npos);

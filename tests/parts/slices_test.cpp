@@ -215,20 +215,12 @@ TEST(Slices, of_msh_are_not_made_of_what_they_would_lose) {
   EXPECT_FALSE(in_slices(folder / "old.msh"));
   // Damage is found by the slice that has it.
   const auto damaged = file_of("1 2 1 2\n3 1 5 2\n1 1 2 4 3 5 6 8 7\n2 5 6 8 7 9 10 12 77\n");
-  const auto error_of = [&](const auto& read) -> std::string {
-    try {
-      read();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   const std::optional<SlicedFile> sliced = in_slices(damaged);
   ASSERT_TRUE(sliced);
-  const std::string at_once = error_of([&] { read_mesh(damaged); });
+  const std::string at_once = test::error_of([&] { read_mesh(damaged); });
   EXPECT_NE(at_once.find("names node 77"), std::string::npos) << at_once;
-  EXPECT_EQ(error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
-  EXPECT_EQ(error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, of_vtu_are_not_made_of_what_they_would_lose) {
@@ -245,25 +237,17 @@ TEST(Slices, of_vtu_are_not_made_of_what_they_would_lose) {
   EXPECT_FALSE(in_slices(folder / "second.vtu"));
   // Damage is found by the slice that has it, in the same words.
   std::string text = test::text_of(folder / "whole.vtu");
-  const auto error_of = [&](const auto& read) -> std::string {
-    try {
-      read();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   const std::size_t at = text.find("Name=\"connectivity\""), offset_at = text.find("offset=\"", at) + 8;
   const std::size_t data = text.find('_', text.find("<AppendedData")) + 1 + std::stoul(text.substr(offset_at));
   const std::int32_t wrong = 77;
   std::memcpy(&text[data + 8 + 4 * (8 * 23 + 3)], &wrong, sizeof wrong);
   test::write_text(folder / "damaged.vtu", text);
-  const std::string at_once = error_of([&] { read_mesh(folder / "damaged.vtu"); });
+  const std::string at_once = test::error_of([&] { read_mesh(folder / "damaged.vtu"); });
   EXPECT_EQ(at_once, (folder / "damaged.vtu").string() + ": cell 24 names point 77 of 60 (counted from 0)");
   const std::optional<SlicedFile> sliced = in_slices(folder / "damaged.vtu");
   ASSERT_TRUE(sliced);
-  EXPECT_EQ(error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
-  EXPECT_EQ(error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, are_not_made_of_what_they_would_lose) {
@@ -318,20 +302,12 @@ TEST(Slices, a_damaged_file_is_refused_as_at_once) {
   nodes.back() = 61;
   ASSERT_GE(ex_put_conn(file, EX_ELEM_BLOCK, blocks[0], nodes.data(), nullptr, nullptr), 0);
   ex_close(file);
-  const auto said = [&](const auto& read) -> std::string {
-    try {
-      read();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   const std::optional<SlicedFile> sliced = in_slices(folder / "damaged.e");
   ASSERT_TRUE(sliced);
-  const std::string at_once = said([&] { read_mesh(folder / "damaged.e"); });
+  const std::string at_once = test::error_of([&] { read_mesh(folder / "damaged.e"); });
   EXPECT_EQ(at_once, (folder / "damaged.e").string() + ": element 24 names node 61 of 60");
-  EXPECT_EQ(said([&] { read_slice(*sliced, 1, 2); }), at_once);
-  EXPECT_EQ(said([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
+  EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
 }
 
 TEST(Slices, a_file_is_divided_as_in_memory) {

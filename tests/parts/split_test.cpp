@@ -23,15 +23,6 @@ std::string faults_text(const std::filesystem::path& name, int n_parts) {
   for (const std::string& line : test::split_faults(name, n_parts)) text += line + "\n";
   return text;
 }
-template <class F>
-std::string refusal_of(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 void write_parts(const Mesh& mesh, const std::filesystem::path& name, const std::vector<int>& part_of_hex, int n) {
   const MeshedModel whole{mesh, nullptr, {}};
   const Splitting splitting(whole, part_of_hex, n);
@@ -72,7 +63,7 @@ TEST(SplitName, is_that_of_a_gmsh_file_where_gmsh_has_split_it) {
   for (const char* no : {"whole_2.msh", "mesh_4.msh", "mesh.msh"}) EXPECT_EQ(split_name(folder / no).n_parts, 0) << no;
   std::filesystem::rename(folder / "mesh_1.msh", folder / "mesh_4.msh");
   EXPECT_EQ(split_name(folder / "mesh_4.msh").n_parts, 0);
-  const auto refusal = [&] { return refusal_of([&] { read_parts(folder / "mesh_2.msh"); }); };
+  const auto refusal = [&] { return test::error_of([&] { read_parts(folder / "mesh_2.msh"); }); };
   EXPECT_EQ(refusal(), (folder / "mesh_1.msh").string() + ": this part of 3 is missing");
   std::filesystem::copy(folder / "mesh_3.msh", folder / "mesh_1.msh");
   EXPECT_EQ(refusal(), (folder / "mesh_1.msh").string() + ": is partition 3 of 3, by its name it would be 1");
@@ -99,9 +90,9 @@ TEST(Partition, gives_every_hex_a_part_and_every_part_a_fair_share) {
 }
 
 TEST(Partition, refuses_more_parts_than_hexes) {
-  EXPECT_EQ(refusal_of([] { partition(test::grid(2, 1, 1), 3, PartitionBy::slabs); }),
+  EXPECT_EQ(test::error_of([] { partition(test::grid(2, 1, 1), 3, PartitionBy::slabs); }),
             "a mesh of 2 hexes has no 3 parts");
-  EXPECT_EQ(refusal_of([] { partition(test::grid(2, 1, 1), 0, PartitionBy::slabs); }),
+  EXPECT_EQ(test::error_of([] { partition(test::grid(2, 1, 1), 0, PartitionBy::slabs); }),
             "the number of parts must be at least 1");
 }
 
@@ -258,7 +249,7 @@ TEST(Join, refuses_parts_that_do_not_belong_together) {
     write_parts(mesh, folder / name, partition(mesh, n, PartitionBy::slabs), n);
   };
   const auto said = [&](const char* part) {
-    std::string text = refusal_of([&] { read_parts(folder / part); });
+    std::string text = test::error_of([&] { read_parts(folder / part); });
     for (std::size_t at; (at = text.find(folder.string() + "/")) != std::string::npos;)
       text.erase(at, folder.string().size() + 1);
     return text;
@@ -312,7 +303,7 @@ TEST(Split, second_order_is_refused) {
   WriteOptions options;
   options.order = 2;
   write_mesh(folder / "a.e", test::grid(2, 2, 2), nullptr, options);
-  EXPECT_NE(refusal_of([&] {
+  EXPECT_NE(test::error_of([&] {
               split_file(folder / "a.e", folder / "b.e", 2, PartitionBy::slabs);
             }).find("a.e: hexes of 20 nodes are not split or joined; write it with 'set order 1' first"),
             std::string::npos);
