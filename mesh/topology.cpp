@@ -266,55 +266,71 @@ LooseFaces loose_faces(const Mesh& mesh) {
 LooseFaces loose_faces(const Mesh& mesh, const CompressedRows& corners) {
   LooseFaces result;
   Faces& faces = result.faces;
-  resize_large(faces.first_of_node, mesh.points.size() + 1);
-  // Looking at the hexes around a node takes longest, so what was found is kept until faces have numbers.
-  constexpr Index chunk_size = 2048;
+  resize_for_overwrite(faces.first_of_node, mesh.points.size() + 1);
+  resize_for_overwrite(faces.of_hex, mesh.hexes.size());
+  // Looking at the hexes around a node takes longest, so what was found is kept until its faces have numbers: of so few
+  // nodes at a time that it stays in the cache.
+  constexpr Index chunk_size = 512, window = 64 * chunk_size;
   struct Uses {
     std::vector<FaceUse> all;
     std::array<Index, chunk_size> end_of_node;
+    Index n_faces;
   };
-  std::vector<std::unique_ptr<Uses>> uses_of_chunk(n_chunks(mesh.n_nodes(), chunk_size));
+  std::vector<Uses> uses_of_chunk(static_cast<std::size_t>(n_chunks(std::min(mesh.n_nodes(), window), chunk_size)));
   std::atomic<bool> crowded = false, fit = true;
-  parallel_chunks(mesh.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
-    std::vector<FaceUse> uses;
-    auto& kept = *(uses_of_chunk[chunk] = std::make_unique<Uses>());
-    for (Index node = begin; node < end; ++node) {
-      collect_faces(mesh.hexes, corners, 0, node, uses);
-      for_runs(std::span<const FaceUse>(uses), same_face, [&](auto run) {
-        ++faces.first_of_node[node];
-        if (run.size() > 2) crowded = true;
-      });
-      if (!hextwist::fit_together(uses)) fit = false;
-      kept.all.insert(kept.all.end(), uses.begin(), uses.end());
-      kept.end_of_node[node - begin] = static_cast<Index>(kept.all.size());
+  Index n_faces = 0;
+  for (Index first = 0, last; first < mesh.n_nodes(); first = last) {
+    last = first + std::min(window, mesh.n_nodes() - first);
+    parallel_chunks(last - first, chunk_size, [&](Index chunk, Index begin, Index end) {
+      std::vector<FaceUse> uses;
+      Uses& kept = uses_of_chunk[chunk];
+      kept.all.clear();
+      kept.n_faces = 0;
+      for (Index i = begin; i < end; ++i) {
+        collect_faces(mesh.hexes, corners, 0, first + i, uses);
+        for_runs(std::span<const FaceUse>(uses), same_face, [&](auto run) {
+          ++kept.n_faces;
+          if (run.size() > 2) crowded = true;
+        });
+        if (!hextwist::fit_together(uses)) fit = false;
+        kept.all.insert(kept.all.end(), uses.begin(), uses.end());
+        kept.end_of_node[i - begin] = static_cast<Index>(kept.all.size());
+      }
+    });
+    for (Index chunk = 0; chunk < n_chunks(last - first, chunk_size); ++chunk)
+      n_faces += std::exchange(uses_of_chunk[chunk].n_faces, n_faces);  // those before it
+    // Room for as many at each node as so far: arrays are seldom moved.
+    if (static_cast<std::size_t>(n_faces) > faces.nodes.capacity()) {
+      const auto all = static_cast<std::size_t>(1.02 * n_faces * (static_cast<double>(mesh.n_nodes()) / last));
+      grow_large(faces.nodes, all - faces.nodes.size());
+      grow_large(faces.sides, all - faces.sides.size());
     }
-    kept.all.shrink_to_fit();
-  });
-  counts_to_starts(faces.first_of_node);
-  resize_for_overwrite(faces.nodes, static_cast<std::size_t>(faces.first_of_node.back()));
-  resize_for_overwrite(faces.sides, static_cast<std::size_t>(faces.first_of_node.back()));
-  resize_for_overwrite(faces.of_hex, mesh.hexes.size());
-  parallel_chunks(mesh.n_nodes(), chunk_size, [&](Index chunk, Index begin, Index end) {
-    const std::unique_ptr<Uses> kept = std::move(uses_of_chunk[chunk]);
-    Index face = faces.first_of_node[begin], from = 0;
-    for (Index node = begin; node < end; ++node) {
-      const Index to = kept->end_of_node[node - begin];
-      const auto uses = std::span<const FaceUse>(kept->all).subspan(from, to - from);
-      constexpr Index ahead = 32;
-      for (Index i = from; i < to && i + ahead < std::ssize(kept->all); ++i)
-        fetch_for_writing(&faces.of_hex[kept->all[i + ahead].side().hex]);
-      from = to;
-      for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
-        faces.sides[face][1] = {};
-        for (std::size_t i = 0; i < run.size(); ++i) {
-          const Side side = run[i].side();
-          if (i < 2) faces.sides[face][i] = side;
-          faces.of_hex[side.hex][side.face] = face;
-        }
-        faces.nodes[face++] = run[0].nodes(node);
-      });
-    }
-  });
+    resize_for_overwrite(faces.nodes, static_cast<std::size_t>(n_faces));
+    resize_for_overwrite(faces.sides, static_cast<std::size_t>(n_faces));
+    parallel_chunks(last - first, chunk_size, [&](Index chunk, Index begin, Index end) {
+      const Uses& kept = uses_of_chunk[chunk];
+      Index face = kept.n_faces, from = 0;
+      for (Index i = begin; i < end; ++i) {
+        const Index node = first + i, to = kept.end_of_node[i - begin];
+        const auto uses = std::span<const FaceUse>(kept.all).subspan(from, to - from);
+        constexpr Index ahead = 32;
+        for (Index u = from; u < to && u + ahead < std::ssize(kept.all); ++u)
+          fetch_for_writing(&faces.of_hex[kept.all[u + ahead].side().hex]);
+        from = to;
+        faces.first_of_node[node] = face;
+        for_runs(uses, same_face, [&](std::span<const FaceUse> run) {
+          faces.sides[face][1] = {};
+          for (std::size_t k = 0; k < run.size(); ++k) {
+            const Side side = run[k].side();
+            if (k < 2) faces.sides[face][k] = side;
+            faces.of_hex[side.hex][side.face] = face;
+          }
+          faces.nodes[face++] = run[0].nodes(node);
+        });
+      }
+    });
+  }
+  faces.first_of_node.back() = n_faces;
   result.fit_together = fit;
   if (crowded)
     for (Index h = 0; h < mesh.n_hexes(); ++h)

@@ -39,6 +39,10 @@ ExtremeList changed(const ExtremeList& list, std::span<const std::int64_t> gone,
   ExtremeList fresh;
   for (const auto& item : come)
     if (item < kept.back()) fresh.push_back(item);
+  if (fresh.size() > max_outliers) {
+    std::ranges::nth_element(fresh, fresh.begin() + max_outliers);
+    fresh.resize(max_outliers);
+  }
   std::ranges::sort(fresh);
   std::ranges::merge(kept, fresh, std::back_inserter(result));
   if (result.size() > max_outliers) result.resize(max_outliers);

@@ -66,6 +66,7 @@ namespace {
 OffModel off_model_at(const Mesh& mesh, const Association& association, const Model& model,
                       const std::array<std::vector<Index>, 3>& nodes) {
   OffModel off;
+  const double size = model.box().diagonal();
   for (int dim = 0; dim < 3; ++dim) {
     std::vector<int> id;
     std::vector<Vec3> points;
@@ -80,12 +81,12 @@ OffModel off_model_at(const Mesh& mesh, const Association& association, const Mo
     const auto at = detail::project_all(model, dim, id, points, seeds);
     for (std::size_t i = 0; i < at.size(); ++i) {
       double distance = at[i].distance;
-      if (!seeds.empty() && !(distance <= std::max(off.max, 1e-9 * model.box().diagonal())))
+      if (!seeds.empty() && !(distance <= std::max(off.max, 1e-9 * size)))
         distance = std::min(distance, model.project({dim, id[i]}, points[i]).distance);
       if (off.node < 0 || distance > off.max) off = {distance, 0, nodes[dim][i], {dim, id[i]}};
     }
   }
-  if (off.max > 0) off.max_relative = off.max / model.box().diagonal();
+  if (off.max > 0) off.max_relative = off.max / size;
   return off;
 }
 

@@ -97,6 +97,20 @@ TEST(topology, faces_are_numbered_by_their_nodes_and_found_again) {
   for (const Mesh& mesh : samples()) expect_faces_are_those_of_a_map(mesh);
 }
 
+/// More nodes than are looked at together: in their order, in none, and where the first ones have no faces.
+TEST(topology, faces_of_many_nodes_are_numbered_alike) {
+  std::mt19937 random(12);
+  const Mesh grid = test::grid(2, 2, 4000);
+  expect_faces_are_those_of_a_map(grid);
+  expect_faces_are_those_of_a_map(test::shuffled(grid, random));
+  Mesh later = grid;
+  constexpr Index n_unused = 40000;
+  later.points.insert(later.points.begin(), n_unused, Vec3::Zero());
+  for (Hex& hex : later.hexes)
+    for (Index& node : hex) node += n_unused;
+  expect_faces_are_those_of_a_map(later);
+}
+
 TEST(topology, what_is_not_there_is_not_found) {
   const Mesh mesh = test::grid(2, 2, 2);
   const Edges e = edges(mesh);
