@@ -12,8 +12,10 @@ namespace hextwist {
 
 class RankedBits {
  public:
+  static constexpr int width = 64;  ///< threads may set bits of different multiples of it at once
+
   /// Of 0 .. n - 1.
-  explicit RankedBits(std::size_t n = 0) : bits_(n / width + 1), before_(bits_.size()) {}
+  explicit RankedBits(std::size_t n = 0) : bits_(word(n) + 1), before_(bits_.size()) {}
 
   void set(Index i) { bits_[word(i)] |= bit(i); }
   /// The same of any, of which there may be more than was said: but for finish(), which is for all.
@@ -33,19 +35,23 @@ class RankedBits {
   Index operator[](Index i) const { return before_[word(i)] + std::popcount(bits_[word(i)] & (bit(i) - 1)); }
   /// The same of any; -1 where it is not set.
   Index find(Index i) const { return has(i) ? (*this)[i] : -1; }
+  /// How many are set.
+  std::size_t size() const {
+    return static_cast<std::size_t>(before_.back()) + static_cast<std::size_t>(std::popcount(bits_.back()));
+  }
   /// All that are set, ascending.
   std::vector<Index> list() const {
     std::vector<Index> list;
-    list.reserve(static_cast<std::size_t>(before_.back()) + static_cast<std::size_t>(std::popcount(bits_.back())));
+    list.reserve(size());
     for (std::size_t w = 0; w < bits_.size(); ++w)
       for (std::uint64_t rest = bits_[w]; rest; rest &= rest - 1)
-        list.push_back(static_cast<Index>(w * width) + std::countr_zero(rest));
+        list.push_back(static_cast<Index>(w) * width + std::countr_zero(rest));
     return list;
   }
 
  private:
-  static constexpr std::size_t width = 64;
-  static std::size_t word(Index i) { return static_cast<std::size_t>(i) / width; }
+  static std::size_t word(std::size_t i) { return i / width; }
+  static std::size_t word(Index i) { return word(static_cast<std::size_t>(i)); }
   static std::uint64_t bit(Index i) { return std::uint64_t{1} << (static_cast<std::size_t>(i) % width); }
   std::vector<std::uint64_t> bits_;
   std::vector<Index> before_;  // per word: how many are set in lower ones

@@ -29,6 +29,7 @@ struct Difference {
         id_shift(highest_element_id(part.input.mesh) - highest_element_id(part.before.mesh)) {
     for (const Index h : part.touched) taken.push_back(before_gaps(part.gone, h));
     std::ranges::sort(taken);
+    added.reserve(added.size() + static_cast<std::size_t>(part.after.mesh.n_hexes() - part.n_kept));
     for (Index h = part.n_kept; h < part.after.mesh.n_hexes(); ++h) added.push_back(h);
     for (const Index h : taken) whole_taken.push_back(part.whole_hex(h));
     for (const Index h : whole_taken) taken_ids.push_back(hex_id(part.input.mesh, h));
@@ -140,7 +141,8 @@ std::shared_ptr<const Extremes> with_ids_of_the_whole(Extremes lists, const Diff
 
 OffModel off_after(const OffModel& before, const ChangedPart& change) {
   std::vector<Index> nodes = change.moved;
-  for (Index n = change.before.mesh.n_nodes(); n < change.after.mesh.n_nodes(); ++n) nodes.push_back(n);
+  for (Index n = change.before.mesh.n_nodes(); n < change.after.mesh.n_nodes(); ++n)
+    if (change.after.association.node_owner[n].dim < 3) nodes.push_back(n);
   OffModel fresh = detail::off_model(change.after.mesh, change.after.association, *change.after.model, nodes);
   if (fresh.node < 0 || (before.node >= 0 && !(fresh.max > before.max))) {
     fresh = before;

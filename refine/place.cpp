@@ -6,6 +6,7 @@
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/ranked_bits.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/refine/origin.h"
 
@@ -36,6 +37,18 @@ ByOwner group_by_owner(std::size_t n, int dim, const OwnerOf& owner_of) {
   return groups;
 }
 
+/// Of curves and surfaces, counted from the first new one.
+RankedBits new_nodes_on_cad(const Association& association, Index n_old_nodes) {
+  const Index n = static_cast<Index>(association.node_owner.size()) - n_old_nodes;
+  RankedBits on_cad(static_cast<std::size_t>(n));
+  parallel_chunks(n, 1024 * RankedBits::width, [&](Index, Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      if (const int dim = association.node_owner[n_old_nodes + i].dim; dim == 1 || dim == 2) on_cad.set(i);
+  });
+  on_cad.finish();
+  return on_cad;
+}
+
 /// Everything that placing works on.
 struct Work {
   const Mesh& old_mesh;
@@ -46,13 +59,16 @@ struct Work {
   const Model& model;
   Mesh& mesh;
   Association& association;
-  std::vector<Vec3> moved;               // per new node: displacement from the straight place
+  RankedBits on_cad;                     // new nodes on curves and surfaces, counted from the first new one
+  std::vector<Vec3> moved;               // of each of these: displacement from the straight place
   std::vector<std::uint8_t> edge_moved;  // per cut edge: any of its nodes displaced
 
-  Vec3& displacement(Index node) { return moved[node - lineage.n_old_nodes]; }
-  const Vec3& displacement(Index node) const { return moved[node - lineage.n_old_nodes]; }
+  Vec3 displacement(Index node) const {
+    const Index at = on_cad.find(node - lineage.n_old_nodes);
+    return at < 0 ? Vec3(Vec3::Zero()) : moved[at];
+  }
   void move(Index node, const Vec3& to, Parameters parameters) {
-    displacement(node) = to - mesh.points[node];
+    moved[on_cad[node - lineage.n_old_nodes]] = to - mesh.points[node];
     mesh.points[node] = to;
     association.node_parameters[node] = parameters;
   }
@@ -347,8 +363,7 @@ void place_inner_faces(Work& work) {
     const Cell cell{work, work.split.cut_index(face.side.hex), work.old_mesh.hexes[face.side.hex]};
     if (!cell.face_rim_has_moved(face.side.face)) return;
     cell.for_each_face_node(face.side.face, [&](Index node, double u, double v) {
-      work.displacement(node) = cell.rim(face.side.face, u, v);
-      work.mesh.points[node] += work.displacement(node);
+      work.mesh.points[node] += cell.rim(face.side.face, u, v);
     });
   });
 }
@@ -382,9 +397,7 @@ void place_inside_hexes(Work& work) {
         const double weight = (e & 1 ? at[low] : 1 - at[low]) * (e & 2 ? at[high] : 1 - at[high]);
         sum -= weight * cell.edge(e, at[axis]);
       }
-      const Index node = hex.first_node + static_cast<Index>(s);
-      work.displacement(node) = sum;
-      work.mesh.points[node] += sum;
+      work.mesh.points[hex.first_node + static_cast<Index>(s)] += sum;
     }
   });
 }
@@ -402,9 +415,10 @@ void place(const Mesh& old_mesh, const Association& old_association, const Split
             model,
             mesh,
             association,
+            new_nodes_on_cad(association, lineage.n_old_nodes),
             {},
             std::vector<std::uint8_t>(lineage.edges.size(), 0)};
-  resize_large(work.moved, mesh.points.size() - static_cast<std::size_t>(lineage.n_old_nodes), Vec3(Vec3::Zero()));
+  work.moved.resize(work.on_cad.size(), Vec3::Zero());
   const RimParameters parameters_of(work);
   place_on_curves(work);
   place_edges_on_surfaces(work, parameters_of);

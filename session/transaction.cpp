@@ -151,7 +151,7 @@ void Transaction::close_record() {
   row.off_cad_node = row.off_cad.node < 0 ? 0 : node_id(meshed->mesh, row.off_cad.node);
   row.cad_volume = state.cad_volume;
   row.has_cad = state.has_cad;
-  row.total_seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  row.total_seconds = seconds();
   row.peak_memory_bytes = peak_memory();
 }
 

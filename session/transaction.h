@@ -36,6 +36,8 @@ class Transaction {
   /// Begins a stage: its time goes to the record. Throws Cancelled when the user asked for it.
   void stage(const char* name);
   void close_stage();
+  /// Since it began.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   /// Makes this the mesh of the session.
   void replace(MeshedModel meshed);

@@ -41,16 +41,16 @@ bool State::run(Technique& technique) {
   while (std::optional<Cut> cut = technique.next(*this)) {
     if (cut->cuts_again) smooth_between_passes();
     const bool is_first = current_ == &input;
-    const std::optional<MeshedModel> before = pass(*cut);
-    if (!before) return false;
-    technique.follow(lineage_, is_first ? input.mesh : before->mesh, mesh());
+    const std::optional<Passed> passed = pass(*cut);
+    if (!passed) return false;
+    technique.follow(passed->lineage, is_first ? input.mesh : passed->before.mesh, mesh());
   }
   if (current_ == &input) keep();
   technique.finish(*this);
   return true;
 }
 
-std::optional<MeshedModel> State::pass(const Cut& cut) {
+std::optional<State::Passed> State::pass(const Cut& cut) {
   ++n_passes_;
   const MeshedModel& from = *current_;
   check_others(from.mesh, *cut.table, cut.codes);
@@ -97,10 +97,9 @@ std::optional<MeshedModel> State::pass(const Cut& cut) {
   result_.levelling = nullptr;
   result_.came_from = {};
   result_.old_node = {};
-  lineage_ = std::move(parts.lineage);
-  if (watch) watch(lineage_, from.mesh, cut);
+  if (watch) watch(parts.lineage, from.mesh, cut);
   current_ = &result_.refined;
-  return std::exchange(result_.refined, std::move(next));
+  return Passed{std::exchange(result_.refined, std::move(next)), std::move(parts.lineage)};
 }
 
 bool State::comes_out_inverted(const Mesh& mesh, const Split& parts) const {

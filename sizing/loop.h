@@ -91,8 +91,12 @@ class State {
   RefineResult take_result() { return std::move(result_); }
 
  private:
-  /// Split, carry, place, repair: returns the mesh as it was, the result becomes the current one. Nothing: given up.
-  std::optional<MeshedModel> pass(const Cut& cut);
+  struct Passed {
+    MeshedModel before;  ///< empty where that was the input
+    Lineage lineage;
+  };
+  /// Split, carry, place, repair: the result becomes the current one. Nothing: given up.
+  std::optional<Passed> pass(const Cut& cut);
   /// Before the next pass cuts them again: thin hexes at a curved surface would end inside out. Where smoothing was not
   /// asked for, nodes inside volumes alone move, and only when shapes have come down too far.
   void smooth_between_passes();
@@ -121,7 +125,6 @@ class State {
   /// already. Empty where there are no such fields, or no passes.
   std::vector<Vec3> straight_;
   RefineResult result_;
-  Lineage lineage_;  // of the last pass
   int n_passes_ = 0;
   bool told_between_ = false;
 };

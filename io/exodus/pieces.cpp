@@ -9,7 +9,6 @@
 #include "hextwist/io/pieces.h"
 
 namespace hextwist::io {
-namespace {
 
 class ExodusPieces {
  public:
@@ -195,7 +194,6 @@ class ExodusPieces {
   std::vector<int> is_on_;
 };
 
-}  // namespace
 }  // namespace hextwist::io
 
 namespace hextwist {

@@ -169,7 +169,7 @@ std::string summary_of(const Report& report, bool has_cad, bool dry_run) {
     line += " (" + std::to_string(report.filled_hexes) + " joined the region to make it convex)";
   if (dry_run) return line + ", " + counted(report.nodes_after, EntityKind::node) + "; nothing was changed";
   line += ", smallest shape " + short_number(report.shape_before.min) + " -> " + short_number(report.shape_after.min);
-  return line + off_text(", ", report.off_cad, has_cad) + ", " + short_number(report.total_seconds) + " s";
+  return line + off_text(", ", report.off_cad, has_cad);
 }
 
 /// Notes and what goes on record; returns the line that is said in the end.
@@ -286,7 +286,7 @@ void do_refine(Execution& run) {
 
   const std::optional<SizeReport> sizes = report.sizes;
   accept_refining(run, std::move(refining));
-  run.say(line);
+  run.say(line + ", " + short_number(run.seconds()) + " s");
   if (!sizes) return;
   run.record().sizes = sizes_row(run.meshed->mesh, *sizes);
   run.say(sizes_text(run.meshed->mesh, *sizes));
