@@ -61,6 +61,7 @@ double bytes_of(double n_hexes, double n_nodes) {
 std::atomic<bool> keeps_freed = false;
 std::atomic<std::size_t> memory_limit = 0;
 std::atomic<double> hex_limit = 0;
+thread_local int n_without_limit = 0;
 
 /// Data of the process now.
 std::size_t data_size() {
@@ -139,10 +140,21 @@ void check_memory(double n_hexes, double n_nodes, std::size_t available, const c
               gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
 }
 
-void check_memory(double n_hexes, double n_nodes, const char* how_many) {
-  if (const double limit = hex_limit; limit > 0 && n_hexes > limit)
+WithoutHexLimit::WithoutHexLimit() {
+  ++n_without_limit;
+}
+WithoutHexLimit::~WithoutHexLimit() {
+  --n_without_limit;
+}
+
+void check_hexes(double n_hexes, const char* how_many) {
+  if (const double limit = hex_limit; limit > 0 && n_hexes > limit && n_without_limit == 0)
     throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, more than the " +
                 text_of(limit) + " that are allowed");
+}
+
+void check_memory(double n_hexes, double n_nodes, const char* how_many) {
+  check_hexes(n_hexes, how_many);
   constexpr double worth_asking = 2e8;
   if (bytes_of(n_hexes, n_nodes) > worth_asking) check_memory(n_hexes, n_nodes, available_memory(), how_many);
 }

@@ -37,6 +37,15 @@ void return_freed_memory();
 void limit_memory(std::size_t bytes);
 /// The most hexes that a mesh may have from now on, in all of the process; 0: as many as fit.
 void limit_hexes(double n_hexes);
+/// Throws Error where that is fewer. how_many: "" or "at least ".
+void check_hexes(double n_hexes, const char* how_many = "");
+/// While it lives, limit_hexes() is nothing to this thread, which makes a mesh that there is already.
+class WithoutHexLimit {
+ public:
+  WithoutHexLimit();
+  ~WithoutHexLimit();
+  WithoutHexLimit(const WithoutHexLimit&) = delete;
+};
 
 /// Throws Error, with both amounts, when a mesh of this size takes more than `available` bytes while a pass makes it.
 /// how_many: "" or "at least ".

@@ -22,8 +22,8 @@ const Pattern& pattern_of(const CommandSpec& spec) {
   return patterns.at(spec.name);
 }
 
-std::string bounds_text(const ArgumentSpec& argument) {
-  const bool low = std::isfinite(argument.min), high = argument.max < 1e100;
+std::string bounds_text(const ArgumentSpec& argument, double said) {
+  const bool low = std::isfinite(argument.min), high = argument.max < 1e100 || said > argument.max;
   const std::string least = number_text(argument.min), most = number_text(argument.max);
   if (low && high) return argument.open ? " above " + least + ", at most " + most : " from " + least + " to " + most;
   if (low) return (argument.open ? " above " : " of at least ") + least;
@@ -134,9 +134,14 @@ class Matcher {
       }
       case PatternNode::Kind::options:
         return options(node);
-      case PatternNode::Kind::repeated:
-        do sequence(node.choices.front());
-        while (goes_on(node.choices.front()));
+      case PatternNode::Kind::repeated: {
+        const Pattern& once = node.choices.front();
+        const bool has_word = once.front().kind == PatternNode::Kind::word;  // which need not be said again
+        do {
+          sequence(once);
+          while (has_word && could_be(argument(once.back().name))) value(argument(once.back().name));
+        } while (goes_on(once));
+      }
     }
   }
 
@@ -215,7 +220,8 @@ class Matcher {
     if (low && item.number <= spec.max && !(integer && item.number != std::floor(item.number))) return;
     const auto option =
         std::find_if(out_.items.rbegin(), out_.items.rend(), [](const Item& said) { return said.is_word; });
-    reader_.fail(item.token, option->name + " must be a " + (integer ? "whole " : "") + "number" + bounds_text(spec));
+    reader_.fail(item.token,
+                 option->name + " must be a " + (integer ? "whole " : "") + "number" + bounds_text(spec, item.number));
   }
 
   /// The kind of entity named last.

@@ -5,6 +5,7 @@
 //   {a|b ...|c}         one of
 //   [a ...] [b ...]     each may stand there, in any order, once
 //   {a|b} <range> ...   the two before the dots, once or more: further kinds of entities
+//   a <name> ...        the same, where further values need not have the word before them
 //   <name>              a value: see the command's arguments; <range> takes ids of the kind named before it
 //   ~word               known, but not supported yet: an error of its own; never shown
 //   =word               another spelling: understood when written out, as an option more than once; never shown

@@ -1,5 +1,6 @@
 #include "hextwist/patch/adapt.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
@@ -13,6 +14,7 @@ namespace {
 Request request_of(const Mesh& mesh, std::size_t n, const char* what, const AdaptOptions& options) {
   if (n != mesh.hexes.size())
     throw Error("there are " + std::to_string(n) + " " + what + " for " + std::to_string(mesh.n_hexes()) + " hexes");
+  check_extensive(mesh, options.extensive);
   return {.concave = options.concave,
           .transition = options.keep_gradation ? Transition::regular : Transition::nested,
           .levelling = options.levelling,
@@ -32,6 +34,12 @@ AdaptResult run(const MeshedModel& input, const Request& request, const Progress
 }
 
 }  // namespace
+
+void check_extensive(const Mesh& mesh, std::span<const std::string> names) {
+  for (const std::string& name : names)
+    if (std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == Field::On::hex; }))
+      throw Error("there is no field '" + name + "' of hexes");
+}
 
 LevelOrigin came_from(const Mesh& input, const RefineResult& result) {
   if (!result.came_from.kind.empty()) return result.came_from;

@@ -55,8 +55,11 @@ struct AdaptResult {
   std::shared_ptr<const Levelling> levelling;  ///< null without gradation
 };
 
+/// Throws Error naming the first of these (AdaptOptions::extensive) that no field of hexes is called.
+void check_extensive(const Mesh& mesh, std::span<const std::string> names);
+
 /// Flags and wishes of a solver as requests like any other.
-/// flags: one per hex, 0 or not. Throws Error when there is not one flag per hex.
+/// flags: one per hex, 0 or not. Throws Error when there is not one flag per hex, or an extensive field is not there.
 Request adapt_request(const Mesh& mesh, std::span<const std::uint8_t> flags, const AdaptOptions& options = {});
 /// changes: one per hex, by how many levels it is to become finer (> 0) or coarser (< 0): LevelChanges. Throws Error
 /// when there is not one per hex.

@@ -18,8 +18,9 @@ std::uint8_t corners_of(std::uint32_t code) {
   return static_cast<std::uint8_t>(mask);
 }
 
-/// Faces between two volumes are sides of the lower hex. Where that is just outside of the patch, they are sides of the
-/// hex inside here: it may be cut, and its nodes on that face belong to the surface.
+/// Faces inside the mesh, between two volumes or on a surface within one, are sides of the lower hex. Where that is
+/// just outside of the patch, they are sides of the hex inside here: it may be cut, and its nodes on that face belong
+/// to the surface.
 void add_faces_seen_from_outside(const Forest& forest, const Rings& rings, Association& part) {
   const Mesh& base = forest.base->mesh;
   const Association& whole = forest.base->association;
@@ -35,10 +36,10 @@ void add_faces_seen_from_outside(const Forest& forest, const Rings& rings, Assoc
     if (rings.ring[i] < rings.n_rings) continue;
     for (int f = 0; f < n_hex_faces; ++f) {
       const Quad nodes = sorted_face({h, f});
+      if (std::ranges::any_of(nodes, [&](Index n) { return whole.node_owner[n].dim == 3; })) continue;
       for (const Index corner : (*forest.base_corners)[nodes[0]]) {
         const Index other = corner >> 3;
-        if (other >= h || whole.hex_volume[other] == whole.hex_volume[h] || position_in(rings.hexes, other) >= 0)
-          continue;
+        if (other >= h || position_in(rings.hexes, other) >= 0) continue;
         for (int g = 0; g < n_hex_faces; ++g)
           if (sorted_face({other, g}) == nodes)
             if (const int surface = value_of(whole.surface_faces, whole.face_surface, Side{other, g}))

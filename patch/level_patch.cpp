@@ -31,7 +31,7 @@ std::vector<Index> cut_after(const HandedHexes& before, std::span<const Index> r
   return union_of(difference(before.cut, roots), items_at(std::vector<Index>(roots.begin(), roots.end()), local.cut));
 }
 
-/// Faces between two volumes are sides of the hex that comes first, which may be outside of the patch; in the base it
+/// Faces inside the mesh are sides of the hex that comes first, which may be outside of the patch; in the base it
 /// may have been another one than in the mesh. Nothing changes in the outermost ring, so what was said there stays.
 void keep_border_faces(const MeshedModel& before, std::span<const std::uint8_t> is_border,
                        std::span<const Index> old_hex, Association& association) {
@@ -61,6 +61,19 @@ void keep_owners(const Association& before, std::span<const Index> old_node, Ass
     if (old < 0 || association.node_owner[n] == before.node_owner[old]) continue;
     association.node_owner[n] = before.node_owner[old];
     association.node_parameters[n] = before.node_parameters[old];
+  }
+}
+
+/// Nodes that stay are in the node sets that they were in. Where a hex of the outermost ring has an edge of a surface
+/// alone, hexes outside say whether the set goes on along it.
+void keep_members(const std::vector<NodeSet>& before, std::span<const Index> old_node, std::vector<NodeSet>& now) {
+  std::vector<std::uint8_t> is_in;
+  for (std::size_t s = 0; s < std::min(before.size(), now.size()); ++s) {
+    is_in.assign(old_node.size(), 0);
+    for (const Index n : now[s].nodes) is_in[n] = 1;
+    for (std::size_t n = 0; n < old_node.size(); ++n)
+      if (old_node[n] >= 0) is_in[n] = std::ranges::binary_search(before[s].nodes, old_node[n]);
+    now[s].nodes = indices_where(static_cast<Index>(is_in.size()), [&](Index n) { return is_in[n] != 0; });
   }
 }
 
@@ -311,6 +324,7 @@ std::optional<PatchResult> levels_patch(const MeshedModel& input, const Measured
         is_border.push_back(rings->ring[position_in(rings->hexes, grown.hexes.root(h))] == n_rings);
       keep_border_faces(part.patch.meshed, is_border, numbers.old_hex, result.refined.association);
       keep_owners(part.patch.meshed.association, numbers.old_node, result.refined.association);
+      keep_members(part.patch.meshed.mesh.node_sets, numbers.old_node, result.refined.mesh.node_sets);
     }
     if (levels.is_repaired || !is_wide_enough(*rings, grown.hexes, part, numbers, result.refined.mesh) ||
         !keeps_levels(part.patch.meshed.mesh, result.refined.mesh, numbers))

@@ -96,6 +96,7 @@ void count_patch(const PatchResult& made, const MeshedModel& input, Report& repo
   report.nodes_before = input.mesh.n_nodes();
   report.hexes_after = made.splice->n_hexes(true);
   report.nodes_after = made.splice->n_nodes(true);
+  if (report.hexes_after > report.hexes_before) check_hexes(static_cast<double>(report.hexes_after));
   report.peak_memory_bytes = peak_memory();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/parallel.h"
@@ -174,22 +175,24 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
   for (std::size_t i = 0; i < old.surface_faces.size(); ++i)
     for_each_child_side(split, old.surface_faces[i], [&](Side side) { owned.push_back({side, old.face_surface[i]}); });
 
-  // A face between volumes is named by the lower hex. Where that one was cut (so its children come last) and the one
+  // A face inside the mesh is named by the lower hex. Where that one was cut (so its children come last) and the one
   // behind was not, the other side has become the lower one.
-  const bool several_volumes =
-      std::ranges::adjacent_find(old.hex_volume, std::ranges::not_equal_to{}) != old.hex_volume.end();
-  if (several_volumes) {
-    std::vector<std::size_t> moved;
-    std::vector<Quad> quads;
-    for (std::size_t i = 0; i < owned.size(); ++i)
-      if (owned[i].side.hex >= split.n_kept()) {
-        moved.push_back(i);
-        quads.push_back(face_nodes(mesh.hexes[owned[i].side.hex], owned[i].side.face));
-      }
-    const std::vector<Side> sides = quads.empty() ? std::vector<Side>{} : find_sides(mesh, quads);
-    for (std::size_t i = 0; i < moved.size(); ++i) owned[moved[i]].side = sides[i];
+  std::vector<std::size_t> uncut;
+  std::vector<Quad> quads;
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    if (owned[i].side.hex < split.n_kept()) continue;
+    const Quad quad = face_nodes(mesh.hexes[owned[i].side.hex], owned[i].side.face);
+    if (std::ranges::any_of(quad, [&](Index n) { return n >= split.lineage.n_old_nodes; })) continue;
+    uncut.push_back(i);
+    quads.push_back(quad);
   }
-  if (several_volumes)
+  bool is_other = false;
+  if (!quads.empty()) {
+    const std::vector<Side> sides = find_sides(mesh, quads);
+    for (std::size_t i = 0; i < uncut.size(); ++i)
+      if (const Side before = std::exchange(owned[uncut[i]].side, sides[i]); before != sides[i]) is_other = true;
+  }
+  if (is_other)
     std::ranges::sort(owned, {}, &Owned::side);
   else
     sort_sides(owned, split.n_kept(), &Owned::side);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/loose_topology.h"
@@ -138,6 +139,7 @@ Forest grown(Forest forest, const std::vector<Index>& fixed) {
     return forest;
   }
   auto made = std::make_shared<GrownForest>();
+  const WithoutHexLimit is_there;
   grown_mesh(forest, *made, fixed);
   forest.grown = std::move(made);
   return forest;
@@ -145,6 +147,7 @@ Forest grown(Forest forest, const std::vector<Index>& fixed) {
 
 Forest with_stack(Forest forest, const Mesh& mesh) {
   if (forest.grown->has_stack) return forest;
+  const WithoutHexLimit is_there;
   auto grown = std::make_shared<GrownForest>(*forest.grown);
   LevelledMesh built = build_levels(*forest.base, grown->marks, {}, {.topology_only = true});
   grown->stack = std::move(built.stack);

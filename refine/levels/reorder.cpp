@@ -68,12 +68,10 @@ Association reordered(const Association& old, const Mesh& mesh, const Order& nod
   result.surface_faces = old.surface_faces;
   result.face_surface = old.face_surface;
   for (Side& side : result.surface_faces) side.hex = hexes(side.hex);
-  if (std::ranges::adjacent_find(old.hex_volume, std::ranges::not_equal_to{}) != old.hex_volume.end()) {
-    // A face between two volumes is a side of the lower hex.
-    std::vector<Quad> quads;
-    for (const Side side : result.surface_faces) quads.push_back(face_nodes(mesh.hexes[side.hex], side.face));
-    result.surface_faces = find_sides(mesh, quads);
-  }
+  // A face inside the mesh, between two volumes or on a surface within one, is a side of the lower hex.
+  std::vector<Quad> quads;
+  for (const Side side : result.surface_faces) quads.push_back(face_nodes(mesh.hexes[side.hex], side.face));
+  result.surface_faces = find_sides(mesh, quads);
   sort_both(result.surface_faces, result.face_surface);
   return result;
 }

@@ -1,7 +1,6 @@
 // coarsen: levels of refinement are taken back.
 
-#include <algorithm>
-
+#include "hextwist/patch/adapt.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
@@ -34,9 +33,7 @@ void do_coarsen(Execution& run) {
   if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
   for (const Item& item : command.items)
     if (item.name == "field") request.finish.extensive.push_back(item.text);
-  for (const std::string& name : request.finish.extensive)
-    if (std::ranges::none_of(mesh.fields, [&](const Field& f) { return f.name == name && f.on == Field::On::hex; }))
-      throw Error("there is no field '" + printable(name) + "' of hexes");
+  check_extensive(mesh, request.finish.extensive);
   run.close_stage();
 
   Refining refining = prepare_refining(run, std::move(request));

@@ -34,7 +34,7 @@ void do_step(Execution& run) {
   }
   MeshedModel meshed = *run.meshed;
   take_step(meshed.mesh, step);
-  run.replace(std::move(meshed));
+  run.replace_fields(std::move(meshed));
   run.say("step " + std::to_string(step + 1) + " of " + std::to_string(times.size()) + ", time " +
           short_number(times[step]));
 }

@@ -51,7 +51,7 @@ void go_in_place(Execution& run, std::span<Step> steps, Way& way) {
     else
       run.change_sets(sets_after(std::get<SetsChange>(step.mesh).sets, run.meshed->mesh));
     way.back.emplace_back(step.command, step.state, way.state, std::move(*run.back));
-    if (is_splice(step)) way.state = step.state;  // that of sets is the same
+    way.state = step.state;
   }
 }
 

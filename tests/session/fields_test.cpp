@@ -127,6 +127,16 @@ TEST(Fields, of_all_time_steps_go_from_file_to_file_and_one_is_chosen) {
   EXPECT_EQ(f.error("step 1"), "the mesh has come with no more than one time step");
 }
 
+TEST(Fields, of_another_time_leave_the_levels_as_they_are) {
+  Fixture f, coarse;
+  f.session.run("import exodus \"" + with_times().string() + "\"; refine hex 1; step 2; coarsen hex all");
+  coarse.session.run("import exodus \"" + with_times().string() + "\"; step 2");
+  const Mesh &back = f.session.meshed().mesh, &wanted = coarse.session.meshed().mesh;
+  EXPECT_EQ(back.hexes, wanted.hexes);
+  EXPECT_EQ(back.fields, wanted.fields);
+  EXPECT_EQ(back.results->step, 1u);
+}
+
 TEST(Fields, of_a_patch_find_their_time_steps_too) {
   Mesh mesh = test::grid(30, 30, 30);
   auto extras = std::make_shared<FileResults>();

@@ -124,6 +124,38 @@ TEST(SessionLevels, what_is_no_level_makes_a_new_base_and_says_so) {
   }
 }
 
+TEST(SessionLevels, come_back_with_undo_of_what_ended_them) {
+  for (const std::string command :
+       {"refine curve 1", "block 1 name \"steel\"", "block 2 hex 1 to 9", "delete block 1", "nodeset 7 node 5 6",
+        "sideset 7 surface 2", "block 2 hex 1 to 9; nodeset 7 node 5 6"}) {
+    SCOPED_TRACE(command);
+    Fixture f;
+    run_ok(f, "create brick x 5 interval 5; refine hex 63");
+    const MeshedModel fine = f.session.meshed();
+    const std::string n_steps = std::to_string(1 + std::ranges::count(command, ';'));
+    run_ok(f, command + "; undo " + n_steps);
+    EXPECT_TRUE(test::same_bits(fine, f.session.meshed()));
+    run_ok(f, "redo " + n_steps + "; undo " + n_steps + "; coarsen hex all");
+    EXPECT_EQ(mesh_of(f).n_hexes(), 125);
+  }
+}
+
+TEST(SessionLevels, of_more_hexes_than_are_allowed_are_refused_in_a_patch_too_and_written_all_the_same) {
+  const auto file = test::folder() / "limited.levels";
+  Fixture f;
+  run_ok(f, "create brick x 30 interval 30; refine hex 13516");
+  const Index n = mesh_of(f).n_hexes();
+  const std::string refine = "refine hex 100", limit = "set max_hexes " + std::to_string(n + 10);
+  run_ok(f, limit);
+  for (const std::string& more : {refine, refine + " dry_run"})
+    EXPECT_NE(error_of(f, more).find("more than the " + std::to_string(n + 10) + " that are allowed"),
+              std::string::npos);
+  EXPECT_EQ(mesh_of(f).n_hexes(), n);
+  run_ok(f, "set max_hexes 1000; export levels \"" + file.string() + "\"; coarsen hex all");
+  EXPECT_EQ(mesh_of(f).n_hexes(), 27000);
+  f.session.run("set max_hexes 0");  // it holds for the process
+}
+
 TEST(SessionLevels, the_combination_keeps_its_quality_over_splits) {
   double of_curve = 0, of_surface = 0;
   for (const int n : {1, 2, 3}) {
@@ -453,7 +485,10 @@ TEST(SessionLevels, what_cannot_be_is_refused) {
             "no hex can become coarser: this mesh is the base, nothing was refined by levels since");
   f.session.run("refine hex 14");
   EXPECT_EQ(error_of(f, "coarsen hex 14 sum \"nothing\""), "hex 14 does not exist; hexes are 1 to 192");
-  EXPECT_NE(error_of(f, "coarsen hex all sum \"nothing\""), "");
+  EXPECT_EQ(error_of(f, "coarsen hex all sum \"nothing\""), "there is no field 'nothing' of hexes");
+  EXPECT_EQ(error_of(f, "coarsen hex all sum \"no\" \"nothing\""), "there is no field 'no' of hexes");
+  const std::vector<std::int8_t> finer(mesh_of(f).hexes.size(), 1);
+  EXPECT_THROW(f.session.adapt(finer, {.extensive = {"Mass"}}), CommandError);
   EXPECT_NE(error_of(f, "refine hex all numsplit 8").find("memory"), std::string::npos);
 }
 

@@ -4,7 +4,9 @@
 #include <random>
 #include <regex>
 
+#include <cmath>
 #include "hextwist/patch/patch.h"
+#include "hextwist/sizing/targets.h"
 #include "session/session_fixture.h"
 #include "support/meshed.h"
 #include "support/same_meshed.h"
@@ -30,14 +32,27 @@ std::string without_times(const std::vector<std::string>& lines) {
 }
 
 void expect_same_row(const QualityRow& a, const QualityRow& b) {
-  EXPECT_EQ(std::tie(a.count, a.min, a.max, a.average, a.std_dev, a.min_hex, a.max_hex),
-            std::tie(b.count, b.min, b.max, b.average, b.std_dev, b.min_hex, b.max_hex));
+  EXPECT_EQ(std::tie(a.count, a.min, a.max, a.average, a.min_hex, a.max_hex),
+            std::tie(b.count, b.min, b.max, b.average, b.min_hex, b.max_hex));
+  EXPECT_DOUBLE_EQ(a.std_dev, b.std_dev);  // squares of what came and went, added up in the order of each
 }
 
 void expect_same_state(const MeshState& a, const MeshState& b) {
   EXPECT_EQ(std::tie(a.hexes, a.nodes, a.volume), std::tie(b.hexes, b.nodes, b.volume));
   expect_same_row(a.shape, b.shape);
   expect_same_row(a.scaled_jacobian, b.scaled_jacobian);
+}
+
+/// Cubes of two volumes that meet in stairs, without CAD.
+MeshedModel stairs(int nx, int ny, int nz) {
+  Mesh mesh = grid(nx, ny, nz);
+  mesh.blocks = {{1, "one", {}}, {2, "two", {}}};
+  const std::vector<Vec3> middle = centroids(mesh);
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    mesh.blocks[std::lround(middle[h].x() + middle[h].y()) / 3 % 2 == 0].hexes.push_back(h);
+  Fixture f;
+  f.session.take(mesh, nullptr);
+  return f.session.meshed();
 }
 
 /// Two sessions that do the same, one of them without patches.
@@ -197,13 +212,15 @@ void check_levels(unsigned seed, bool with_sizes) {
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   int n_in_place = 0;  // in small models much changes each time, and then all is verified
-  for (MeshedModel meshed : {brick(16, 15, 15), shipped("inclusion"), shipped("bracket")}) {
+  for (MeshedModel meshed : {brick(16, 15, 15), stairs(12, 11, 10), shipped("inclusion"), shipped("bracket")}) {
     meshed.mesh.fields.push_back({"number", Field::On::hex, 1, std::vector<double>(meshed.mesh.hexes.size(), 3)});
     std::vector<double> heat;
     for (const Vec3& p : meshed.mesh.points) heat.push_back(p.x() + 2 * p.y());
     meshed.mesh.fields.push_back({"heat", Field::On::node, 1, heat});
     meshed.mesh.node_sets.push_back({7, "some", {0, 5, 9}});
     Pair pair(meshed);
+    pair.run("nodeset 8 volume 1");
+    pair.run("nodeset 9 surface 1 to 3");
     for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i)
       pair.run(with_sizes && i % 7 == 3 ? random_sizes(pair.plain.session.meshed().mesh, random)
                                         : random_level_command(pair.plain.session.meshed().mesh, random));
@@ -232,6 +249,27 @@ TEST(PatchedSession, ends_between_volumes) {
     if (pair.plain.last().ok) pair.run("undo");
   }
   EXPECT_GT(pair.n_in_place, 0);
+}
+
+/// A patch of a base may have no hex of a volume at an edge where that volume begins.
+TEST(PatchedSession, keeps_members_of_node_sets_where_it_ends) {
+  Fixture f;
+  f.session.take(stairs(18, 17, 16).mesh, nullptr);
+  f.session.run("nodeset 1 volume 1; nodeset 2 surface 1 to 20");
+  std::mt19937 random(random_seed());
+  const Rule small(always);
+  for (int i = 0; i < 12; ++i) {
+    const Mesh& mesh = f.session.meshed().mesh;
+    std::string ids;
+    for (int k = 0; k < 3; ++k)
+      ids += " " + std::to_string(hex_id(mesh, static_cast<Index>(random() % mesh.hexes.size())));
+    f.session.run("refine hex" + ids);
+    f.session.run("nodeset 11 volume 1; nodeset 12 surface 1 to 20");
+    const std::vector<NodeSet>& sets = f.session.meshed().mesh.node_sets;
+    ASSERT_EQ(sets[0].nodes, sets[2].nodes) << ids;
+    ASSERT_EQ(sets[1].nodes, sets[3].nodes) << ids;
+    f.session.run("undo 2");
+  }
 }
 
 /// A cell that others need stays cut when it is given up, and is wished for no longer.

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 
 #include "geom/occ_shapes.h"
 #include "hextwist/io/io.h"
 #include "hextwist/mesh/corners.h"
 #include "session/session_fixture.h"
 #include "support/checkers.h"
+#include "support/seed.h"
 
 namespace hextwist {
 
@@ -155,6 +157,31 @@ TEST(Embedded, a_face_of_the_cad_inside_a_solid_owns_its_faces_and_keeps_its_nod
   f.session.take_mesh(block(false));
   f.session.run("refine " + inner);
   EXPECT_EQ(f.session.ids("face", "in " + inner).size(), 36u);
+}
+
+/// The side that names a face inside is that of its first hex, whichever of the two was cut.
+TEST(Embedded, a_face_keeps_its_side_through_levels_back_and_forth) {
+  const auto cad = folder() / "face.brep";
+  test::OccShape::brick_with_face_inside(4, 4, 2, 2).write(cad);
+  std::mt19937 random(test::random_seed());
+  const auto one_of = [&](int n) { return std::to_string(random() % static_cast<unsigned>(n) + 1); };
+  for (int run = 0; run < 12; ++run) {
+    Fixture f;
+    f.session.run("import geometry '" + cad.string() + "'");
+    f.session.take_mesh(block(false));
+    if (run % 4 == 3) f.session.run("refine volume all numsplit 4");
+    for (int i = 0; i < 6; ++i) {
+      const Mesh& mesh = f.session.meshed().mesh;
+      const std::string hex = std::to_string(hex_id(mesh, static_cast<Index>(random() % mesh.hexes.size())));
+      const std::vector<std::string> commands = {"refine hex " + hex, "refine hex in vertex " + one_of(12),
+                                                 "coarsen hex " + hex + " depth 1",
+                                                 "coarsen hex in curve " + one_of(18)};
+      const std::string& command = commands[random() % commands.size()];
+      SCOPED_TRACE(command);
+      if (f.error(command) != "no error") continue;  // nothing to coarsen
+      f.session.run("check");
+    }
+  }
 }
 
 }  // namespace
