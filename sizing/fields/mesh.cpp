@@ -1,6 +1,7 @@
 // Sizes from a field of a mesh, interpolated.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/text.h"
@@ -73,8 +74,10 @@ SizeFieldPtr limited_growth(const Mesh& mesh, const SizeFieldPtr& field, double 
   auto background = std::make_shared<Mesh>();
   background->points = mesh.points;
   background->hexes = mesh.hexes;
-  Field sizes{"size", Field::On::node, 1, std::vector<double>(mesh.points.size())};
-  field->evaluate(mesh.points, sizes.values);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Field sizes{"size", Field::On::node, 1, std::vector<double>(mesh.points.size(), none)};
+  // One value per hex is a sample at its centroid: at its nodes, it says no more than how fast sizes grow from there.
+  if (!field->jumps()) field->evaluate(mesh.points, sizes.values);
   const std::vector<Vec3> centres = centroids(mesh);
   std::vector<double> inside(centres.size());
   field->evaluate(centres, inside);
@@ -82,7 +85,8 @@ SizeFieldPtr limited_growth(const Mesh& mesh, const SizeFieldPtr& field, double 
     for (const Index n : mesh.hexes[h])
       sizes.values[n] = std::min(sizes.values[n], inside[h] + (growth - 1) * (mesh.points[n] - centres[h]).norm());
   limit_gradation(edges(mesh), mesh.points, growth - 1, sizes.values);
-  if (std::ranges::any_of(sizes.values, [](double value) { return std::isinf(value); })) return field;
+  for (const Hex& hex : mesh.hexes)
+    if (std::ranges::any_of(hex, [&](Index n) { return sizes.values[n] == none; })) return field;
   background->fields.push_back(std::move(sizes));
   return field_size(std::move(background), "size");
 }

@@ -7,6 +7,7 @@
 #include "hextwist/base/same_bits.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/levels/level_origin.h"
+#include "hextwist/sizing/targets.h"
 #include "session_fixture.h"
 #include "support/checkers.h"
 #include "support/meshed.h"
@@ -250,6 +251,23 @@ TEST(SessionLevels, wished_sizes_of_a_solver_make_coarser_too) {
   EXPECT_GT(adapt(0.4), 1000);
   EXPECT_EQ(adapt(1), base.n_hexes());
   EXPECT_EQ(mesh_of(f).points, base.points);
+}
+
+/// One size per hex is a sample of something that may be smooth: a limit above how fast it grows changes nothing.
+TEST(SessionLevels, wished_sizes_that_grow_slowly_are_met_alike_with_a_bias) {
+  Fixture f, limited;
+  const auto adapt = [](Fixture& one, double bias) {
+    std::vector<double> sizes;
+    for (const Vec3& middle : centroids(mesh_of(one))) sizes.push_back(0.25 + 0.2 * (middle - Vec3(-3, -3, -3)).norm());
+    one.session.adapt(sizes, {.bias = bias});
+  };
+  for (Fixture* one : {&f, &limited}) one->session.run("create brick x 6 interval 6");
+  for (int round = 0; round < 3; ++round) {
+    adapt(f, 1);
+    adapt(limited, 1.5);
+    EXPECT_EQ(mesh_of(limited).hexes, mesh_of(f).hexes);
+  }
+  EXPECT_GT(mesh_of(f).n_hexes(), 216);
 }
 
 TEST(SessionLevels, changes_of_a_solver_go_both_ways_with_fields) {
