@@ -164,6 +164,12 @@ std::vector<Index> State::new_nodes() const {
   });
 }
 
+std::vector<Index> State::with_moved_neighbours(std::vector<Index> nodes) const {
+  if (!result_.levelling || result_.levelling->overlay.empty() || nodes.empty()) return nodes;
+  const std::vector<Index> near = nodes_of_hexes(mesh(), layers_around(mesh(), nodes, 1));
+  return union_of(nodes, intersection(near, result_.levelling->overlay.nodes));
+}
+
 Index State::node_before(Index node) const {
   if (!result_.old_node.empty()) return result_.old_node[node];
   return node < input.mesh.n_nodes() ? node : -1;
@@ -265,7 +271,7 @@ void State::close() {
   if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty())) {
     Finish finish = request.finish;
     finish.fixed = fixed_now();
-    std::vector<Index> nodes = new_nodes();
+    std::vector<Index> nodes = with_moved_neighbours(new_nodes());
     if (const auto& periodic = request.finish.periodic)
       nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
     BoundsOfAll of_all;

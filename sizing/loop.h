@@ -116,6 +116,8 @@ class State {
   std::vector<Index> fixed_now() const;
   /// And those that are not where they were.
   std::vector<Index> new_nodes() const;
+  /// With those beside them that had been moved for better shapes, together with what is no longer there.
+  std::vector<Index> with_moved_neighbours(std::vector<Index> nodes) const;
   /// Images are put where they belong. Throws Error where the result has none.
   void repeat_periodic();
   void smooth_around(std::vector<Index> hexes, bool fix_boundary);

@@ -194,6 +194,20 @@ TEST(SessionLevels, smoothing_lies_over_the_levels) {
   EXPECT_EQ(worst(mesh_of(f)), smooth_worst);
 }
 
+/// Nodes that smoothing had moved go back where hexes change; those beside them are lifted together with them.
+TEST(SessionLevels, are_as_good_where_a_mesh_was_smoothed_before) {
+  const MeshedModel plate = test::shipped("plate_quarter");
+  for (const std::string hex : {"47", "118", "208"}) {
+    SCOPED_TRACE(hex);
+    Fixture f;
+    f.session.take(plate.mesh, plate.model);
+    run_ok(f, "refine hex 100; smooth volume all; refine hex " + hex);
+    const double smoothed_before = worst(mesh_of(f));
+    run_ok(f, "undo 2; refine hex " + hex);
+    EXPECT_GE(smoothed_before, 0.9 * worst(mesh_of(f)));
+  }
+}
+
 TEST(SessionLevels, fixed_nodes_stay_where_they_are_and_are_known_by_id) {
   Fixture f;
   run_ok(f, "create brick x 5 interval 5; refine hex 63; node in hex 140 150 position fixed");
