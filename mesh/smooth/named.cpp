@@ -91,7 +91,8 @@ class Finder {
     signature_ = signatures.take();
     collect_node_sets();
     collect_sides();
-    if (signature_.empty() && sides_.empty() && sets_.empty()) return {};
+    hold_rims_on_cad();
+    if (signature_.empty() && sides_.empty() && sets_.empty()) return std::move(holds_);
     local_ = touching_hexes(mesh_.hexes, may_move_);
     const std::vector<Use> uses = face_uses();
     for (std::size_t begin = 0; begin + 1 < uses.size(); ++begin)
@@ -128,11 +129,34 @@ class Finder {
     return std::ranges::all_of(mesh_.hexes[hex], [&](Index n) { return in_set(n, set); });
   }
   void collect_sides() {
+    std::vector<NamedEdge> on_cad;
     for (std::size_t s = 0; s < mesh_.side_sets.size(); ++s)
-      for (const Side side : mesh_.side_sets[s].sides)
-        if (has_marked_corner(mesh_.hexes[side.hex], may_move_) && !is_owned(side))
+      for (const Side side : mesh_.side_sets[s].sides) {
+        if (!has_marked_corner(mesh_.hexes[side.hex], may_move_)) continue;
+        if (!is_owned(side)) {
           sides_.emplace_back(side, label_of(1, s));
+          continue;
+        }
+        const auto cycle = face_node_cycle(mesh_.hexes[side.hex], side.face);
+        for (int k = 0; k < 4; ++k) {
+          const auto [low, high] = std::minmax(cycle[k], cycle[(k + 1) & 3]);
+          on_cad.push_back({{low, high}, label_of(1, s)});
+        }
+      }
     std::ranges::sort(sides_);
+    // A side set may end within a surface of the CAD.
+    std::ranges::sort(on_cad);
+    for (std::size_t begin = 0, end = 0; begin < on_cad.size(); begin = end) {
+      while (end < on_cad.size() && on_cad[end] == on_cad[begin]) ++end;
+      const Edge& edge = on_cad[begin].nodes;
+      if (end - begin == 1 && !std::ranges::binary_search(association_.curve_edges, edge)) rims_on_cad_.push_back(edge);
+    }
+  }
+  void hold_rims_on_cad() {
+    for (const auto& [a, b] : rims_on_cad_) {
+      hold_along(a, b);
+      hold_along(b, a);
+    }
   }
 
   /// All faces of the hexes around that can be named, sorted.
@@ -283,6 +307,7 @@ class Finder {
   std::vector<const NodeSet*> sets_;
   CompressedRows sets_of_;                     ///< per node, where there are sets
   std::vector<std::pair<Side, Label>> sides_;  ///< named ones, ascending
+  std::vector<Edge> rims_on_cad_;              ///< of side sets
   std::vector<Index> local_;                   ///< hexes around nodes that may move
   std::vector<NamedEdge> edges_;               ///< of named faces
   std::vector<Index> on_face_;                 ///< nodes of named faces

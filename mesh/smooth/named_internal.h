@@ -31,7 +31,8 @@ struct Holds {
 ///    different values of the hex fields keep_jumps;
 ///  - faces with a hex on both sides in a side set; those whose four nodes are in a node set, unless all nodes of the
 ///    hexes on both sides are;
-///  - edges between nodes of a node set that lie on no such face and in no such hex; other nodes of it stay.
+///  - edges between nodes of a node set that lie on no such face and in no such hex; other nodes of it stay;
+///  - edges at which a side set on the CAD ends within a surface.
 /// Faces and nodes on entities of the association are left to these, but a node there that a named face reaches is held
 /// by it too. Where such faces lie in one plane around a node it may slide there, where they meet at an angle along the
 /// line, at their rim along the rim; where that bends it stays.

@@ -1,15 +1,20 @@
 // What a session promises of its mesh: valid hexes, nodes on the CAD, named shapes kept.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "geom/occ_shapes.h"
+#include "hextwist/base/same_bits.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "session/session_fixture.h"
 #include "support/checkers.h"
+#include "support/seed.h"
 
 namespace hextwist {
 
@@ -116,6 +121,40 @@ TEST(Kept, interfaces_of_blocks_that_overlap_or_leave_hexes_out_stay_when_refine
       const Mesh& after = f.session.meshed().mesh;
       EXPECT_NEAR(volume_of(after, after.blocks[0].hexes), 64, 1e-9) << command;
     }
+  }
+}
+
+TEST(Kept, a_side_set_that_ends_within_a_surface_stays_as_large) {
+  const auto cad = folder() / "box.brep";
+  test::OccShape::brick(8, 4, 4).write(cad);
+  std::mt19937 random(test::random_seed());
+  std::uniform_real_distribution<double> off(-0.3, 0.3);
+  Mesh mesh = test::grid(8, 4, 4);
+  mesh.side_sets = {{1, "load", {}}};
+  for (Index h = 96; h < mesh.n_hexes(); ++h)
+    if (h % 8 < 4) mesh.side_sets[0].sides.push_back({h, 5});
+  for (Vec3& p : mesh.points)
+    if (p.z() == 4 && p.x() > 0 && p.x() < 8 && p.y() > 0 && p.y() < 4) {
+      p.y() += off(random);
+      if (p.x() != 4) p.x() += off(random);
+    }
+  const auto area = [](const Mesh& of) {
+    double sum = 0;
+    for (const Side side : of.side_sets[0].sides) {
+      const auto n = face_nodes(of.hexes[side.hex], side.face);
+      sum += (of.points[n[3]] - of.points[n[0]]).cross(of.points[n[2]] - of.points[n[1]]).norm() / 2;
+    }
+    return sum;
+  };
+  for (const std::string command : {"smooth volume all", "refine hex 101 smooth", "smooth surface all"}) {
+    SCOPED_TRACE(command);
+    Fixture f;
+    f.session.run("import geometry '" + cad.string() + "'");
+    f.session.take_mesh(mesh);
+    EXPECT_NEAR(area(f.session.meshed().mesh), 16, 1e-9);
+    f.session.run(command);
+    EXPECT_FALSE(same_bits(f.session.meshed().mesh.points, mesh.points));
+    EXPECT_NEAR(area(f.session.meshed().mesh), 16, 1e-9);
   }
 }
 
