@@ -206,6 +206,20 @@ MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_h
   return result;
 }
 
+MeshedModel at_first(Ranks& ranks, MeshedModel part, std::vector<int>& home) {
+  std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
+  ids[0] = part.mesh.hex_ids;
+  ids = ranks.exchange(ids);
+  const std::shared_ptr<const Model> model = part.model;
+  const std::vector<int> to_first(part.mesh.hexes.size(), 0);
+  MeshedModel whole = moved(ranks, std::move(part), to_first);
+  if (!ranks.is_first()) return {{}, model, {}};
+  home.resize(whole.mesh.hexes.size());
+  for (std::size_t rank = 0; rank < ids.size(); ++rank)
+    for (const std::int64_t id : ids[rank]) home[find_hex(whole.mesh, id)] = static_cast<int>(rank);
+  return whole;
+}
+
 double load_of(Ranks& ranks, std::int64_t n, const Say& say) {
   const std::int64_t all = ranks.sum(n), largest = ranks.largest(n);
   const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);
