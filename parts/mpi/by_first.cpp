@@ -15,13 +15,12 @@
 namespace hextwist {
 namespace {
 
-/// Hexes know which they come of as those of a file do, so no command sees it. Per hex the rank of what it came of;
-/// empty: not known.
+/// Hexes know which they come of as those of a file do, so no command sees it. Per hex the rank of what it came of; the
+/// first where that is not known.
 std::vector<int> take_ranks(Mesh& mesh, std::span<const int> rank_before) {
-  std::vector<int> rank;
+  std::vector<int> rank(mesh.hexes.size(), 0);
   const std::vector<Index> before = std::exchange(mesh.file_hexes, {});
-  if (before.size() != mesh.hexes.size()) return rank;
-  for (const Index h : before) rank.push_back(rank_before[h]);
+  for (std::size_t h = 0; h < before.size() && before.size() == rank.size(); ++h) rank[h] = rank_before[before[h]];
   return rank;
 }
 
@@ -80,7 +79,7 @@ void refined_by_first(Ranks& ranks, RankPart& part, const PartCommands& commands
   const std::shared_ptr<const Model> model = part.own.model;
   const std::int64_t n_before = part.n_hexes;
   std::vector<int> rank_before, rank_of_hex;
-  part.own = at_first(ranks, std::move(part.own), rank_before);
+  part.own = at_first(ranks, std::move(part.own), rank_before, part.highest_node);
   ranks.together([&] {
     if (!ranks.is_first()) return;
     part.own.mesh.file_hexes.resize(part.own.mesh.hexes.size());
@@ -91,8 +90,8 @@ void refined_by_first(Ranks& ranks, RankPart& part, const PartCommands& commands
   });
   share_heads(ranks, part.own.mesh);
   part.own.model = model;
-  if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
-  part.highest_node = 0;
+  part.highest_node = ranks.largest(part.own.mesh.node_ids.empty() ? 0 : part.own.mesh.node_ids.back());
+  part.own = moved(ranks, std::move(part.own), rank_of_hex);  // without nodes of no hex
   count_whole(ranks, part);
   say(std::to_string(n_before) + " -> " + std::to_string(part.n_hexes) + " hexes in " + counted(ranks.size(), "part"));
   const bool is_any_empty = ranks.least(part.own.mesh.n_hexes()) == 0;

@@ -333,17 +333,20 @@ TEST(InRanks, what_a_file_says_of_the_whole_stays) {
     if (has_scotch() || by[0] == 'b') expect_same_file({(folder / "rejoined.e").string(), "", "refine hex 1 2"}, 3, by);
   expect_same_file({(folder / "rejoined.e").string(), "", "refine hex 1; smooth volume all"}, 2, "boxes");
   // Nodes of no hex are left out, but have had their ids.
-  Session session;
-  session.import_mesh(folder / "whole.e");
-  session.run("refine hex 1 2");
-  for (const char* by : {"boxes", "scotch"}) {
-    if (!has_scotch() && by[0] == 's') continue;
-    const Outcome outcome = run_ranks(2, "'" + (folder / "whole.e").string() + "' --by " + by +
-                                             " -c 'refine hex 1 2' -o '" + (folder / "fine.e").string() + "'");
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    const Mesh fine = read_parts(folder / "fine.e.2.0").mesh;
-    EXPECT_EQ(node_id(fine, fine.n_nodes() - 1), node_id(session.meshed().mesh, session.meshed().mesh.n_nodes() - 1));
-  }
+  for (const std::string commands : {"refine hex 1 2", "smooth volume all; refine hex 1 2"})
+    for (const char* by : {"boxes", "scotch"})
+      for (const int n : {1, 2}) {
+        if (!has_scotch() && by[0] == 's') continue;
+        Session session;
+        session.import_mesh(folder / "whole.e");
+        session.run(commands);
+        const Outcome outcome = run_ranks(n, "'" + (folder / "whole.e").string() + "' --by " + by + " -c '" + commands +
+                                                 "' -o '" + (folder / "fine.e").string() + "'");
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const Mesh fine = read_parts(part_name(folder / "fine.e", n, 0)).mesh, &serial = session.meshed().mesh;
+        EXPECT_EQ(node_id(fine, fine.n_nodes() - 1), node_id(serial, serial.n_nodes() - 1)) << commands;
+        EXPECT_EQ(fine.n_nodes(), serial.n_nodes() - 1) << "without that of no hex";
+      }
 }
 TEST(InRanks, a_fault_of_a_part_is_named_with_its_file) {
   const auto folder = test::output_folder();
