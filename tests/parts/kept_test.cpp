@@ -273,6 +273,15 @@ TEST(Kept, why_a_file_is_not_read_in_slices_is_said) {
   }
   write_mesh(folder / "wide.e", with_wide_ids(), nullptr);
   EXPECT_EQ(refusal("wide.e"), "a block or set of the id 5000000000" + hint);
+  OnDiskOptions fenced;
+  fenced.n_parts = 2;
+  fenced.fence.readers = folder;
+  EXPECT_EQ(test::error_of([&] {
+              refine_on_disk(folder / "wide.e", PartCommands(std::vector<std::string>{"refine hex 1"}),
+                             folder / "fine.e", fenced, [](const std::string&) {});
+            }),
+            (folder / "wide.e").string() +
+                ": is not read in slices, as it has the form of HDF5 (NetCDF-4), which is read behind a fence" + hint);
 }
 
 TEST(Kept, parts_that_overlap_are_named_by_their_files) {
