@@ -4,7 +4,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
-#include "hextwist/io/vtk/tags_internal.h"
+#include "hextwist/io/vtk/escaped.h"
 #include "hextwist/parts/own_part.h"
 
 namespace hextwist {

@@ -171,7 +171,7 @@ bool keeps_of_slice(const GmshContents& contents, Field::On on, std::int64_t tag
   const bool is_here = on == Field::On::node ? contents.nodes.find(tag) >= 0 : has_id(slice, slice.hex_tags, tag);
   // What has values of other elements, too, is told where all is read.
   if (slice.walk == GmshWalk::lower && on == Field::On::hex && !is_here)
-    slice.refuse("values of elements that are no hexes (element " + std::to_string(tag) + ")", true);
+    slice.refuse("values of elements other than hexes (element " + std::to_string(tag) + ")", true);
   return slice.walk == GmshWalk::all && is_here;
 }
 

@@ -307,7 +307,7 @@ Unsliced against_slices(VtuFile& file) {
     if (array.head.global_ids) return {"what VTK calls global ids" + called, true};
     if (kind_of(array).starts_with("other_")) return {"other elements than hexes" + called};
     if (is_of_file && rows_of(kind_of(array)) && (array.is_text || !is_integer(array)))
-      return {(array.is_text ? text : "members that are no integers") + called, array.is_text};
+      return {(array.is_text ? text : "members that are not integers") + called, array.is_text};
     const std::size_t n = array.section == "PointData" ? file.n_points() : file.n_cells();
     if ((array.section == "PointData" || array.section == "CellData") &&
         !has_size(file, &array, n * static_cast<std::size_t>(array.head.components)))
