@@ -213,6 +213,7 @@ InRanks refine_by_first(Ranks& ranks, RankPart& part, const PartCommands& comman
 InRanks refine_by_all(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
                       const Say& say) {
   if (!commands.by_whole().empty()) return refine_by_first(ranks, part, commands, options, commands.by_whole(), say);
+  for (const std::string& line : commands.notices()) say(line);  // the first says so by itself
   int n_rings = first_rings(options.n_rings, commands.depth(), commands.size()), n_restarts = 0;
   bool may_rebalance = options.rebalance && ranks.size() > 1;
   for (;;) {
@@ -249,7 +250,6 @@ InRanks refine_by_all(Ranks& ranks, RankPart& part, const PartCommands& commands
 
 InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
                         const Say& say) {
-  for (const std::string& line : commands.notices()) say(line);
   InRanks made = refine_by_all(ranks, part, commands, options, say);
   made.results = part.results;
   return made;

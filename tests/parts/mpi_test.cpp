@@ -359,6 +359,15 @@ TEST(InRanks, a_fault_of_a_part_is_named_with_its_file) {
   EXPECT_NE(outcome.err.find("error: rank 1: " + (folder / "parts.e.2.1").string() + ": "), std::string::npos)
       << outcome.err;
 }
+TEST(InRanks, lines_of_other_programs_are_skipped_and_said_once) {
+  const std::string mesh = brick("6 4 4"), note = "'graphics' is skipped";
+  for (const char* commands : {"graphics off; refine hex 1", "graphics off; smooth volume all"}) {
+    const Outcome outcome = run_ranks(2, "'" + mesh + "' -c '" + commands + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(note), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find(note), outcome.out.rfind(note)) << outcome.out;
+  }
+}
 TEST(InRanks, commands_of_a_session_are_refused_by_name) {
   const std::string mesh = brick("6 4 4");
   const auto said = [&](const std::string& commands) {
