@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -22,7 +23,9 @@ namespace hextwist::app {
 
 namespace {
 
-void refine_in_parts(const Options& options, const Fence& fence) {
+using Say = std::function<void(const std::string&)>;
+
+void refine_in_parts(const Options& options, const Fence& fence, const Say& say) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::string> texts;
   for (const Step& step : options.steps) texts.push_back(step.text);
@@ -37,11 +40,9 @@ void refine_in_parts(const Options& options, const Fence& fence) {
   on_disk.fence = fence;
   on_disk.n_parts = options.n_parts;
   if (!options.split_by.empty()) on_disk.by = partition_by(options.split_by);
-  refine_on_disk(options.mesh, *commands, options.output, on_disk, [](const std::string& line) {
-    std::cout << line << "\n" << std::flush;
-  });
+  refine_on_disk(options.mesh, *commands, options.output, on_disk, say);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  std::cout << "at most " << (peak_memory() >> 20) << " MiB, " << short_number(seconds.count()) << " s\n";
+  say("at most " + std::to_string(peak_memory() >> 20) + " MiB, " + short_number(seconds.count()) + " s");
 }
 
 }  // namespace
@@ -50,6 +51,8 @@ int run_parts(const Options& options) {
   Fence fence;
   fence.readers = find_readers();
   std::string error;
+  Console console;
+  const Say say = console.callbacks().output;
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
@@ -60,14 +63,14 @@ int run_parts(const Options& options) {
   });
   try {
     if (options.in_parts) {
-      refine_in_parts(options, fence);
-      return done;
+      refine_in_parts(options, fence, say);
+      return console.problem().empty() ? done : command_failed;
     }
     const auto lines =
         options.join ? join_files(options.mesh, options.output, fence)
                      : split_file(options.mesh, options.output, options.split, partition_by(options.split_by), fence);
-    for (const std::string& line : lines) std::cout << line << "\n";
-    return done;
+    for (const std::string& line : lines) say(line);
+    return console.problem().empty() ? done : command_failed;
   } catch (const std::bad_alloc&) {
     error = "out of memory";
   } catch (const std::exception& problem) {

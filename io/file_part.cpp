@@ -26,7 +26,7 @@ PartHead read_part_head(const std::filesystem::path& file) {
 
 GmshPartHead read_gmsh_part_head(const std::filesystem::path& file) {
   const io::GmshPartition of = io::gmsh_partition(io::read_bytes(file));
-  return {of.n, of.n > 1 && of.partitions.size() == 1 ? of.partitions[0] - 1 : -1};
+  return {of.n, of.partitions.size() == 1 ? of.partitions[0] - 1 : -1};
 }
 
 }  // namespace hextwist

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hextwist/base/replacement.h"
+#include "hextwist/io/extras.h"
 #include "hextwist/mesh/mesh.h"
 
 namespace hextwist {
@@ -43,6 +44,9 @@ struct FilePart {
   std::vector<SharedNodes> nodes;
   std::vector<SharedSides> sides;
 };
+
+/// What parts have no place for of what a file says beyond its mesh, one line each.
+std::vector<std::string> left_out_of_parts(const FileExtras& extras);
 
 /// name.e.8.0: as many digits as the number of parts has. name_1.msh of name.msh and the number 0.
 std::filesystem::path part_name(const std::filesystem::path& name, int n_parts, int number);

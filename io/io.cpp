@@ -4,6 +4,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/exodus/exodus_internal.h"
+#include "hextwist/io/file_part.h"
 #include "hextwist/io/format.h"
 #include "hextwist/io/gmsh/slice_internal.h"
 #include "hextwist/io/results.h"
@@ -126,13 +127,16 @@ void say_of_others(const Mesh& mesh, std::string_view extension, std::string_vie
                       " files have no place for here");
 }
 
-/// What only another format has.
+/// What only another format has. extension: empty for the parts of a mesh, which have none of it.
 void say_left_out(const FileExtras& extras, std::string_view extension, Notices& notices) {
+  const auto why = [&](const char* owner) {
+    return extension.empty() ? "which parts have no place for" : std::string("which only ") + owner + " has";
+  };
   if (extension != ".inp") {
     std::vector<std::string> what;
     for (const auto& [block, type] : extras.element_types)
       if (type != "C3D8" && std::ranges::find(what, type) == what.end()) what.push_back(type);
-    if (!what.empty()) notices.push_back("element types are left out, which only .inp has: " + joined(what, ", "));
+    if (!what.empty()) notices.push_back("element types are left out, " + why(".inp") + ": " + joined(what, ", "));
     what.clear();
     for (const AbaqusCard& card : extras.cards)
       if (const std::string name = card.text.substr(0, card.text.find_first_of(",\r\n"));
@@ -140,20 +144,20 @@ void say_left_out(const FileExtras& extras, std::string_view extension, Notices&
         what.push_back(name);
     if (what.size() > 5) what.resize(5), what.emplace_back("...");
     if (!what.empty())
-      notices.push_back(counted(std::ssize(extras.cards), "card") +
-                        " left out, which only .inp has: " + joined(what, ", "));
+      notices.push_back(counted(std::ssize(extras.cards), "card") + " left out, " + why(".inp") + ": " +
+                        joined(what, ", "));
   }
   if (extension != ".specfem" && !extras.materials.empty())
-    notices.push_back("properties of " + counted(std::ssize(extras.materials), "material") +
-                      " left out, which only .specfem has");
+    notices.push_back("properties of " + counted(std::ssize(extras.materials), "material") + " left out, " +
+                      why(".specfem"));
   if (extension != ".cgns" && !extras.boundary_types.empty())
     notices.push_back("kinds of " +
                       counted(std::ssize(extras.boundary_types), "boundary condition", "boundary conditions") +
-                      " left out, which only .cgns has");
+                      " left out, " + why(".cgns"));
   if (extension != ".msh" && !extras.periodic.empty())
     notices.push_back("pairs of nodes of " +
-                      counted(std::ssize(extras.periodic), "periodic entity", "periodic entities") +
-                      " left out, which only .msh has");
+                      counted(std::ssize(extras.periodic), "periodic entity", "periodic entities") + " left out, " +
+                      why(".msh"));
 }
 
 /// The first bytes of a file; empty where it can't be read.
@@ -290,12 +294,15 @@ MeshFile read_mesh(const std::filesystem::path& file, std::string_view name, con
   return format->read(file, fence);
 }
 
-std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence) {
+std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence, Unsliced* why) {
   const Format* format = format_to_read(file, {});
-  if (format && format->read == io::read_exodus) return io::exodus_in_slices(file, fence);
-  if (format && format->read == read_whole<io::read_vtu>) return io::vtu_in_slices(file);
-  if (format && format->read == read_whole<io::read_gmsh>) return io::gmsh_in_slices(file);
-  return std::nullopt;
+  Unsliced reason{"another format than Exodus, .vtu and .msh", true};
+  std::optional<SlicedFile> sliced;
+  if (format && format->read == io::read_exodus) sliced = io::exodus_in_slices(file, fence, reason);
+  if (format && format->read == read_whole<io::read_vtu>) sliced = io::vtu_in_slices(file, reason);
+  if (format && format->read == read_whole<io::read_gmsh>) sliced = io::gmsh_in_slices(file, reason);
+  if (why) *why = sliced ? Unsliced() : reason;
+  return sliced;
 }
 
 MeshSlice read_slice(const SlicedFile& file, int number, int n) {
@@ -303,6 +310,16 @@ MeshSlice read_slice(const SlicedFile& file, int number, int n) {
   const Format* format = format_to_read(file.file, {});
   return format && format->read == read_whole<io::read_vtu> ? io::read_vtu_slice(file, number, n)
                                                             : io::read_exodus_slice(file, number, n);
+}
+
+std::vector<std::string> left_out_of_parts(const FileExtras& extras) {
+  Notices notices;
+  say_left_out(extras, "", notices);
+  if (!extras.patches.empty())
+    notices.push_back("types of " + counted(std::ssize(extras.patches), "patch", "patches") +
+                      " left out, which parts have no place for");
+  if (!extras.heading.empty()) notices.emplace_back("the heading is left out, which parts have no place for");
+  return notices;
 }
 
 bool is_written_in_pieces(const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -65,6 +66,30 @@ std::string extras_text(const FileResults& extras) {
   add_sets(extras.side_sets, "sideset");
   for (const FileResults::Property& property : extras.properties) add("property '" + property.name + "'");
   return text;
+}
+
+std::shared_ptr<const FileResults> results_of_parts(const FileResults& results, std::string& lost) {
+  FileResults kept, rest = results;
+  kept.title = results.title;
+  kept.coordinate_names = results.coordinate_names;
+  kept.info = results.info;
+  kept.qa = results.qa;
+  kept.wide_ids = results.wide_ids;
+  kept.properties = std::move(rest.properties);
+  rest.properties.clear();
+  rest.of_all.clear();
+  if (!results.times.empty()) {
+    kept.times = {results.times[results.step]};
+    for (const TimedValues& values : results.of_all) kept.of_all.push_back({values.name, {values.at[results.step]}});
+  }
+  const auto take_factors = [](std::vector<SetExtras>& from, std::vector<SetExtras>& to) {
+    for (SetExtras& set : from)
+      if (set.factors.size() == 1) to.push_back({set.id, {}, {}, std::exchange(set.factors, {}), {}});
+  };
+  take_factors(rest.node_sets, kept.node_sets);
+  take_factors(rest.side_sets, kept.side_sets);
+  lost = extras_text(rest);
+  return kept.empty() ? nullptr : std::make_shared<const FileResults>(std::move(kept));
 }
 
 const std::vector<ExtrasNow::NodeNow>& ExtrasNow::nodes() {

@@ -75,6 +75,10 @@ struct FileResults {
 /// sideset 3"; empty when nothing that counts.
 std::string extras_text(const FileResults& extras);
 
+/// What of it each part of a mesh keeps: what is of the whole, and the moment that the fields are of. lost: names the
+/// rest as extras_text() does.
+std::shared_ptr<const FileResults> results_of_parts(const FileResults& results, std::string& lost);
+
 /// Values now, of a mesh that has extras and knows the hexes of the file.
 class ExtrasNow {
  public:

@@ -17,15 +17,23 @@ struct GmshWhole;
 struct SlicedFile {
   std::filesystem::path file;
   std::int64_t n_nodes = 0, n_hexes = 0;
+  std::int64_t highest_node = 0;                        ///< id; of nodes of no hex, too
   std::shared_ptr<const io::GmshWhole> gmsh = nullptr;  ///< what slices of a .msh file have to know of the others
+};
+
+/// What a file has that stands against slices.
+struct Unsliced {
+  std::string what;           ///< "arrays as text"; empty: nothing
+  bool may_be_split = false;  ///< all the same, with the whole in memory
 };
 
 /// Looks through all ids, or cells, of a file once. Nothing where it is not read in slices: other formats than Exodus
 /// and .vtu, other elements or hexes of second order. Of Exodus: ids that are out of order and far apart, element sets
 /// that are element blocks with more hexes. Of .vtu: arrays as text, arrays that VTK calls global ids. Of .msh:
-/// other versions than 4.1, partitions, values of elements that are no hexes, ids far apart. Throws Error as
-/// read_mesh() does.
-std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence = {});
+/// other versions than 4.1, partitions, values of elements that are no hexes, ids far apart. why: is told. Throws Error
+/// as read_mesh() does.
+std::optional<SlicedFile> in_slices(const std::filesystem::path& file, const Fence& fence = {},
+                                    Unsliced* why = nullptr);
 
 struct MeshSlice {
   MeshFile file;         ///< with the ids, groups and fields of the whole; of FileResults what has no places

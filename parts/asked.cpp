@@ -8,6 +8,7 @@
 #include "hextwist/command/braces.h"
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/flow.h"
+#include "hextwist/command/foreign.h"
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/session.h"
 #include "hextwist/sizing/targets.h"
@@ -90,6 +91,17 @@ void check_range(EntityKind kind, const Range& range, bool of_cad, std::vector<N
 /// Commands that begin with another mesh, or end.
 constexpr std::array<std::string_view, 8> of_sessions = {"brick",  "create", "cylinder", "exit",
                                                          "import", "quit",   "reset",    "sphere"};
+
+/// Also said of a volume.
+constexpr std::array<std::string_view, 4> of_places = {"move", "reflect", "rotate", "scale"};
+
+/// Commands that put the mesh on another model; empty: it is none.
+std::string of_models(const Command& command) {
+  const std::string_view name = command.spec->name;
+  for (const std::string_view word : of_places)
+    if (name == word || (name == "volume" && command.has(word))) return std::string(word);
+  return name == "project" && command.find("file") ? "project to geometry" : "";
+}
 
 constexpr std::int64_t most_ids = 1000000;  // of a span
 
@@ -237,6 +249,7 @@ PartCommands::PartCommands(std::span<const std::string> texts) : texts_(texts.be
   bool is_any = false;
   for (const std::string& text : texts)
     for (const Statement& statement : split_statements(text, "", 1)) {
+      if (is_skipped(statement)) continue;
       is_any = true;
       try {
         add(statement);
@@ -245,6 +258,22 @@ PartCommands::PartCommands(std::span<const std::string> texts) : texts_(texts.be
       }
     }
   if (!is_any) throw Error("no refinement was asked for");
+}
+
+/// Lines of other programs that only show or log, as in a session.
+bool PartCommands::is_skipped(const Statement& statement) {
+  if (has_braces(statement) || flow_of(statement).kind != Flow::none) return false;
+  try {
+    parse(statement);
+    return false;
+  } catch (const CommandError&) {
+    const std::optional<Foreign> foreign = foreign_line(statement);
+    if (!foreign) throw;
+    if (!foreign->is_skipped) throw error_at(statement, statement.tokens.front(), std::string(foreign->text));
+    notices_.push_back("'" + foreign->said + "' is skipped" +
+                       (foreign->text.empty() ? "" : ": " + std::string(foreign->text)));
+    return true;
+  }
 }
 
 void PartCommands::add(const Statement& statement) {
@@ -257,6 +286,9 @@ void PartCommands::add(const Statement& statement) {
   if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
     throw error_at(statement, statement.tokens.front(),
                    "'" + name + "' is for sessions of hextwist: here the mesh is read first and written in the end");
+  if (const std::string moving = of_models(command); !moving.empty())
+    throw error_at(statement, statement.tokens.front(),
+                   "'" + moving + "' puts the mesh on another model: parts stay on theirs; run it with hextwist");
   if (name == "sizing") {
     check_function(command);
     functions_.push_back({commands_.size(), std::move(command)});
@@ -319,8 +351,8 @@ PartAsked PartCommands::asked(std::size_t i, LocalMesh& local, const GlobalIds& 
       result.nothing = "none of them is there";
     const bool is_for_sizes = command.find("size") || command.has("sizing_function");
     const Item* range = command.find("range");
-    if (is_for_sizes && !result.has_target && range && range->kind == EntityKind::hex)
-      ask_without_target(core, command, result);
+    // Entities of the mesh may all be elsewhere; those of the CAD are known to all.
+    if (is_for_sizes && !result.has_target && range && is_mesh(range->kind)) ask_without_target(core, command, result);
   } catch (const NeedsWhole& needs) {
     result.by_whole = needs.why;
   } catch (const std::exception& error) {

@@ -52,6 +52,8 @@ class PartCommands {
   /// What was said, and by which commands; "": that is not known before it is done.
   std::span<const std::string> texts() const { return texts_; }
   std::span<const std::string> names() const { return names_; }
+  /// What is to be said of lines that are skipped.
+  std::span<const std::string> notices() const { return notices_; }
   /// Those that can be done in parts, where all can.
   std::size_t size() const { return commands_.size(); }
   /// The deepest layers that are asked for.
@@ -67,7 +69,8 @@ class PartCommands {
  private:
   bool cuts_levels(std::size_t i, Approach approach) const;
   void add(const Statement& statement);
-  std::vector<std::string> texts_, names_;
+  bool is_skipped(const Statement& statement);
+  std::vector<std::string> texts_, names_, notices_;
   std::string by_whole_;
   std::vector<Command> commands_;
   struct Function {

@@ -5,6 +5,7 @@
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/results.h"
+#include "hextwist/mesh/arrays.h"
 #include "hextwist/mesh/others.h"
 #include "hextwist/mesh/validate/validate.h"
 #include "hextwist/parts/join.h"
@@ -53,6 +54,33 @@ SplitName gmsh_split_name(const std::filesystem::path& part) {
   return {name, head.n_parts};
 }
 
+/// Whether the part has members of a group.
+bool has_members(const Mesh& mesh, FileResults::Of of, int id) {
+  const auto has = [&](const auto& groups) {
+    return std::ranges::any_of(groups, [&](auto& group) { return group.id == id && !items_of(group).empty(); });
+  };
+  if (of == FileResults::Of::block) return has(mesh.blocks);
+  return of == FileResults::Of::node_set ? has(mesh.node_sets) : has(mesh.side_sets);
+}
+
+/// What a part has to say to the whole. Of a group that has all its members in other parts that is neither factors nor
+/// properties, which Exodus files do not have of empty groups.
+std::shared_ptr<const FileResults> results_to_join(const Mesh& mesh, std::string& lost) {
+  const std::shared_ptr<const FileResults> results = results_of_parts(*mesh.results, lost);
+  if (!results) return nullptr;
+  FileResults kept = *results;
+  const auto leave_out = [&](std::vector<SetExtras>& sets, const char* kind) {
+    for (const SetExtras& set : sets)
+      lost += std::string(lost.empty() ? "" : ", ") + "distribution factors of " + kind + " " + std::to_string(set.id);
+    sets.clear();
+  };
+  leave_out(kept.node_sets, "nodeset");
+  leave_out(kept.side_sets, "sideset");
+  for (FileResults::Property& property : kept.properties)
+    std::erase_if(property.values, [&](const auto& value) { return !has_members(mesh, property.of, value.first); });
+  return kept.empty() ? nullptr : std::make_shared<const FileResults>(std::move(kept));
+}
+
 /// Without nodes of no hex of its own: Gmsh's files have those of ghosts.
 Mesh without_loose_nodes(Mesh mesh) {
   const MeshedModel part{std::move(mesh), nullptr, {}};
@@ -75,7 +103,7 @@ SplitName split_name(const std::filesystem::path& part) {
 }
 
 Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<std::string>& notices,
-                   const Fence& fence) {
+                   const Fence& fence, PartUse use) {
   const int n_parts = split.n_parts;
   const std::filesystem::path file = part_name(split.name, n_parts, p);
   if (!std::filesystem::exists(file))
@@ -99,12 +127,15 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
   MeshFile read = read_mesh(file, is_gmsh_part(file) ? "gmsh" : "exodus", fence);
   refuse_second_order(read, file);
   refuse_others(read.mesh, file);
-  for (std::string& line : read.notices)
-    if (std::ranges::find(notices, line) == notices.end()) notices.push_back(std::move(line));
-  if (read.mesh.results)
-    if (const std::string lost = extras_text(*read.mesh.results); !lost.empty())
-      notices.push_back(file.string() + ": parts are joined without " + lost);
-  read.mesh.results = nullptr;
+  if (use == PartUse::refine) refuse_more(read.mesh, &read.extras, file.string());
+  for (const auto& lines : {read.notices, left_out_of_parts(read.extras)})
+    for (const std::string& line : lines)
+      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(line);
+  if (read.mesh.results) {
+    std::string lost;
+    read.mesh.results = results_to_join(read.mesh, lost);
+    if (!lost.empty()) notices.push_back(file.string() + ": parts are joined without " + lost);
+  }
   read.mesh.file_hexes.clear();
   return is_gmsh_part(file) ? without_loose_nodes(std::move(read.mesh)) : std::move(read.mesh);
 }
@@ -122,6 +153,7 @@ MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
   result.mesh = join(pieces, [&](std::size_t p) {
                   return part_name(split.name, split.n_parts, static_cast<int>(p)).string();
                 }).mesh;
+  for (const MeshedModel& piece : pieces) join_results(result.mesh.results, piece.mesh.results);
   check_counts(split, head, result.mesh.n_nodes(), result.mesh.n_hexes());
   return result;
 }
@@ -131,6 +163,17 @@ void check_counts(const SplitName& split, const PartHead& said, std::int64_t n_n
     throw Error(split.name.string() + ": its parts have " + std::to_string(n_hexes) + " hexes and " +
                 std::to_string(n_nodes) + " nodes together, and say " + std::to_string(said.n_hexes) + " and " +
                 std::to_string(said.n_nodes));
+}
+
+void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& name) {
+  if (mesh.others) throw Error(name + ": other elements are not done in parts: it has " + others_text(mesh));
+  if (!extras) return;
+  for (const auto& [block, n] : extras->nodes_per_hex)
+    if (n > 8)
+      throw Error(name + ": hexes of " + std::to_string(n) +
+                  " nodes are not done in parts; write it with 'set order 1' first");
+  if (std::ranges::find(extras->periodic, 2, &PeriodicPairs::dim) != extras->periodic.end())
+    throw Error(name + ": periodic surfaces are not kept alike in parts; run it with hextwist");
 }
 
 void check_part(const Mesh& mesh, const std::string& name) {
@@ -164,6 +207,7 @@ std::vector<std::string> split_file(const std::filesystem::path& mesh, const std
   refuse_second_order(file, mesh);
   std::vector<std::string> notices = std::move(file.notices);
   if (!file.tags.empty()) notices.emplace_back(without_owners);
+  for (std::string& line : left_out_of_parts(file.extras)) notices.push_back(std::move(line));
   const MeshedModel whole{std::move(file.mesh), nullptr, {}};
   const std::vector<int> part_of_hex = partition(whole.mesh, n_parts, by);
   const Splitting splitting(whole, part_of_hex, n_parts);

@@ -24,16 +24,21 @@ SplitName split_name(const std::filesystem::path& part);
 /// or the parts do not make up what they say they are parts of.
 MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence = {});
 
-/// Reads one of them, without what comes beside its last time step. first: what the parts before say of the whole; none
-/// was read yet where its n_parts is 0. Throws Error as above.
+/// Refining asks for more than joining does (refuse_more()).
+enum class PartUse { join, refine };
+/// Reads one of them; of what comes beside the mesh what is of the whole (results_of_parts()). first: what the parts
+/// before say of the whole; none was read yet where its n_parts is 0. Throws Error as above.
 Mesh read_one_part(const SplitName& split, int part, PartHead& first, std::vector<std::string>& notices,
-                   const Fence& fence = {});
+                   const Fence& fence = {}, PartUse use = PartUse::join);
 
 /// Throws Error where all parts together do not have what they say (`said`) of the whole.
 void check_counts(const SplitName& split, const PartHead& said, std::int64_t n_nodes, std::int64_t n_hexes);
 
 /// Throws Error where a part, by itself, is no mesh that can be refined. name: what messages call it.
 void check_part(const Mesh& part, const std::string& name);
+/// Throws Error where parts would lose what a mesh has, or refine it in another way than a single process. extras: what
+/// its file said beyond, null where that is nothing.
+void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& name);
 /// Fills in ids that were left out.
 void need_ids(Mesh& mesh);
 

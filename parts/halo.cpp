@@ -102,13 +102,13 @@ std::vector<std::uint8_t> rings_of(const Mesh& mesh, std::span<const int> owner,
 }  // namespace
 
 LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPiece> pieces, int n_rings,
-                     std::int64_t n_hexes) {
+                     std::int64_t n_hexes, const std::function<std::string(int)>& name) {
   MeshedModel all;
   {
     std::vector<const MeshedModel*> to_join = {&own};
     for (const HaloPiece& piece : pieces) to_join.push_back(&piece.meshed);
     all = join(std::span<const MeshedModel* const>(to_join),
-               [&](std::size_t i) { return "part " + std::to_string(i == 0 ? number : pieces[i - 1].owner); });
+               [&](std::size_t i) { return name(i == 0 ? number : pieces[i - 1].owner); });
   }
   all.model = own.model;
   const Mesh& mesh = all.mesh;

@@ -61,8 +61,8 @@ struct HaloPiece {
 };
 
 /// A part and what lies around it, in the order of the whole. own and the pieces have their ids. Of the pieces only
-/// what lies in these rings is taken. n_hexes: of the whole mesh.
+/// what lies in these rings is taken. n_hexes: of the whole mesh. name: what messages call a part.
 LocalMesh local_mesh(const MeshedModel& own, int number, std::span<const HaloPiece> pieces, int n_rings,
-                     std::int64_t n_hexes);
+                     std::int64_t n_hexes, const std::function<std::string(int)>& name);
 
 }  // namespace hextwist

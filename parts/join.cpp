@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/results.h"
 #include "hextwist/mesh/arrays.h"
 
 namespace hextwist {
@@ -155,6 +156,25 @@ MeshedModel join(std::span<const MeshedModel* const> pieces, const std::function
   whole.mesh.node_ids = stored(nodes);
   whole.mesh.hex_ids = stored(hexes);
   return whole;
+}
+
+void join_results(std::shared_ptr<const FileResults>& whole, const std::shared_ptr<const FileResults>& part) {
+  if (!whole) whole = part;
+  if (!part || whole == part) return;
+  FileResults joined = *whole;
+  for (const FileResults::Property& more : part->properties) {
+    const auto known = std::ranges::find_if(joined.properties, [&](const FileResults::Property& property) {
+      return property.of == more.of && property.name == more.name;
+    });
+    if (known == joined.properties.end()) {
+      joined.properties.push_back(more);
+      continue;
+    }
+    for (const auto& value : more.values)
+      if (std::ranges::find(known->values, value.first, &std::pair<int, std::int64_t>::first) == known->values.end())
+        known->values.push_back(value);
+  }
+  whole = std::make_shared<const FileResults>(std::move(joined));
 }
 
 }  // namespace hextwist

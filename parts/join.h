@@ -18,4 +18,8 @@ namespace hextwist {
 MeshedModel join(std::span<const MeshedModel> pieces, const std::function<std::string(std::size_t)>& name);
 MeshedModel join(std::span<const MeshedModel* const> pieces, const std::function<std::string(std::size_t)>& name);
 
+/// Adds what another part says of the whole (Mesh::results) to what those before it have said: values of properties, of
+/// groups that have members there. Either may be null.
+void join_results(std::shared_ptr<const FileResults>& whole, const std::shared_ptr<const FileResults>& part);
+
 }  // namespace hextwist

@@ -120,6 +120,7 @@ class Joining {
       if (field.on == Field::On::hex) look_for_values(part, block, field);
     }
     copy_heads(part, heads_.emplace_back().mesh);
+    join_results(results_, part.results);
     return true;
   }
   void look_for_values(const Mesh& part, const std::vector<int>& block, const Field& field) {
@@ -137,6 +138,7 @@ class Joining {
   WholeOfPieces of_all() {
     WholeOfPieces whole;
     whole.heads = join(heads_, [](std::size_t) { return std::string(); }).mesh;
+    whole.heads.results = results_;
     whole.n_nodes = nodes_.size();
     whole.highest_id = std::max(nodes_.highest(), hexes_.highest());
     std::vector<int> block_ids;
@@ -220,6 +222,7 @@ class Joining {
   std::vector<std::string> notices_;
   std::vector<std::pair<Index, Index>> sizes_;  // of the parts
   std::vector<MeshedModel> heads_;
+  std::shared_ptr<const FileResults> results_;  // of the whole
   IdSet nodes_, hexes_;
   std::map<int, IdSet> in_block_;
   std::map<int, std::int64_t> first_;  // places of the hexes of each block

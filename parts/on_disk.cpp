@@ -8,6 +8,7 @@
 #include "hextwist/base/text.h"
 #include "hextwist/parts/agree.h"
 #include "hextwist/parts/halo.h"
+#include "hextwist/parts/join.h"
 #include "hextwist/parts/on_disk_internal.h"
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/own_skin.h"
@@ -85,6 +86,7 @@ class OnDisk {
     bool is_by_blocks = true;
     std::int64_t n_nodes = 0, n_hexes = 0;
     MeshedModel heads;
+    highest_node_ = source_.highest_node();
     for (int p = 0; p < n_parts(); ++p) {
       check_interrupt();
       MeshedModel part{source_.read(p, head, notices), nullptr, {}};
@@ -92,6 +94,7 @@ class OnDisk {
       if (mesh.hexes.empty()) throw Error(name(p) + ": there are no hexes");
       need_ids(mesh);
       if (!is_split_only()) check_part(mesh, name(p));
+      join_results(results_, source_.is_divided() ? source_.results() : mesh.results);
       check_groups(mesh, p, heads.mesh);
       block_sizes.resize(mesh.blocks.size(), 0);
       // Until it is known whether blocks are volumes, they are.
@@ -110,6 +113,7 @@ class OnDisk {
       shared_.add(skin_nodes(mesh), p);
       write_bytes(aside_.file("own", p), packed(part));
     }
+    for (const std::string& line : commands_.notices()) say_(line);
     for (const std::string& line : notices) say_(line);
     n_nodes_ = n_nodes - shared_.finish();
     n_hexes_ = n_hexes;
@@ -269,7 +273,7 @@ class OnDisk {
       shell = {};
     }
     shells.clear();
-    return local_mesh(part, p, pieces, n_rings_, n_hexes_);
+    return local_mesh(part, p, pieces, n_rings_, n_hexes_, [this](int q) { return name(q); });
   }
 
   /// The part after the first commands.
@@ -516,7 +520,7 @@ class OnDisk {
       for (const std::int64_t n : shares) rest -= n;
       shares.push_back(rest);
       fill_in_whole(part, counts_, shares, highest);
-      if (is_split_only()) part.mesh.results = source_.results();
+      part.mesh.results = results_;
       files.write(part, notices);
       largest = std::max<std::int64_t>(largest, part.mesh.n_hexes());
       for (const auto& shared : part.file.sides) n_shared += std::ssize(shared.sides);
@@ -534,7 +538,8 @@ class OnDisk {
   int n_rings_ = 0;
   SharedNodes shared_;
   std::shared_ptr<const Model> model_;
-  std::vector<std::vector<Owner>> meant_;  // per node set
+  std::shared_ptr<const FileResults> results_;  // of the whole
+  std::vector<std::vector<Owner>> meant_;       // per node set
   Box box_;
   std::int64_t n_nodes_ = 0, n_hexes_ = 0, highest_node_ = 0, highest_hex_ = 0;
   std::vector<Done> done_;
@@ -551,18 +556,21 @@ void refine_on_disk(const std::filesystem::path& input, const PartCommands& comm
   std::optional<PartSource> source;
   if (options.n_parts == 0) source.emplace(input, options.fence);
   const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
-  if (!source) source = PartSource::divide(input, options.n_parts, options.by, aside, options.fence, false);
+  Unsliced why;
   if (!source)
-    throw Error(input.string() +
-                ": is not read in slices, which Exodus files are that have only hexes of 8 nodes and blocks that "
-                "don't overlap; 'hextwist split' makes parts of it");
+    source = PartSource::divide(input, options.n_parts, options.by, aside, options.fence, PartUse::refine, why);
+  if (!source)
+    throw Error(input.string() + ": is not read in slices, as it has " + why.what +
+                (why.may_be_split ? "; 'hextwist split' makes parts of it" : ""));
   OnDisk(std::move(*source), aside, commands, options.n_rings, say).run(output);
 }
 
 bool split_on_disk(const std::filesystem::path& file, const std::filesystem::path& output, const OnDiskOptions& options,
                    const std::function<void(const std::string&)>& say) {
   const Aside aside(options.folder.empty() ? output.parent_path() : options.folder);
-  std::optional<PartSource> source = PartSource::divide(file, options.n_parts, options.by, aside, options.fence, true);
+  Unsliced why;
+  std::optional<PartSource> source =
+      PartSource::divide(file, options.n_parts, options.by, aside, options.fence, PartUse::join, why);
   if (!source) return false;
   OnDisk(std::move(*source), aside, PartCommands(), options.n_rings, say).run(output);
   return true;

@@ -1,9 +1,11 @@
 #include "hextwist/parts/pack.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <fstream>
 
+#include "hextwist/io/results.h"
 #include "hextwist/mesh/arrays.h"
 
 namespace hextwist {
@@ -35,6 +37,15 @@ void take_heads(ByteReader& from, Groups& groups) {
     group.name = text_from(from);
     if constexpr (requires { group.meant; }) from.list(group.meant);
   }
+}
+
+void put_all(ByteWriter& to, const auto& items, const auto& put) {
+  to.value(items.size());
+  for (const auto& item : items) put(item);
+}
+void take_all(ByteReader& from, auto& items, const auto& take) {
+  items.resize(from.value<std::size_t>());
+  for (auto& item : items) take(item);
 }
 
 }  // namespace
@@ -76,6 +87,62 @@ MeshedModel unpacked(std::span<const std::byte> bytes) {
   }
   for_each_array(lists_apart([&](const ArrayTag&, auto& array) { from.list(array); }), meshed);
   return meshed;
+}
+
+std::vector<std::byte> packed_results(const FileResults* results) {
+  ByteWriter to;
+  if (!results) return {};
+  const auto text = [&](const std::string& item) { put_text(to, item); };
+  const auto factors = [&](const SetExtras& set) {
+    to.value(set.id);
+    to.list(set.factors);
+  };
+  to.list(results->times);
+  put_all(to, results->of_all, [&](const TimedValues& values) {
+    text(values.name);
+    to.value((*values.at.at(0)).at(0));
+  });
+  put_all(to, results->node_sets, factors);
+  put_all(to, results->side_sets, factors);
+  put_all(to, results->properties, [&](const FileResults::Property& property) {
+    to.value(property.of);
+    text(property.name);
+    to.list(property.values);
+  });
+  to.list(results->wide_ids);
+  text(results->title);
+  put_all(to, results->coordinate_names, text);
+  put_all(to, results->info, text);
+  put_all(to, results->qa, [&](const auto& record) { std::ranges::for_each(record, text); });
+  return to.take();
+}
+
+std::shared_ptr<const FileResults> unpacked_results(std::span<const std::byte> bytes) {
+  ByteReader from(bytes);
+  FileResults results;
+  const auto text = [&](std::string& item) { item = text_from(from); };
+  const auto factors = [&](SetExtras& set) {
+    set.id = from.value<int>();
+    from.list(set.factors);
+  };
+  from.list(results.times);
+  take_all(from, results.of_all, [&](TimedValues& values) {
+    text(values.name);
+    values.at.push_back(std::make_shared<const std::vector<double>>(1, from.value<double>()));
+  });
+  take_all(from, results.node_sets, factors);
+  take_all(from, results.side_sets, factors);
+  take_all(from, results.properties, [&](FileResults::Property& property) {
+    property.of = from.value<FileResults::Of>();
+    text(property.name);
+    from.list(property.values);
+  });
+  from.list(results.wide_ids);
+  text(results.title);
+  take_all(from, results.coordinate_names, text);
+  take_all(from, results.info, text);
+  take_all(from, results.qa, [&](auto& record) { std::ranges::for_each(record, text); });
+  return std::make_shared<const FileResults>(std::move(results));
 }
 
 Mesh heads_of(const Mesh& mesh) {

@@ -15,6 +15,11 @@ std::vector<std::byte> packed(const MeshedModel& meshed);
 /// The model is left null. Precondition: these bytes come from packed().
 MeshedModel unpacked(std::span<const std::byte> bytes);
 
+/// What results_of_parts() keeps; null: no bytes.
+std::vector<std::byte> packed_results(const FileResults* results);
+/// Precondition: these bytes come from packed_results(), and there are some.
+std::shared_ptr<const FileResults> unpacked_results(std::span<const std::byte> bytes);
+
 /// Its groups and fields, without members and values.
 Mesh heads_of(const Mesh& mesh);
 

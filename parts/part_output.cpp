@@ -2,7 +2,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
+#include "hextwist/io/vtk/escaped.h"
 #include "hextwist/parts/own_part.h"
 
 namespace hextwist {
@@ -32,7 +34,7 @@ std::string list_of_pieces(const std::filesystem::path& piece, const std::vector
     const std::size_t end = line.find(" format=");
     to << "<PDataArray " << line.substr(array.size(), end - array.size()) << "/>\n";
   }
-  for (const std::string& name : names) to << "<Piece Source=\"" << name << "\"/>\n";
+  for (const std::string& name : names) to << "<Piece Source=\"" << io::escaped(name) << "\"/>\n";
   to << "</PUnstructuredGrid>\n</VTKFile>\n";
   return to.str();
 }
@@ -40,7 +42,7 @@ std::string list_of_pieces(const std::filesystem::path& piece, const std::vector
 }  // namespace
 
 PartOutput::PartOutput(std::filesystem::path name, int n_parts)
-    : name_(std::move(name)), n_parts_(n_parts), is_vtk_(name_.extension() == ".pvtu") {}
+    : name_(std::move(name)), n_parts_(n_parts), is_vtk_(lower_case(name_.extension().string()) == ".pvtu") {}
 
 PartOutput::~PartOutput() {
   std::error_code ignored;

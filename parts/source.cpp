@@ -43,9 +43,7 @@ Index in_two_blocks(const Mesh& mesh) {
 }
 
 std::string lost_text(const MeshSlice& slice, const std::filesystem::path& file) {
-  std::string lost = slice.file.mesh.results ? extras_text(*slice.file.mesh.results) : "";
-  if (!slice.left_out.empty()) lost += (lost.empty() ? "" : ", ") + slice.left_out;
-  return lost.empty() ? "" : file.string() + ": is read in slices without " + lost;
+  return slice.left_out.empty() ? "" : file.string() + ": is read in slices without " + slice.left_out;
 }
 
 PartSource::PartSource(const std::filesystem::path& any_part, const Fence& fence) : fence_(fence) {
@@ -59,8 +57,8 @@ PartSource::PartSource(const std::filesystem::path& any_part, const Fence& fence
 }
 
 std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, int n_parts, PartitionBy by,
-                                             const Aside& aside, const Fence& fence, bool keeps_all) {
-  const std::optional<SlicedFile> sliced = in_slices(file, fence);
+                                             const Aside& aside, const Fence& fence, PartUse use, Unsliced& why) {
+  const std::optional<SlicedFile> sliced = in_slices(file, fence, &why);
   if (!sliced) return std::nullopt;
   PartSource source;
   source.whole_ = file;
@@ -69,6 +67,7 @@ std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, 
   source.aside_ = &aside;
   source.n_nodes_ = sliced->n_nodes;
   source.n_hexes_ = sliced->n_hexes;
+  source.highest_node_ = sliced->highest_node;
   const int n_slices = source.n_slices_ =
       static_cast<int>(std::clamp<std::int64_t>(sliced->n_hexes / 100000, 1, n_parts));
   std::vector<Vec3> middles;
@@ -80,10 +79,16 @@ std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, 
     check_interrupt();
     MeshSlice slice = read_slice(*sliced, s, n_slices);
     Mesh& mesh = slice.file.mesh;
-    if (in_two_blocks(mesh) >= 0 || (keeps_all && !slice.left_out.empty())) return std::nullopt;
+    if (const Index h = in_two_blocks(mesh); h >= 0)
+      why = {"blocks that overlap (hex " + std::to_string(hex_id(mesh, h)) + " is in two)"};
+    else if (use == PartUse::join)
+      why = {slice.left_out, true};
+    if (!why.what.empty()) return std::nullopt;
+    if (use == PartUse::refine) refuse_more(mesh, &slice.file.extras, file.string());
     if (s == 0) {
       if (const std::string lost = lost_text(slice, file); !lost.empty()) slice.file.notices.push_back(lost);
       if (!slice.file.tags.empty()) slice.file.notices.emplace_back(without_owners);
+      for (std::string& line : left_out_of_parts(slice.file.extras)) slice.file.notices.push_back(std::move(line));
       source.notices_ = std::move(slice.file.notices);
       source.results_ = mesh.results;
     }
@@ -116,12 +121,12 @@ std::optional<PartSource> PartSource::divide(const std::filesystem::path& file, 
 }
 
 std::string PartSource::name(int part) const {
-  if (is_divided()) return whole_.string() + ", part " + std::to_string(part);
+  if (is_divided()) return whole_.string() + ", part " + std::to_string(part + 1);
   return part_name(whole_, n_parts_, part).string();
 }
 
 Mesh PartSource::read(int part, PartHead& first, std::vector<std::string>& notices) const {
-  if (!is_divided()) return read_one_part({whole_, n_parts_}, part, first, notices, fence_);
+  if (!is_divided()) return read_one_part({whole_, n_parts_}, part, first, notices, fence_, PartUse::refine);
   if (first.n_parts == 0) notices.insert(notices.end(), notices_.begin(), notices_.end());
   first = {n_parts_, n_nodes_, n_hexes_};
   std::vector<MeshedModel> pieces;

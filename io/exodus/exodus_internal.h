@@ -76,7 +76,7 @@ void check_classic_netcdf(const Bytes& file);
 /// What Nemesis says. Throws Error naming the file.
 PartHead read_exodus_head(const std::filesystem::path& file);
 
-std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence);
+std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence, Unsliced& why);
 MeshSlice read_exodus_slice(const SlicedFile& file, int number, int n);
 
 /// Name of the element block for hexes that are in no block.

@@ -1,4 +1,7 @@
 // Calls of the Exodus library that say when they fail.
+#include <netcdf.h>
+
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -31,9 +34,9 @@ void ExodusOutput::put_coordinates(int axis, std::size_t first, std::span<const 
   check(ex_put_partial_coord(file_, exodus_position(first), std::ssize(values), x[0], x[1], x[2]));
 }
 
-void ExodusOutput::put_coordinate_names(std::array<std::string, 3> names) {
-  std::array<char*, 3> pointers = {names[0].data(), names[1].data(), names[2].data()};
-  check(ex_put_coord_names(file_, pointers.data()));
+void ExodusOutput::put_coordinate_names(const std::vector<std::string>& names) {
+  const std::vector<std::string> plain = {"x", "y", "z"};
+  check(ex_put_coord_names(file_, TextsWritten(names.size() == plain.size() ? names : plain).pointers.data()));
 }
 
 void ExodusOutput::put_block(const ExodusPart& part, const std::string& type, std::int64_t n, int nodes_each,
@@ -69,7 +72,35 @@ void say_rest_block(std::int64_t n_hexes, std::int64_t id, std::vector<std::stri
                       std::to_string(id) + " '" + exodus_rest_block + "'");
 }
 
+/// The library writes a name and one zero: behind that the file has what netCDF's buffers held before.
+void ExodusOutput::clear_behind_names() {
+  const auto check_netcdf = [this](int status) { check(status == NC_NOERR ? 0 : -1); };
+  int n_variables = 0;
+  check_netcdf(nc_inq_nvars(file_, &n_variables));
+  for (int v = 0; v < n_variables; ++v) {
+    nc_type type = NC_NAT;
+    int n_dimensions = 0;
+    std::array<int, NC_MAX_VAR_DIMS> dimensions;
+    check_netcdf(nc_inq_var(file_, v, nullptr, &type, &n_dimensions, dimensions.data(), nullptr));
+    if (type != NC_CHAR || n_dimensions == 0) continue;
+    std::size_t length = 0, n = 1;
+    for (int d = 0; d < n_dimensions; ++d) {
+      check_netcdf(nc_inq_dimlen(file_, dimensions[d], &length));
+      n *= length;
+    }
+    if (n == 0) continue;
+    std::string texts(n, '\0');
+    check_netcdf(nc_get_var_text(file_, v, texts.data()));
+    for (std::size_t at = 0; at < n; at += length) {
+      const auto row = texts.begin() + static_cast<std::ptrdiff_t>(at), end = row + static_cast<std::ptrdiff_t>(length);
+      std::fill(std::find(row, end, '\0'), end, '\0');
+    }
+    check_netcdf(nc_put_var_text(file_, v, texts.data()));
+  }
+}
+
 void ExodusOutput::close() {
+  clear_behind_names();
   const int file = std::exchange(file_, -1);
   if (ex_close(file) < 0) fail();
 }

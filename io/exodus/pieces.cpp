@@ -15,8 +15,10 @@ class ExodusPieces {
   ExodusPieces(const std::filesystem::path& file, const WholeOfPieces& whole, std::vector<std::string>& notices)
       : replacement_(file, true), out_(replacement_), heads_(whole.heads), values_(heads_, notices) {
     const int rest = free_id(heads_.blocks);
-    for (std::size_t b = 0; b < heads_.blocks.size(); ++b)
-      add_block({heads_.blocks[b].id, heads_.blocks[b].id, heads_.blocks[b].name, {}}, whole.in_block[b]);
+    for (std::size_t b = 0; b < heads_.blocks.size(); ++b) {
+      const Block& block = heads_.blocks[b];
+      add_block({block.id, in_file(FileResults::Of::block, block.id), block.name, {}}, whole.in_block[b]);
+    }
     if (whole.in_no_block > 0) add_block({rest, rest, exodus_rest_block, {}}, whole.in_no_block);
     if (!heads_.blocks.empty()) say_rest_block(whole.in_no_block, rest, notices);
     say_exodus_names(heads_, notices);
@@ -70,7 +72,8 @@ class ExodusPieces {
   }
 
   void define(const WholeOfPieces& whole, std::vector<std::string>& notices) {
-    out_.create(whole.highest_id > highest_narrow_id, static_cast<std::size_t>(first_.back()), n_hex_corners);
+    out_.create(whole.highest_id > highest_narrow_id || values_.are_wide(), static_cast<std::size_t>(first_.back()),
+                n_hex_corners);
     std::size_t longest = std::max<std::size_t>(32, values_.longest_name());
     for (const ExodusPart& part : parts_) longest = std::max(longest, part.name.size());
     for (const NodeSet& set : heads_.node_sets) longest = std::max(longest, set.name.size());
@@ -81,8 +84,8 @@ class ExodusPieces {
     sizes.num_elem_blk = std::ssize(parts_);
     sizes.num_node_sets = std::ssize(heads_.node_sets);
     sizes.num_side_sets = std::ssize(heads_.side_sets);
-    out_.put_sizes(sizes, {}, longest);
-    out_.put_coordinate_names();
+    out_.put_sizes(sizes, values_.extras().title, longest);
+    out_.put_coordinate_names(values_.extras().coordinate_names);
     out_.put_map(EX_NODE_MAP, static_cast<std::size_t>(whole.n_nodes),
                  [&](std::size_t) { return whole.next_node_id(); });
     for (const ExodusPart& part : parts_) out_.put_block(part, "HEX8", part.in_whole, n_hex_corners, 0);
@@ -91,7 +94,7 @@ class ExodusPieces {
     for (const NodeSet& set : heads_.node_sets) {
       std::vector<int> members(set.nodes.begin(), set.nodes.end());
       for (int& node : members) ++node;
-      out_.put_set(EX_NODE_SET, set.id, set.name, members, {}, {});
+      out_.put_set(EX_NODE_SET, in_file(FileResults::Of::node_set, set.id), set.name, members, {}, {});
     }
     for (const SideSet& set : heads_.side_sets) {
       std::vector<int> members, sides;
@@ -99,13 +102,16 @@ class ExodusPieces {
         members.push_back(side.hex + 1);
         sides.push_back(exodus_side_of(side.face));
       }
-      out_.put_set(EX_SIDE_SET, set.id, set.name, members, sides, {});
+      out_.put_set(EX_SIDE_SET, in_file(FileResults::Of::side_set, set.id), set.name, members, sides, {});
     }
     is_on_.assign(whole.has_values.begin(), whole.has_values.end());
-    values_.declare_results({out_.file(), heads_, parts_, [this](int status) { out_.check(status); }, notices}, is_on_);
-    const double time = 0;
-    if (!heads_.fields.empty()) out_.check(ex_put_time(out_.file(), 1, &time));
+    const ExodusTarget to{out_.file(), heads_, parts_, [this](int status) { out_.check(status); }, notices};
+    values_.write_properties(to);
+    values_.write_records(to);
+    values_.declare_results(to, is_on_);
+    values_.put_globals(to, 0);
   }
+  std::int64_t in_file(FileResults::Of of, int id) const { return values_.extras().in_file(of, id); }
 
   /// use(begin, n): of the list.
   template <class Use>

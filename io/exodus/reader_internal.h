@@ -21,8 +21,9 @@ class ExodusReader {
   /// path: where the bytes of the file are. of: slice `number` of so many is read; 0: the whole.
   ExodusReader(const std::filesystem::path& path, std::string name, int number = 0, int of = 0);
   const ex_init_params& sizes() const { return init_; }
-  /// Are there only hexes of 8 nodes, each id once, and groups that each slice sees alike?
-  bool has_slices() const;
+  /// Are there only hexes of 8 nodes, each id once, and groups that each slice sees alike? Else what it has.
+  /// highest_node: id.
+  Unsliced against_slices(std::int64_t& highest_node) const;
   MeshFile result();
   MeshSlice slice();
 
@@ -76,7 +77,7 @@ class ExodusReader {
   }
   /// Are ids positive and all different? False as well where that is not known without room for them: out of order and
   /// far apart.
-  bool occur_once(ex_entity_type map, std::int64_t n) const;
+  bool occur_once(ex_entity_type map, std::int64_t n, std::int64_t& highest) const;
   /// The id here of a group of the file.
   int group_id(ex_entity_type type, std::int64_t id) const {
     return fits(id) ? static_cast<int>(id) : number_of_wide_.at({type == EX_ELEM_SET ? EX_ELEM_BLOCK : type, id});

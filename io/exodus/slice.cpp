@@ -3,22 +3,33 @@
 
 namespace hextwist::io {
 
-bool ExodusReader::has_slices() const {
-  if (init_.num_elem == 0) return false;
+Unsliced ExodusReader::against_slices(std::int64_t& highest_node) const {
+  if (init_.num_elem == 0) return {"no elements"};
   const std::vector<ex_block> blocks = element_blocks();
-  for (const ex_block& block : blocks)
-    if (block.num_entry > 0 && (block.num_nodes_per_entry != 8 || !has_hexes(lower_case(block.topology), 8)))
-      return false;
+  for (const ex_block& block : blocks) {
+    if (block.num_entry == 0) continue;
+    const std::string in_block = " (element block " + std::to_string(block.id) + ")";
+    if (!has_hexes(lower_case(block.topology), block.num_nodes_per_entry))
+      return {"elements of type " + std::string(block.topology) + in_block};
+    if (block.num_nodes_per_entry != 8)
+      return {"hexes of " + std::to_string(block.num_nodes_per_entry) + " nodes" + in_block};
+  }
   for (const std::int64_t id : ids(EX_ELEM_SET, init_.num_elem_sets))
-    if (!fits(id) || std::ranges::find(blocks, id, &ex_block::id) != blocks.end()) return false;
+    if (std::ranges::find(blocks, id, &ex_block::id) != blocks.end())
+      return {"blocks that overlap (element set " + std::to_string(id) + " is more of an element block)"};
   for (const auto& [type, n] : {std::pair{EX_ELEM_BLOCK, init_.num_elem_blk},
+                                {EX_ELEM_SET, init_.num_elem_sets},
                                 {EX_NODE_SET, init_.num_node_sets},
                                 {EX_SIDE_SET, init_.num_side_sets}})
-    if (!std::ranges::all_of(ids(type, n), fits)) return false;
-  return occur_once(EX_NODE_MAP, init_.num_nodes) && occur_once(EX_ELEM_MAP, init_.num_elem);
+    for (const std::int64_t id : ids(type, n))
+      if (!fits(id)) return {"a block or set of the id " + std::to_string(id), true};
+  std::int64_t highest_hex = 0;
+  if (occur_once(EX_NODE_MAP, init_.num_nodes, highest_node) && occur_once(EX_ELEM_MAP, init_.num_elem, highest_hex))
+    return {};
+  return {"ids that are out of order, and far apart or there twice", true};
 }
 
-bool ExodusReader::occur_once(ex_entity_type map, std::int64_t n) const {
+bool ExodusReader::occur_once(ex_entity_type map, std::int64_t n, std::int64_t& highest) const {
   std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0, last = 0;
   bool ascend = true;
   for_id_map(map, 0, n, [&](std::size_t, std::span<const std::int64_t> ids) {
@@ -29,6 +40,7 @@ bool ExodusReader::occur_once(ex_entity_type map, std::int64_t n) const {
       high = std::max(high, id);
     }
   });
+  highest = high;
   if (ascend) return true;
   if (low < 1 || (high - low) / 64 > n) return false;
   std::vector<bool> is_there(static_cast<std::size_t>(high - low + 1), false);
@@ -87,12 +99,17 @@ MeshSlice ExodusReader::slice() {
   return slice;
 }
 
-std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence) {
+std::optional<SlicedFile> exodus_in_slices(const std::filesystem::path& file, const Fence& fence, Unsliced& why) {
   // Behind the fence all of the file would be handed over for each slice.
-  if (fence.is_there() && !is_classic_netcdf(read_bytes(file))) return std::nullopt;
+  if (fence.is_there() && !is_classic_netcdf(read_bytes(file))) {
+    why = {"the form of HDF5 (NetCDF-4), which is read behind a fence", true};
+    return std::nullopt;
+  }
   const ExodusReader reader(file, file.string());
-  if (!reader.has_slices()) return std::nullopt;
-  return SlicedFile{file, reader.sizes().num_nodes, reader.sizes().num_elem};
+  std::int64_t highest_node = 0;
+  why = reader.against_slices(highest_node);
+  if (!why.what.empty()) return std::nullopt;
+  return SlicedFile{file, reader.sizes().num_nodes, reader.sizes().num_elem, highest_node};
 }
 
 MeshSlice read_exodus_slice(const SlicedFile& file, int number, int n) {

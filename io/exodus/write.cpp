@@ -60,7 +60,6 @@ class ExodusWriter {
   ExodusWriter(const Replacement& file, const Mesh& mesh, const SecondOrder* second, const FilePart* of_whole,
                std::vector<std::string>& notices)
       : out_(file), mesh_(mesh), second_(second), of_whole_(of_whole), notices_(notices), values_(mesh, notices) {
-    if (mesh.results) extras_ = mesh.results.get();
     divide();
     say_exodus_names(mesh_, notices_);
     create();
@@ -82,7 +81,7 @@ class ExodusWriter {
  private:
   void check(int status) const { out_.check(status); }
 
-  std::int64_t in_file(Of of, int id) const { return extras_ ? extras_->in_file(of, id) : id; }
+  std::int64_t in_file(Of of, int id) const { return values_.extras().in_file(of, id); }
 
   void divide() {
     const std::vector<Block>& blocks = mesh_.blocks;
@@ -232,13 +231,8 @@ class ExodusWriter {
                                            : std::max({mesh_.points.empty() ? 0 : node_id(mesh_, mesh_.n_nodes() - 1),
                                                        mesh_.hexes.empty() ? 0 : hex_id(mesh_, mesh_.n_hexes() - 1),
                                                        other_ids_.empty() ? 0 : std::ranges::max(other_ids_)});
-    const bool wide =
-        highest > highest_narrow_id ||
-        (extras_ && (!extras_->wide_ids.empty() || std::ranges::any_of(extras_->properties, [](const auto& property) {
-           return std::ranges::any_of(property.values,
-                                      [](const auto& value) { return std::abs(value.second) > highest_narrow_id; });
-         })));
-    out_.create(wide, mesh_.hexes.size(), second_ ? second_->nodes_per_hex : 8);
+    out_.create(highest > highest_narrow_id || values_.are_wide(), mesh_.hexes.size(),
+                second_ ? second_->nodes_per_hex : 8);
   }
 
   void sizes() {
@@ -255,7 +249,7 @@ class ExodusWriter {
     init.num_node_sets = std::ssize(mesh_.node_sets);
     init.num_side_sets = std::ssize(mesh_.side_sets);
     init.num_elem_sets = std::ssize(whole_);
-    out_.put_sizes(init, extras_ ? extras_->title : std::string(), longest);
+    out_.put_sizes(init, values_.extras().title, longest);
   }
 
   void nodes() {
@@ -266,9 +260,7 @@ class ExodusWriter {
         for (std::size_t i = 0; i < n; ++i) values[i] = mesh_.points[first + i][axis];
         out_.put_coordinates(axis, first, std::span(values).first(n));
       });
-    std::array<std::string, 3> names = {"x", "y", "z"};
-    if (extras_ && extras_->coordinate_names.size() == 3) std::ranges::copy(extras_->coordinate_names, names.begin());
-    out_.put_coordinate_names(names);
+    out_.put_coordinate_names(values_.extras().coordinate_names);
     out_.put_map(EX_NODE_MAP, mesh_.points.size(),
                  [&](std::size_t n) { return id_of(mesh_.node_ids, static_cast<Index>(n)); });
   }
@@ -282,7 +274,7 @@ class ExodusWriter {
         other_block(part);
         continue;
       }
-      std::vector<std::string> attributes = values_.attributes(part);
+      const std::vector<std::string> attributes = values_.attributes(part);
       out_.put_block(part, type, std::ssize(part.hexes), nodes_per_hex, std::ssize(attributes));
       in_pieces(part.hexes.size(), [&](std::size_t first, std::size_t size) {
         Index* to = nodes.data();
@@ -297,14 +289,10 @@ class ExodusWriter {
         check(ex_put_partial_elem_conn(out_.file(), part.in_file, exodus_position(first), exodus_position(size - 1),
                                        nodes.data()));
       });
-      std::vector<char*> names;
-      for (std::size_t a = 0; a < attributes.size(); ++a) {
+      for (std::size_t a = 0; a < attributes.size(); ++a)
         check(ex_put_one_attr(out_.file(), EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1,
                               values_.attribute(part, attributes[a]).data()));
-        attributes[a].resize(257);
-        names.push_back(attributes[a].data());
-      }
-      if (!names.empty()) check(ex_put_attr_names(out_.file(), EX_ELEM_BLOCK, part.in_file, names.data()));
+      put_attribute_names(part, attributes);
     }
     // Parts follow each other.
     std::size_t part = 0, before = 0;
@@ -341,11 +329,12 @@ class ExodusWriter {
       for (const Index e : part.others) values.push_back(attributes[a]->values[others.of[e]]);
       check(ex_put_one_attr(out_.file(), EX_ELEM_BLOCK, part.in_file, static_cast<int>(a) + 1, values.data()));
       names.push_back(exodus_name(attributes[a]->name));
-      names.back().resize(257);
     }
-    std::vector<char*> pointers;
-    for (std::string& name : names) pointers.push_back(name.data());
-    if (!pointers.empty()) check(ex_put_attr_names(out_.file(), EX_ELEM_BLOCK, part.in_file, pointers.data()));
+    put_attribute_names(part, names);
+  }
+  void put_attribute_names(const ExodusPart& part, const std::vector<std::string>& names) const {
+    if (names.empty()) return;
+    check(ex_put_attr_names(out_.file(), EX_ELEM_BLOCK, part.in_file, TextsWritten(names).pointers.data()));
   }
 
   ExodusTarget target() {
@@ -471,7 +460,6 @@ class ExodusWriter {
   const FilePart* of_whole_;
   std::vector<std::string>& notices_;
   ExodusValues values_;
-  const FileResults* extras_ = nullptr;
   BlockCounts counts_;
   std::vector<ExodusPart> parts_;
   std::vector<const Block*> whole_;  // written as element sets

@@ -12,18 +12,6 @@ namespace {
 
 using Of = FileResults::Of;
 
-/// As the library takes texts; of names it writes what stands behind them too.
-struct TextsWritten {
-  std::vector<std::string> padded;
-  std::vector<char*> pointers;
-  explicit TextsWritten(std::vector<std::string> texts) : padded(std::move(texts)) {
-    for (std::string& text : padded) {
-      text.resize(std::max<std::size_t>(text.size(), 256) + 1);
-      pointers.push_back(text.data());
-    }
-  }
-};
-
 }  // namespace
 
 std::string exodus_name(const std::string& name) {
@@ -115,6 +103,13 @@ std::size_t ExodusValues::longest_name() const {
   return longest;
 }
 
+bool ExodusValues::are_wide() const {
+  const auto is_wide = [](const auto& value) { return std::abs(value.second) > highest_narrow_id; };
+  return !extras_.wide_ids.empty() || std::ranges::any_of(extras_.properties, [&](const auto& of) {
+    return std::ranges::any_of(of.values, is_wide);
+  });
+}
+
 void ExodusValues::write_records(const ExodusTarget& to) const {
   if (!extras_.qa.empty()) {
     std::vector<std::string> words;
@@ -166,6 +161,16 @@ void ExodusValues::declare_results(const ExodusTarget& to, std::vector<int>& is_
                                 static_cast<int>(on_hexes_.size()), is_on.data()));
 }
 
+void ExodusValues::put_globals(const ExodusTarget& to, std::size_t t) const {
+  if (t >= times_.size()) return;
+  const int step = static_cast<int>(t) + 1;
+  to.check(ex_put_time(to.file, step, &times_[t]));
+  std::vector<double> global;
+  for (const TimedValues& values : extras_.of_all)
+    global.push_back((*values.at[times_.size() == values.at.size() ? t : extras_.step])[0]);
+  if (!global.empty()) to.check(ex_put_var(to.file, step, EX_GLOBAL, 1, 0, std::ssize(global), global.data()));
+}
+
 void ExodusValues::write_results(const ExodusTarget& to) {
   if (times_.empty()) return;
   // Where a block has no value at all, the variable is not on it.
@@ -180,11 +185,7 @@ void ExodusValues::write_results(const ExodusTarget& to) {
   std::size_t kept = times_.size() == extras_.times.size() ? extras_.step : 0;
   for (std::size_t t = 0; t < times_.size(); ++t) {
     const int step = static_cast<int>(t) + 1;
-    to.check(ex_put_time(to.file, step, &times_[t]));
-    std::vector<double> global;
-    for (const TimedValues& values : extras_.of_all)
-      global.push_back((*values.at[times_.size() == values.at.size() ? t : extras_.step])[0]);
-    if (!global.empty()) to.check(ex_put_var(to.file, step, EX_GLOBAL, 1, 0, std::ssize(global), global.data()));
+    put_globals(to, t);
     const auto values_of = [&](const Variable& variable, const auto& look_up,
                                std::vector<double>& made) -> const auto& {
       if (variable.now && (t == kept || !variable.timed)) return *variable.now;

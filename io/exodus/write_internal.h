@@ -26,6 +26,18 @@ struct ExodusPart {
   std::size_t size() const { return hexes.size() + others.size(); }
 };
 
+/// As the library takes texts: of names it writes what stands behind them too.
+struct TextsWritten {
+  std::vector<std::string> padded;
+  std::vector<char*> pointers;
+  explicit TextsWritten(std::vector<std::string> texts) : padded(std::move(texts)) {
+    for (std::string& text : padded) {
+      text.resize(std::max<std::size_t>(text.size(), 256) + 1);
+      pointers.push_back(text.data());
+    }
+  }
+};
+
 /// The file while it is written: calls of the library that say when they fail.
 class ExodusOutput {
  public:
@@ -48,7 +60,8 @@ class ExodusOutput {
   void put_sizes(ex_init_params sizes, const std::string& title, std::size_t longest_name);
   /// Of one axis, for nodes from this 0-based place on.
   void put_coordinates(int axis, std::size_t first, std::span<const double> values);
-  void put_coordinate_names(std::array<std::string, 3> names = {"x", "y", "z"});
+  /// names: none, x y z.
+  void put_coordinate_names(const std::vector<std::string>& names);
   void put_block(const ExodusPart& part, const std::string& type, std::int64_t n, int nodes_each,
                  std::int64_t n_attributes);
   void put_name(ex_entity_type type, std::int64_t id, const std::string& name);
@@ -68,6 +81,7 @@ class ExodusOutput {
   void close();
 
  private:
+  void clear_behind_names();
   const Replacement& to_;
   int file_ = -1;
   bool is_wide_ = false;
@@ -100,10 +114,15 @@ class ExodusValues {
   std::vector<std::string> attributes(const ExodusPart& part) const;
   std::vector<double> attribute(const ExodusPart& part, const std::string& name) const;
   std::size_t longest_name() const;
+  /// Are there ids or properties beyond 32 bits?
+  bool are_wide() const;
+  const FileResults& extras() const { return extras_; }
 
   void write_records(const ExodusTarget& to) const;
   void write_properties(const ExodusTarget& to) const;
   void write_results(const ExodusTarget& to);
+  /// Of them the moment, if there is that one, and what the whole has then.
+  void put_globals(const ExodusTarget& to, std::size_t t) const;
   /// Only what variables there are. is_on: per element block, for each variable of hexes, whether the
   /// block has values of it.
   void declare_results(const ExodusTarget& to, std::vector<int>& is_on) const;

@@ -245,7 +245,7 @@ void read_gmsh_data(GmshContents& contents, GmshSource& source, Field::On on) {
     data.tags.pop_back();
     data.field.values.resize(data.field.values.size() - static_cast<std::size_t>(integers[1]));
   }
-  if (contents.slice && n == 0) contents.slice->is_possible = false;  // a field of nothing
+  if (contents.slice && n == 0) contents.slice->refuse("a field without values", true);  // a field of nothing
   contents.data.push_back(std::move(data));
 }
 

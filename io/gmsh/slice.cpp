@@ -40,7 +40,10 @@ class SlicedElements {
         check_gmsh_type(contents_, cursor_, first, block.kind, first_tag, static_cast<std::int64_t>(block.size));
     cursor_.at = first;
     const auto n_nodes = static_cast<std::size_t>(gmsh_type(block.kind)->n_nodes);
-    if (dim < 0 || dim > 3 || block.kind != gmsh_kept[dim]) slice_.is_possible = false;
+    if (dim < 0 || dim > 3 || block.kind != gmsh_kept[dim])
+      slice_.refuse(
+          "elements other than hexes of 8 nodes, quads, lines and points (element " + std::to_string(first_tag) + ")",
+          false);
     entity_ = block.dim == gmsh_type(block.kind)->dim ? std::max(block.entity, 0) : 0;
     if (slice_.walk == GmshWalk::lower && slice_.is_possible) add_groups(dim);
     if (slice_.walk == GmshWalk::all && slice_.is_possible)
@@ -91,7 +94,7 @@ class SlicedElements {
 
   void add_tag(std::int64_t tag) {
     if (!has_bit(slice_, tag) || slice_.hex_tags.has_any(static_cast<Index>(tag)))
-      slice_.is_possible = false;
+      slice_.refuse("tags that are far apart or there twice (element " + std::to_string(tag) + ")", true);
     else
       slice_.hex_tags.set_more(static_cast<Index>(tag));
   }
@@ -101,7 +104,7 @@ class SlicedElements {
       if (has_bit(slice_, id))
         slice_.nodes.set_more(static_cast<Index>(id));
       else
-        slice_.is_possible = false;
+        slice_.refuse("ids that are far apart (node " + std::to_string(id) + ")", true);
   }
   void find_keys(std::span<const std::int64_t> nodes) {
     std::array<bool, n_hex_corners> is_near{};
@@ -167,7 +170,8 @@ bool keeps_of_slice(const GmshContents& contents, Field::On on, std::int64_t tag
   GmshSlice& slice = *contents.slice;
   const bool is_here = on == Field::On::node ? contents.nodes.find(tag) >= 0 : has_id(slice, slice.hex_tags, tag);
   // What has values of other elements, too, is told where all is read.
-  if (slice.walk == GmshWalk::lower && on == Field::On::hex && !is_here) slice.is_possible = false;
+  if (slice.walk == GmshWalk::lower && on == Field::On::hex && !is_here)
+    slice.refuse("values of elements other than hexes (element " + std::to_string(tag) + ")", true);
   return slice.walk == GmshWalk::all && is_here;
 }
 
@@ -193,7 +197,10 @@ void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source) {
         if (cursor.binary && !is_read) {
           const std::size_t bytes = block.size * (8 + 8 * width);
           if (bytes > cursor.left()) cursor.fail_truncated("nodes");
-          cursor.at += bytes;
+          const char* const end = cursor.at + bytes;
+          for (std::size_t i = 0; i < block.size && slice.walk == GmshWalk::lower; ++i)
+            slice.highest_node = std::max(slice.highest_node, source.large("a node id"));
+          cursor.at = end;
           return;
         }
         std::vector<bool> is_here(block.size, false);
@@ -201,6 +208,7 @@ void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source) {
           cursor.skip_text_blanks();
           const char* before = cursor.at;
           const std::int64_t id = source.large("a node id");
+          slice.highest_node = std::max(slice.highest_node, id);
           is_here[i] = is_read && has_id(slice, slice.nodes, id);
           if (!is_here[i]) continue;
           if (i == 0 || !is_here[i - 1]) runs.push_back({ids.size(), before});
@@ -222,24 +230,31 @@ void read_sliced_gmsh_elements(GmshContents& contents, GmshSource& source) {
   SlicedElements(contents, source).read();
 }
 
-std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& path) {
+std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& path, Unsliced& why) {
   const Bytes bytes = read_bytes(path);
   GmshSlice slice;
   const GmshContents contents = walk_gmsh(bytes, slice, GmshWalk::lower);
-  if (contents.version != 41 || !slice.is_possible || slice.n_hexes == 0 || contents.n_partitions > 0)
-    return std::nullopt;
+  why = slice.why;
+  if (slice.is_possible && slice.n_hexes == 0) why = {"no hexes"};
+  if (contents.n_partitions > 0) why = {"partitions", true};
+  if (contents.version != 41) why = {"an older version of .msh than 4.1", true};
+  if (!why.what.empty()) return std::nullopt;
   for (std::size_t k = 0; k < slice.keys.size(); ++k) {
     std::ranges::sort(slice.keys[k]);
     slice.n_having[k].assign(slice.keys[k].size(), 0);
   }
   if (!slice.keys[0].empty() || !slice.keys[1].empty()) walk_gmsh(bytes, slice, GmshWalk::hexes);
   for (const auto& n_having : slice.n_having)
-    if (std::ranges::find(n_having, 0) != n_having.end()) return std::nullopt;
+    if (std::ranges::find(n_having, 0) != n_having.end()) {
+      why = {"quads or lines that are on no hex"};
+      return std::nullopt;
+    }
   for (std::size_t q = 0; q < slice.keys[1].size(); ++q)
     if (slice.n_having[1][q] > 1) slice.whole.inner_quads.push_back(slice.keys[1][q]);
   sort_unique(slice.whole.inner_quads);
   sort_unique(slice.whole.groups);
-  return SlicedFile{path, slice.n_nodes, slice.n_hexes, std::make_shared<const GmshWhole>(std::move(slice.whole))};
+  return SlicedFile{path, slice.n_nodes, slice.n_hexes, slice.highest_node,
+                    std::make_shared<const GmshWhole>(std::move(slice.whole))};
 }
 
 MeshSlice read_gmsh_slice(const SlicedFile& file, int number, int n) {

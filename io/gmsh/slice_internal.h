@@ -25,15 +25,22 @@ struct GmshSlice {
   };
   Walk walk = Walk::lower;
   bool is_possible = true;          ///< false: the file can't be read so
+  Unsliced why;                     ///< then
   std::int64_t highest_id = 0;      ///< that has a bit: no more bytes of these than the file has
   std::int64_t begin = 0, end = 0;  ///< the slice: hexes in the order of the file
-  std::int64_t n_nodes = 0, n_hexes = 0;
+  std::int64_t n_nodes = 0, n_hexes = 0, highest_node = 0;
   RankedBits nodes;  ///< ids: of `lower` those of quads and lines, else those of the slice
   /// Walks over the whole: keys of quads and lines (ascending after the first), and how many hexes have each.
   std::array<std::vector<NodesKey>, 2> keys;
   std::array<std::vector<std::uint8_t>, 2> n_having;
   RankedBits hex_tags;  ///< of all hexes, or of the slice's
   GmshWhole whole;
+
+  /// It can't be read so; what stands against it is said of the first.
+  void refuse(const std::string& what, bool may_be_split) {
+    if (is_possible) why = {what, may_be_split};
+    is_possible = false;
+  }
 };
 
 /// Whether a value of a node or element is kept in this walk.
@@ -42,7 +49,7 @@ bool keeps_of_slice(const GmshContents& contents, Field::On on, std::int64_t tag
 /// Of the nodes with these ids.
 NodesKey nodes_key(std::span<const std::int64_t> ids);
 
-std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& file);
+std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& file, Unsliced& why);
 MeshSlice read_gmsh_slice(const SlicedFile& file, int number, int n);
 
 }  // namespace hextwist::io

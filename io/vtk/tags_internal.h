@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hextwist/io/format.h"
+#include "hextwist/io/vtk/escaped.h"
 
 namespace hextwist::io {
 
@@ -25,9 +26,6 @@ struct Tag {
 std::optional<Tag> next_tag(Cursor& cursor, const char* end);
 /// Text with its entities (&amp; &lt; ...) replaced.
 std::string unescaped(std::string_view text);
-/// Text with & < > ", tabs and line ends as it may stand in an attribute; other control characters, which XML hasn't,
-/// as blanks.
-std::string escaped(const std::string& text);
 /// Tells the names of fields that this changes, and of groups where they are written so too.
 void say_unwritable(const Mesh& mesh, bool groups_too, std::vector<std::string>& notices);
 

@@ -78,7 +78,7 @@ class VtuFile {
   std::size_t n_points_ = 0, n_cells_ = 0, n_unpacked_ = 0;
 };
 
-std::optional<SlicedFile> vtu_in_slices(const std::filesystem::path& file);
+std::optional<SlicedFile> vtu_in_slices(const std::filesystem::path& file, Unsliced& why);
 MeshSlice read_vtu_slice(const SlicedFile& file, int number, int n);
 
 }  // namespace hextwist::io

@@ -130,6 +130,32 @@ bool is_made_list(const VtuArray& array) {
   return kind_of(array) == "made";
 }
 
+/// The ids that we have written, null where the file has none.
+const VtuArray* id_array(VtuFile& file, const char* section, std::string_view usual) {
+  const auto& arrays = file.arrays();
+  const bool is_made = std::ranges::any_of(arrays, [&](const VtuArray& array) {
+    return is_made_list(array) && (array.head.name + " ").find(std::string(usual) + " ") != std::string::npos;
+  });
+  const auto found = std::ranges::find_if(arrays, [&](const VtuArray& array) {
+    std::string_view name = array.head.name;
+    while (name != usual && name.starts_with(made_prefix)) name.remove_prefix(made_prefix.size());
+    return array.section == section && name == usual && is_integer(array);
+  });
+  return is_made && found != arrays.end() ? &*found : nullptr;
+}
+
+std::int64_t highest_node_id(VtuFile& file) {
+  const VtuArray* const ids = id_array(file, "PointData", "node_id");
+  if (!ids) return static_cast<std::int64_t>(file.n_points());
+  std::int64_t highest = 0;
+  for_each_number(file, *ids, [&](std::size_t, const VtkArray& numbers) {
+    std::vector<std::int64_t> values(numbers.size());
+    numbers.copy(0, values);
+    for (const std::int64_t id : values) highest = std::max(highest, id);
+  });
+  return highest;
+}
+
 /// Rows of an array of ours that name nodes or hexes: how many numbers each has, and how many of them name one.
 struct Rows {
   std::size_t width = 0, n_named = 0;
@@ -159,6 +185,7 @@ class VtuSlice {
     contents_.old_lagrange = file_.old_lagrange();
     for (const VtuArray& array : file_.arrays())
       if (array.section != "Points" && array.section != "Cells") add(array);
+    has_ids_ = {id_array(file_, "PointData", "node_id") != nullptr, id_array(file_, "CellData", "hex_id") != nullptr};
     const bool ours = std::ranges::any_of(file_.arrays(), is_made_list);
     if (!ours) find_blocks();
     MeshSlice slice;
@@ -206,22 +233,9 @@ class VtuSlice {
           picked(file_, array, on_nodes ? nodes() : hexes(), static_cast<std::size_t>(array.head.components)));
       return;
     }
-    if (is_made_list(array)) {
-      const std::string names = array.head.name + " ";
-      has_ids_ = {names.find("node_id ") != std::string::npos && has("PointData", "node_id"),
-                  names.find("hex_id ") != std::string::npos && has("CellData", "hex_id")};
-    }
     if (const std::optional<Rows> rows = rows_of(kind_of(array))) return add_rows(array, *rows);
     contents_.arrays.push_back(head_of(array));  // only its name is looked at
   }
-  bool has(const char* section, std::string_view usual) {
-    return std::ranges::any_of(file_.arrays(), [&](const VtuArray& array) {
-      std::string_view name = array.head.name;
-      while (name != usual && name.starts_with(made_prefix)) name.remove_prefix(made_prefix.size());
-      return array.section == section && name == usual && is_integer(array);
-    });
-  }
-
   /// -1 where it is elsewhere.
   std::int64_t hex_here(std::int64_t place) const {
     const std::int64_t here = place - static_cast<std::int64_t>(first_);
@@ -281,25 +295,37 @@ class VtuSlice {
   std::vector<int> block_ids_;
 };
 
-}  // namespace
-
-std::optional<SlicedFile> vtu_in_slices(const std::filesystem::path& path) {
-  const Bytes bytes = read_bytes(path);
-  VtuFile file(bytes);
+Unsliced against_slices(VtuFile& file) {
   constexpr std::size_t most = std::numeric_limits<Index>::max();
-  if (file.n_points() > most || file.n_cells() > most || !file.fits_unpacked()) return std::nullopt;
+  if (file.n_points() > most || file.n_cells() > most) return {"more than 2147483647 points or cells"};
+  if (!file.fits_unpacked()) return {"arrays that are larger than the file can hold"};
+  const std::string text = "arrays as text";
   for (const VtuArray& array : file.arrays()) {
+    const std::string called = " (array '" + array.head.name + "')";
     const bool is_of_file =
         array.head.on == VtkArray::On::file && array.section != "Points" && array.section != "Cells";
-    if (array.head.global_ids || kind_of(array).starts_with("other_")) return std::nullopt;
-    if (is_of_file && rows_of(kind_of(array)) && (array.is_text || !is_integer(array))) return std::nullopt;
+    if (array.head.global_ids) return {"what VTK calls global ids" + called, true};
+    if (kind_of(array).starts_with("other_")) return {"other elements than hexes" + called};
+    if (is_of_file && rows_of(kind_of(array)) && (array.is_text || !is_integer(array)))
+      return {(array.is_text ? text : "members that are not integers") + called, array.is_text};
     const std::size_t n = array.section == "PointData" ? file.n_points() : file.n_cells();
     if ((array.section == "PointData" || array.section == "CellData") &&
         !has_size(file, &array, n * static_cast<std::size_t>(array.head.components)))
-      return std::nullopt;
+      return {(array.is_text ? text : "another number of values than points or cells") + called, array.is_text};
+    if ((array.section == "Points" || array.section == "Cells") && array.is_text) return {text + called, true};
   }
-  if (!has_only_hexes(file)) return std::nullopt;
-  return SlicedFile{path, static_cast<std::int64_t>(file.n_points()), static_cast<std::int64_t>(file.n_cells())};
+  return has_only_hexes(file) ? Unsliced() : Unsliced{"other elements than hexes of 8 nodes"};
+}
+
+}  // namespace
+
+std::optional<SlicedFile> vtu_in_slices(const std::filesystem::path& path, Unsliced& why) {
+  const Bytes bytes = read_bytes(path);
+  VtuFile file(bytes);
+  why = against_slices(file);
+  if (!why.what.empty()) return std::nullopt;
+  return SlicedFile{path, static_cast<std::int64_t>(file.n_points()), static_cast<std::int64_t>(file.n_cells()),
+                    highest_node_id(file)};
 }
 
 MeshSlice read_vtu_slice(const SlicedFile& sliced, int number, int n) {

@@ -1,9 +1,12 @@
 #include "hextwist/parts/mpi/by_first.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "hextwist/base/text.h"
+#include "hextwist/geom/renumbered_model.h"
+#include "hextwist/io/results.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/mpi/share_out.h"
 #include "hextwist/session/core.h"
@@ -12,23 +15,33 @@
 namespace hextwist {
 namespace {
 
-/// A hex field that goes along through all commands: the rank that has the hex.
-constexpr const char* rank_field = "rank of hextwist-mpi";
-
-bool is_rank_field(const Field& field) {
-  return field.on == Field::On::hex && field.name == rank_field;
+/// Hexes know which they come of as those of a file do, so no command sees it. Per hex the rank of what it came of; the
+/// first where that is not known.
+std::vector<int> take_ranks(Mesh& mesh, std::span<const int> rank_before) {
+  std::vector<int> rank(mesh.hexes.size(), 0);
+  const std::vector<Index> before = std::exchange(mesh.file_hexes, {});
+  for (std::size_t h = 0; h < before.size() && before.size() == rank.size(); ++h) rank[h] = rank_before[before[h]];
+  return rank;
 }
 
-/// Per hex the rank of what it came of; empty: not known. Takes the field away.
-std::vector<int> take_ranks(Mesh& mesh, int n_ranks) {
-  std::vector<int> rank;
-  const auto field = std::ranges::find_if(mesh.fields, is_rank_field);
-  if (field == mesh.fields.end()) return rank;
-  if (field->values.size() == mesh.hexes.size())
-    for (const double value : field->values)
-      rank.push_back(std::isfinite(value) ? std::clamp(static_cast<int>(value), 0, n_ranks - 1) : 0);
-  mesh.fields.erase(field);
-  return rank;
+bool is_other_only_by_names(const Model& now, const Model& before) {
+  const std::optional<RenumberingOf> of = renumbering_of(now), was = renumbering_of(before);
+  if (!of) return false;
+  if (was) return of->model == was->model && of->renumbering.id == was->renumbering.id;
+  return of->model.get() == &before && std::ranges::all_of(of->renumbering.id, [](const std::vector<int>& ids) {
+           return std::ranges::is_sorted(ids);
+         });
+}
+
+/// What parts would lose of what commands have made.
+void refuse_more(const Session::Core& core) {
+  if (core.state.order == 2) throw Error("'set order 2': hexes of 20 nodes are not done in parts");
+  refuse_more(core.meshed->mesh, core.state.extras.get(), "the mesh after the commands");
+  if (core.state.periodic)
+    throw Error("'periodic': surfaces that repeat others are not kept alike in parts; run it with hextwist");
+  if (core.meshed->mesh.results)
+    if (const std::string lost = extras_text(*core.meshed->mesh.results); !lost.empty())
+      throw Error("what commands have put beside the mesh is not kept in parts: " + lost);
 }
 
 /// Only these are known not to ask for what was there before.
@@ -47,12 +60,16 @@ MeshedModel run_session(const RankPart& part, MeshedModel whole, const PartComma
   core.history.on = !goes_forward(commands);
   session.set_callbacks({.output = say, .notice = say, .error = {}, .progress = {}});
   try {
-    for (const std::string& text : commands.texts()) session.run(text);
+    for (const std::string& text : commands.texts()) {
+      session.run(text);
+      if (core.meshed->model != model && !is_other_only_by_names(*core.meshed->model, *model))
+        throw Error("a command has put the mesh on another model: parts stay on theirs; it is among '" + text + "'");
+    }
   } catch (const CommandError& error) {
     throw Error(error.message());
   }
-  if (core.meshed->model != model) throw Error("a command has put the mesh on another model: parts stay on theirs");
   if (core.meshed->mesh.hexes.empty()) throw Error("there are no hexes any more");
+  refuse_more(core);
   return std::move(core.meshed.to_change());
 }
 
@@ -61,19 +78,20 @@ MeshedModel run_session(const RankPart& part, MeshedModel whole, const PartComma
 void refined_by_first(Ranks& ranks, RankPart& part, const PartCommands& commands, bool rebalance, const Say& say) {
   const std::shared_ptr<const Model> model = part.own.model;
   const std::int64_t n_before = part.n_hexes;
-  part.own.mesh.fields.push_back({rank_field, Field::On::hex, 1, {}, true});
-  part.own.mesh.fields.back().values.assign(part.own.mesh.hexes.size(), ranks.rank());
-  part.own = moved(ranks, std::move(part.own), std::vector<int>(part.own.mesh.hexes.size(), 0));
-  std::vector<int> rank_of_hex;
+  std::vector<int> rank_before, rank_of_hex;
+  part.own = at_first(ranks, std::move(part.own), rank_before, part.highest_node);
   ranks.together([&] {
     if (!ranks.is_first()) return;
+    part.own.mesh.file_hexes.resize(part.own.mesh.hexes.size());
+    std::iota(part.own.mesh.file_hexes.begin(), part.own.mesh.file_hexes.end(), 0);
     part.own = run_session(part, std::move(part.own), commands, say);
-    rank_of_hex = take_ranks(part.own.mesh, ranks.size());
+    rank_of_hex = take_ranks(part.own.mesh, rank_before);
     need_ids(part.own.mesh);
   });
   share_heads(ranks, part.own.mesh);
   part.own.model = model;
-  if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
+  part.highest_node = ranks.largest(part.own.mesh.node_ids.empty() ? 0 : part.own.mesh.node_ids.back());
+  part.own = moved(ranks, std::move(part.own), rank_of_hex);  // without nodes of no hex
   count_whole(ranks, part);
   say(std::to_string(n_before) + " -> " + std::to_string(part.n_hexes) + " hexes in " + counted(ranks.size(), "part"));
   const bool is_any_empty = ranks.least(part.own.mesh.n_hexes()) == 0;

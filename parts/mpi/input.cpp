@@ -6,13 +6,14 @@
 #include "hextwist/geom/occ/model.h"
 #include "hextwist/io/file_part.h"
 #include "hextwist/io/io.h"
+#include "hextwist/io/results.h"
 #include "hextwist/mesh/association/meant.h"
-#include "hextwist/mesh/others.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/mpi/directory.h"
 #include "hextwist/parts/mpi/share_out.h"
 #include "hextwist/parts/own_skin.h"
+#include "hextwist/parts/pack.h"
 #include "hextwist/parts/source.h"
 #include "hextwist/session/core.h"
 #include "hextwist/session/session.h"
@@ -28,8 +29,12 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
   const auto begin = [&](int rank) { return static_cast<int>(std::int64_t{split.n_parts} * rank / ranks.size()); };
   ranks.together([&] {
     std::vector<MeshedModel> pieces;
-    for (int p = begin(ranks.rank()); p < begin(ranks.rank() + 1); ++p)
-      pieces.push_back({read_one_part(split, p, head, notices), nullptr, {}});
+    for (int p = begin(ranks.rank()); p < begin(ranks.rank() + 1); ++p) {
+      pieces.push_back({read_one_part(split, p, head, notices, {}, PartUse::refine), nullptr, {}});
+      check_part(pieces.back().mesh, part_name(split.name, split.n_parts, p).string());
+    }
+    std::shared_ptr<const FileResults> results;
+    for (const MeshedModel& piece : pieces) join_results(results, piece.mesh.results);
     if (pieces.size() == 1)
       own = std::move(pieces[0]);
     else if (!pieces.empty())
@@ -37,6 +42,7 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
         return part_name(split.name, split.n_parts, begin(ranks.rank()) + static_cast<int>(i)).string();
       });
     need_ids(own.mesh);
+    own.mesh.results = results;
   });
   const std::int64_t n_nodes = ranks.largest(head.n_nodes), n_hexes = ranks.largest(head.n_hexes);
   ranks.together([&] {
@@ -52,20 +58,13 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
   return own;
 }
 
-/// What parts would lose, or refine in another way than a single process.
-void refuse_more(const Mesh& mesh, const FileExtras* extras, const std::string& name) {
-  if (mesh.others) throw Error(name + ": other elements are not done in parts: it has " + others_text(mesh));
-  if (!extras) return;
-  for (const auto& [block, n] : extras->nodes_per_hex)
-    if (n > 8)
-      throw Error(name + ": hexes of " + std::to_string(n) +
-                  " nodes are not done in parts; write it with 'set order 1' first");
-  if (std::ranges::find(extras->periodic, 2, &PeriodicPairs::dim) != extras->periodic.end())
-    throw Error(name + ": periodic surfaces are not kept alike in parts; run it with hextwist");
-}
+/// What the whole has, as far as it is known; parts may not have it all.
+struct OfFile {
+  std::int64_t n_nodes = 0, highest_node = 0;
+};
 
 /// This rank's slice of a file. Nothing, on all ranks, where it is not read so.
-std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::path& mesh, std::int64_t& n_nodes,
+std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::path& mesh, OfFile& of_file,
                                           const Say& say) {
   std::optional<SlicedFile> file;
   MeshSlice slice;
@@ -77,11 +76,11 @@ std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::p
     refuse_more(slice.file.mesh, &slice.file.extras, mesh.string());
     need_ids(slice.file.mesh);
     lost = lost_text(slice, mesh);
-    slice.file.mesh.results = nullptr;
   });
   if (ranks.largest(!file) != 0) return std::nullopt;
-  n_nodes = file->n_nodes;
+  of_file = {file->n_nodes, file->highest_node};
   for (const std::string& line : slice.file.notices) say(line);
+  for (const std::string& line : left_out_of_parts(slice.file.extras)) say(line);
   if (!lost.empty()) say(lost);
   return MeshedModel{std::move(slice.file.mesh), nullptr, {}};
 }
@@ -108,6 +107,8 @@ MeshedModel on_cad(const std::filesystem::path& cad, const std::function<void(Se
   session.import_cad(cad);
   take(session);
   refuse_more(core.meshed->mesh, core.state.extras.get(), name);
+  if (core.state.extras)
+    for (const std::string& line : left_out_of_parts(*core.state.extras)) say(line);
   glued = core.state.glued;
   return std::move(core.meshed.to_change());
 }
@@ -131,8 +132,25 @@ MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesyst
                 " nodes bend their skin, which is not done in parts; write it with 'set order 1' first");
   refuse_more(file.mesh, &file.extras, mesh.string());
   for (const std::string& line : file.notices) say(line);
+  for (const std::string& line : left_out_of_parts(file.extras)) say(line);
   if (file.mesh.hexes.empty()) throw Error(mesh.string() + ": there are no hexes");
   return {std::move(file.mesh), nullptr, {}};
+}
+
+/// What came with a mesh that is read at once, as far as parts have it.
+void keep_results(Mesh& mesh, const std::string& name, const Say& say) {
+  if (!mesh.results) return;
+  std::string lost;
+  mesh.results = results_of_parts(*mesh.results, lost);
+  mesh.file_hexes.clear();
+  if (!lost.empty()) say(name + ": is refined in parts without " + lost);
+}
+
+/// From the meshes of the ranks.
+void share_results(Ranks& ranks, RankPart& part) {
+  for (const std::vector<std::byte>& bytes : ranks.everywhere(packed_results(part.own.mesh.results.get())))
+    if (!bytes.empty()) join_results(part.results, unpacked_results(bytes));
+  part.own.mesh.results = nullptr;
 }
 
 /// The model of a mesh without CAD, and what that says of node sets.
@@ -187,7 +205,7 @@ void share_model(Ranks& ranks, MeshedModel& own, const std::filesystem::path& ca
 void count_whole(Ranks& ranks, RankPart& part) {
   const Mesh& mesh = part.own.mesh;
   part.n_hexes = ranks.sum(mesh.n_hexes());
-  part.highest_node = ranks.largest(mesh.node_ids.empty() ? 0 : mesh.node_ids.back());
+  part.highest_node = std::max(part.highest_node, ranks.largest(mesh.node_ids.empty() ? 0 : mesh.node_ids.back()));
   part.highest_hex = ranks.largest(mesh.hex_ids.empty() ? 0 : mesh.hex_ids.back());
 }
 
@@ -197,9 +215,9 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
   RankPart part;
   part.has_cad = !cad.empty();
   std::vector<int> rank_of_hex;
-  std::int64_t n_nodes = 0;  // of the whole, where that may be more than parts have
+  OfFile of_file;
   std::optional<MeshedModel> slice;
-  if (split.n_parts == 0 && cad.empty() && by != PartitionBy::scotch) slice = read_own_slice(ranks, mesh, n_nodes, say);
+  if (split.n_parts == 0 && cad.empty() && by != PartitionBy::scotch) slice = read_own_slice(ranks, mesh, of_file, say);
   if (slice) {
     part.own = std::move(*slice);
     share_heads(ranks, part.own.mesh);
@@ -218,17 +236,25 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
     ranks.together([&] {
       if (!ranks.is_first()) return;
       part.own = read_by_first(mesh, cad, glued, say);
-      n_nodes = part.own.mesh.n_nodes();
+      of_file = {part.own.mesh.n_nodes(),
+                 part.own.mesh.points.empty() ? 0 : node_id(part.own.mesh, part.own.mesh.n_nodes() - 1)};
+      keep_results(part.own.mesh, mesh.string(), say);
       rank_of_hex = partition(part.own.mesh, ranks.size(), by.value_or(partition_by("")));
       need_ids(part.own.mesh);
     });
     share_model(ranks, part.own, cad, glued);
     share_heads(ranks, part.own.mesh);
   }
-  if (ranks.largest(!rank_of_hex.empty())) part.own = moved(ranks, std::move(part.own), rank_of_hex);
-  if (n_nodes = ranks.largest(n_nodes); n_nodes > 0) say_loose_nodes(ranks, part.own.mesh, n_nodes, say);
+  share_results(ranks, part);
+  const bool is_moved = ranks.largest(!rank_of_hex.empty()) != 0;
+  if (is_moved) part.own = moved(ranks, std::move(part.own), rank_of_hex);
+  const std::int64_t n_nodes = ranks.largest(of_file.n_nodes);
+  if (n_nodes > 0) say_loose_nodes(ranks, part.own.mesh, n_nodes, say);
+  part.highest_node = ranks.largest(of_file.highest_node);
   if (!part.has_cad) {
-    ranks.together([&] { check_part(part.own.mesh, mesh.string()); });
+    // Parts that stay have been checked file by file.
+    if (split.n_parts == 0 || is_moved)
+      ranks.together([&] { check_part(part.own.mesh, (split.n_parts > 0 ? split.name : mesh).string()); });
     put_on_own_skin(ranks, part.own);
   }
   count_whole(ranks, part);
@@ -253,20 +279,13 @@ RankPart take_in_ranks(Ranks& ranks, Mesh own, const std::filesystem::path& cad,
     put_on_own_skin(ranks, part.own);
   } else {
     // Who owns what of the CAD is found by looking at all of the mesh.
-    std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
-    ids[0] = part.own.mesh.hex_ids;
-    ids = ranks.exchange(ids);
-    const std::vector<int> to_first(part.own.mesh.hexes.size(), 0);
-    part.own = moved(ranks, std::move(part.own), to_first);
     std::vector<int> home;
+    part.own = at_first(ranks, std::move(part.own), home);
     bool glued = false;
     ranks.together([&] {
       if (!ranks.is_first()) return;
       const auto take = [&](Session& session) { session.take_mesh(std::move(part.own.mesh)); };
       part.own = on_cad(cad, take, name, glued, say);
-      home.resize(part.own.mesh.hexes.size());
-      for (std::size_t rank = 0; rank < ids.size(); ++rank)
-        for (const std::int64_t id : ids[rank]) home[find_hex(part.own.mesh, id)] = static_cast<int>(rank);
     });
     share_model(ranks, part.own, cad, glued);
     part.own = moved(ranks, std::move(part.own), home);

@@ -14,7 +14,9 @@ namespace hextwist {
 struct RankPart {
   MeshedModel own;
   bool has_cad = false;                                         ///< false: the model is the skin of the whole mesh
-  std::int64_t n_hexes = 0, highest_node = 0, highest_hex = 0;  ///< of the whole
+  std::int64_t n_hexes = 0, highest_node = 0, highest_hex = 0;  ///< of the whole, nodes of no hex too
+  /// What the file said of the whole, the same on all ranks; null: nothing.
+  std::shared_ptr<const FileResults> results;
 };
 
 /// Fills in what is said of the whole.

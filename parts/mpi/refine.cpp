@@ -53,7 +53,8 @@ LocalMesh with_halo(Ranks& ranks, const RankPart& part, int n_rings) {
       pieces.push_back({unpacked(from[other]), other});
       from[other] = {};
     }
-    local = local_mesh(part.own, ranks.rank(), pieces, n_rings, part.n_hexes);
+    local = local_mesh(part.own, ranks.rank(), pieces, n_rings, part.n_hexes,
+                       [](int rank) { return "the part of rank " + std::to_string(rank); });
   });
   return local;
 }
@@ -209,11 +210,10 @@ InRanks refine_by_first(Ranks& ranks, RankPart& part, const PartCommands& comman
   return made;
 }
 
-}  // namespace
-
-InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
-                        const Say& say) {
+InRanks refine_by_all(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
+                      const Say& say) {
   if (!commands.by_whole().empty()) return refine_by_first(ranks, part, commands, options, commands.by_whole(), say);
+  for (const std::string& line : commands.notices()) say(line);  // the first says so by itself
   int n_rings = first_rings(options.n_rings, commands.depth(), commands.size()), n_restarts = 0;
   bool may_rebalance = options.rebalance && ranks.size() > 1;
   for (;;) {
@@ -246,13 +246,24 @@ InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& comman
   }
 }
 
+}  // namespace
+
+InRanks refine_in_ranks(Ranks& ranks, RankPart& part, const PartCommands& commands, const RankOptions& options,
+                        const Say& say) {
+  InRanks made = refine_by_all(ranks, part, commands, options, say);
+  made.results = part.results;
+  return made;
+}
+
 OwnPart take_part(Ranks& ranks, InRanks made) {
+  const std::shared_ptr<const FileResults> results = std::move(made.results);
   const std::int64_t highest = std::max(made.ids.highest_node, made.ids.highest_hex);
   OwnPart part;
   ranks.together([&] { part = take_own(std::move(made.local), std::move(made.ids), ranks.rank(), ranks.size()); });
   const std::vector<std::int64_t> counts = ranks.sum(part.counts);
   const std::vector<std::int64_t> shares = ranks.sum(block_shares(part, counts));
   fill_in_whole(part, counts, shares, highest);
+  part.mesh.results = results;
   return part;
 }
 

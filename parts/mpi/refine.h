@@ -21,8 +21,9 @@ struct InRanks {
   GlobalIds ids;
   int n_rings = 0;  ///< that halos began with
   int n_restarts = 0;
-  std::vector<std::int64_t> n_made;  ///< per hex of the rank's part before: what has become of it
-  std::size_t array_bytes = 0;       ///< of the part before and after, each with its halo
+  std::vector<std::int64_t> n_made;            ///< per hex of the rank's part before: what has become of it
+  std::shared_ptr<const FileResults> results;  ///< RankPart::results
+  std::size_t array_bytes = 0;                 ///< of the part before and after, each with its halo
 };
 
 struct RankOptions {

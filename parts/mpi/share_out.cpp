@@ -206,6 +206,41 @@ MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_h
   return result;
 }
 
+namespace {
+
+/// Room for the last node.
+struct OneNodeMore {
+  std::size_t n_nodes;
+  template <class T>
+  void operator()(const ArrayTag& tag, std::vector<T>& array) const {
+    if (tag.per == Per::node && !array.empty()) array.resize(n_nodes * tag.width);
+  }
+  template <IsList List>
+  void operator()(const ArrayTag&, const List&) const {}
+};
+
+}  // namespace
+
+MeshedModel at_first(Ranks& ranks, MeshedModel part, std::vector<int>& home, std::int64_t highest_node) {
+  std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
+  ids[0] = part.mesh.hex_ids;
+  ids = ranks.exchange(ids);
+  const std::shared_ptr<const Model> model = part.model;
+  const std::vector<int> to_first(part.mesh.hexes.size(), 0);
+  MeshedModel whole = moved(ranks, std::move(part), to_first);
+  if (!ranks.is_first()) return {{}, model, {}};
+  home.resize(whole.mesh.hexes.size());
+  for (std::size_t rank = 0; rank < ids.size(); ++rank)
+    for (const std::int64_t id : ids[rank]) home[find_hex(whole.mesh, id)] = static_cast<int>(rank);
+  if (!whole.mesh.node_ids.empty() && highest_node > whole.mesh.node_ids.back()) {
+    const Vec3 place = middles_of(whole.mesh).front();  // near no other node
+    for_each_array(OneNodeMore{whole.mesh.points.size() + 1}, whole);
+    whole.mesh.points.back() = place;
+    whole.mesh.node_ids.back() = highest_node;
+  }
+  return whole;
+}
+
 double load_of(Ranks& ranks, std::int64_t n, const Say& say) {
   const std::int64_t all = ranks.sum(n), largest = ranks.largest(n);
   const double load = static_cast<double>(largest) * ranks.size() / static_cast<double>(all);

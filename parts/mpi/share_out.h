@@ -17,6 +17,11 @@ std::vector<int> share_out(Ranks& ranks, const Mesh& part, PartitionBy by, std::
 /// Sends hexes to their ranks, with all that is known of them. The parts of all ranks have the same groups and fields.
 MeshedModel moved(Ranks& ranks, MeshedModel part, std::span<const int> rank_of_hex);
 
+/// Sends all hexes to the first rank. home: there, per hex the rank that had it. The other ranks are left with nothing,
+/// not even groups and fields, which may have gone when they get hexes again. highest_node: id, of the whole; where no
+/// hex has that node one of no hex stands for it, so that new nodes come behind.
+MeshedModel at_first(Ranks& ranks, MeshedModel part, std::vector<int>& home, std::int64_t highest_node = 0);
+
 /// Says how many times the average the largest part has, and returns it. n: hexes of this rank's.
 double load_of(Ranks& ranks, std::int64_t n, const Say& say);
 /// More than this is shared out again.

@@ -54,6 +54,19 @@ TEST_F(Surroundings, full_standard_output_is_an_error) {
   EXPECT_EQ(shell("$H a.vtu -c list").status, 0) << "the work is done all the same";
 }
 
+TEST_F(Surroundings, full_standard_output_is_an_error_of_meshes_in_parts_too) {
+  ASSERT_EQ(shell("$H -c 'create brick x 1 interval 3' -o a.e").status, 0);
+  const std::string full = "error: standard output can't be written: No space left on device\n";
+  for (const char* line :
+       {"$H split a.e 2 -o p.e > /dev/full", "$H refine-in-parts p.e.2.0 -c 'refine hex 1' -o q.e > /dev/full",
+        "$H join q.e.2.0 -o b.e > /dev/full"}) {
+    const Outcome outcome = shell(line);
+    EXPECT_EQ(outcome.status, 1) << line;
+    EXPECT_EQ(outcome.out, full) << line;
+  }
+  EXPECT_EQ(shell("$H b.e -c list").status, 0) << "the work is done all the same";
+}
+
 TEST_F(Surroundings, a_reader_that_goes_away_does_not_end_the_work) {
   shell("{ $H -c 'create brick x 1 interval 10; list hex all; export vtk \"a.vtu\"'; echo $? > status; } | true");
   EXPECT_EQ(content(folder / "status"), "1\n");

@@ -1,3 +1,6 @@
+#include <netcdf.h>
+
+#include <array>
 #include <fstream>
 #include <iterator>
 
@@ -17,6 +20,40 @@ TEST(exodus_files, a_mesh_with_everything_comes_back_bit_for_bit) {
     EXPECT_TRUE(test::same_mesh(mesh, back.mesh));
     EXPECT_TRUE(back.notices.empty());
   }
+}
+
+/// What netCDF's buffers held before must not be behind names.
+TEST(exodus_files, names_are_followed_by_zeros) {
+  const auto file = test::output_folder() / "mesh.e";
+  int n_texts = 0;
+  for (int n = 1; n <= 500; ++n) {  // names at all places of a page
+    Mesh mesh = n % 100 ? test::grid(n, 1, 1) : test::rich_mesh(1, true, {n / 10, 4, 3});
+    for (Vec3& point : mesh.points) point += Vec3(1.1, 2.2, 3.3);
+    write_mesh(file, mesh, nullptr);
+    int id = -1, n_variables = 0;
+    ASSERT_EQ(nc_open(file.c_str(), NC_NOWRITE, &id), NC_NOERR);
+    nc_inq_nvars(id, &n_variables);
+    for (int v = 0; v < n_variables; ++v) {
+      nc_type type = NC_NAT;
+      int n_dimensions = 0;
+      std::array<int, NC_MAX_VAR_DIMS> dimensions;
+      std::array<char, NC_MAX_NAME + 1> name;
+      ASSERT_EQ(nc_inq_var(id, v, name.data(), &type, &n_dimensions, dimensions.data(), nullptr), NC_NOERR);
+      if (type != NC_CHAR || n_dimensions != 2) continue;
+      std::size_t rows = 0, length = 0;
+      nc_inq_dimlen(id, dimensions[0], &rows);
+      nc_inq_dimlen(id, dimensions[1], &length);
+      std::string texts(rows * length, '\0');
+      ASSERT_EQ(nc_get_var_text(id, v, texts.data()), NC_NOERR);
+      for (std::size_t row = 0; row < rows; ++row) {
+        const std::string text = texts.substr(row * length, length), said = text.c_str();
+        EXPECT_EQ(text.find_first_not_of('\0', said.size()), std::string::npos) << name.data() << ", n = " << n;
+        ++n_texts;
+      }
+    }
+    nc_close(id);
+  }
+  EXPECT_GT(n_texts, 20);
 }
 
 TEST(exodus_files, blocks_that_divide_the_mesh_need_no_sets) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "hextwist/io/file_part.h"
+#include "hextwist/io/results.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/session/session.h"
 #include "io/io_support.h"
@@ -217,6 +218,19 @@ TEST(SlowInRanks, sizes_are_met_in_parts_as_by_one) {
       expect_same_in_parts({cam, cad, "sizing function f curvature 3; refine volume 1 sizing_function f"}, n, by);
     }
 }
+/// Ranks that have nothing of the target ask as often as those that have.
+TEST(InRanks, sizes_are_met_where_one_rank_has_all_of_the_target) {
+  const std::string bar = brick("12 9 6");
+  for (const char* target : {"node 1", "node in surface 4", "node with x_coord < -1.9", "edge in vertex 1",
+                             "face in vertex 1", "face in surface 4", "hex 1"}) {
+    const std::string refine = "refine " + std::string(target) + " sizing_function ";
+    expect_same_in_parts({bar, "", refine + "\"0.1\""}, 3, "slabs");
+  }
+  expect_same_in_parts({bar, "", "refine node 1 sizing_function \"0.1\" depth 1"}, 3, "boxes");
+  expect_same_in_parts({bar, "", "refine edge in vertex 1 sizing_function \"0.1\" method single"}, 3, "boxes");
+  expect_same_in_parts({bar, "", "sizing function f constant 0.1; refine face in vertex 1 sizing_function f"}, 3,
+                       "boxes");
+}
 /// What each part can't do by itself.
 TEST(InRanks, sizes_coarser_hexes_and_smoothing_are_done_by_the_first_of_three_as_by_one) {
   const std::string grid = brick("12 6 5");
@@ -249,6 +263,110 @@ TEST(InRanks, it_is_said_what_the_first_does_and_why) {
       std::string::npos);
   EXPECT_NE(said("refine hex 1; refine hex 4").find("a second level: "), std::string::npos);
   EXPECT_NE(said("refine hex 1; coarsen hex all").find("'coarsen': "), std::string::npos);
+}
+TEST(InRanks, groups_that_the_first_deletes_are_gone) {
+  const auto file = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "groups.e";
+  Session session;
+  session.run(
+      "create brick x 4 y 3 z 2 interval 6 4 3; nodeset 5 add surface 1; nodeset 7 add surface 1 2; "
+      "sideset 3 add surface 5; block 4 add hex 1 to 20");
+  session.export_mesh(file);
+  for (const char* commands : {"delete nodeset all; delete block all", "delete sideset all",
+                               "nodeset 5 remove node all", "block 9 add hex all; delete block 1"})
+    expect_same_file({file.string(), "", commands}, 3, "slabs");
+  expect_same_file({file.string(), "", "surface 1 name \"inlet\"; refine surface inlet depth 1; delete block 4"}, 2,
+                   "boxes");
+}
+TEST(InRanks, no_command_of_the_first_sees_how_ranks_know_their_hexes) {
+  const auto folder = test::output_folder();
+  const std::string mesh = brick("6 4 4");
+  const Outcome outcome =
+      run_ranks(2, "'" + mesh + "' --by slabs -c 'smooth volume all; list field; export mesh \"" +
+                       (folder / "inside.vtu").string() + "\"' -o '" + (folder / "out.msh").string() + "'");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("there are no fields"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("shared out again"), std::string::npos) << "hexes go back to where they were";
+  EXPECT_EQ(test::text_of(folder / "inside.vtu").find("hextwist-mpi"), std::string::npos);
+  EXPECT_TRUE(read_mesh(folder / "inside.vtu").mesh.fields.empty());
+  EXPECT_TRUE(read_parts(folder / "out_1.msh").mesh.fields.empty());
+}
+TEST(InRanks, what_the_first_makes_and_parts_would_lose_is_refused) {
+  const auto folder = test::output_folder();
+  const std::string mesh = brick("6 4 4"), journal = test::write_text(folder / "a.jou", "set order 2\n").string();
+  const auto refusal = [&](const std::string& commands) {
+    const Outcome outcome =
+        run_ranks(2, "'" + mesh + "' -c '" + commands + "' -o '" + (folder / "no.e").string() + "'");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "no.e.2.0")) << commands;
+    return outcome.err.substr(0, outcome.err.find('\n'));
+  };
+  const auto names = [&](const std::string& commands, const std::string& what) {
+    const std::string said = refusal(commands);
+    EXPECT_NE(said.find(what), std::string::npos) << commands << ": " << said;
+  };
+  names("set order 2; refine hex 1", "'set order 2': hexes of 20 nodes are not done in parts");
+  names("playback \"" + journal + "\"; refine hex 1", "'set order 2': hexes of 20 nodes are not done in parts");
+  names("block all element type hex20", "hexes of 20 nodes are not done in parts");
+  names("block 1 attribute count 2; block 1 attribute index 2 0.5", "attribute 'attribute_1' of hexes");
+  names("periodic surface 1 4", "'periodic'");
+  names("refine hex 1; volume all move x 1", "'move' puts the mesh on another model");
+  expect_same_file({mesh, "", "set order 2; refine hex 1; set order 1"}, 2, "boxes");
+}
+TEST(InRanks, what_a_file_says_of_the_whole_stays) {
+  const auto folder = std::filesystem::path(HEXTWIST_TEST_OUTPUT) / "of_the_whole";
+  std::filesystem::create_directories(folder);
+  Mesh mesh = test::grid(6, 3, 2);
+  mesh.blocks = {{2, "left", {0, 1, 2, 3}}};
+  FileResults results;
+  results.times = {2.5};
+  results.properties = {{FileResults::Of::block, "MATERIAL", {{2, 11}}}};
+  results.title = "a bar under load";
+  results.info = {"first line"};
+  results.qa = {{"MESHER", "1.2", "01/02/2026", "10:20:30"}};
+  mesh.results = std::make_shared<const FileResults>(results);
+  mesh.points.emplace_back(9, 9, 9);
+  write_mesh(folder / "whole.e", mesh, nullptr);
+  split_file(folder / "whole.e", folder / "parts.e", 2, PartitionBy::ids);
+  join_files(folder / "parts.e.2.0", folder / "rejoined.e");
+  // In slices, by the first, of parts, by the first again.
+  for (const char* by : {"boxes", "scotch"})
+    if (has_scotch() || by[0] == 'b') expect_same_file({(folder / "rejoined.e").string(), "", "refine hex 1 2"}, 3, by);
+  expect_same_file({(folder / "rejoined.e").string(), "", "refine hex 1; smooth volume all"}, 2, "boxes");
+  // Nodes of no hex are left out, but have had their ids.
+  for (const std::string commands : {"refine hex 1 2", "smooth volume all; refine hex 1 2"})
+    for (const char* by : {"boxes", "scotch"})
+      for (const int n : {1, 2}) {
+        if (!has_scotch() && by[0] == 's') continue;
+        Session session;
+        session.import_mesh(folder / "whole.e");
+        session.run(commands);
+        const Outcome outcome = run_ranks(n, "'" + (folder / "whole.e").string() + "' --by " + by + " -c '" + commands +
+                                                 "' -o '" + (folder / "fine.e").string() + "'");
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const Mesh fine = read_parts(part_name(folder / "fine.e", n, 0)).mesh, &serial = session.meshed().mesh;
+        EXPECT_EQ(node_id(fine, fine.n_nodes() - 1), node_id(serial, serial.n_nodes() - 1)) << commands;
+        EXPECT_EQ(fine.n_nodes(), serial.n_nodes() - 1) << "without that of no hex";
+      }
+}
+TEST(InRanks, a_fault_of_a_part_is_named_with_its_file) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(4, 2, 2);
+  std::swap(mesh.points[mesh.hexes[3][0]], mesh.points[mesh.hexes[3][1]]);  // the last along x
+  write_mesh(folder / "whole.e", mesh, nullptr);
+  split_file(folder / "whole.e", folder / "parts.e", 2, PartitionBy::slabs);
+  const Outcome outcome = run_ranks(2, "'" + (folder / "parts.e.2.0").string() + "' -c 'refine hex 1'");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("error: rank 1: " + (folder / "parts.e.2.1").string() + ": "), std::string::npos)
+      << outcome.err;
+}
+TEST(InRanks, lines_of_other_programs_are_skipped_and_said_once) {
+  const std::string mesh = brick("6 4 4"), note = "'graphics' is skipped";
+  for (const char* commands : {"graphics off; refine hex 1", "graphics off; smooth volume all"}) {
+    const Outcome outcome = run_ranks(2, "'" + mesh + "' -c '" + commands + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(note), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find(note), outcome.out.rfind(note)) << outcome.out;
+  }
 }
 TEST(InRanks, commands_of_a_session_are_refused_by_name) {
   const std::string mesh = brick("6 4 4");
