@@ -126,15 +126,19 @@ std::string_view kind_of(const VtuArray& array) {
   return name.substr(0, name.find(' '));
 }
 
+/// What says that arrays are ours, and which.
 bool is_made_list(const VtuArray& array) {
-  return kind_of(array) == "made";
+  constexpr std::string_view marker = "hextwist:made";
+  const std::string_view name = array.head.name;
+  return array.head.on == VtkArray::On::file && name.starts_with(marker) &&
+         !trimmed(name.substr(marker.size())).empty();
 }
 
 /// The ids that we have written, null where the file has none.
 const VtuArray* id_array(VtuFile& file, const char* section, std::string_view usual) {
   const auto& arrays = file.arrays();
   const bool is_made = std::ranges::any_of(arrays, [&](const VtuArray& array) {
-    return is_made_list(array) && (array.head.name + " ").find(std::string(usual) + " ") != std::string::npos;
+    return is_made_list(array) && (array.head.name + " ").find(" " + std::string(usual) + " ") != std::string::npos;
   });
   const auto found = std::ranges::find_if(arrays, [&](const VtuArray& array) {
     std::string_view name = array.head.name;
@@ -183,11 +187,11 @@ class VtuSlice {
     contents_.points = vtk_points(picked(file_, *file_.find("Points"), nodes(), 3), file_.cursor());
     contents_.notices = file_.notices();
     contents_.old_lagrange = file_.old_lagrange();
+    ours_ = std::ranges::any_of(file_.arrays(), is_made_list);
     for (const VtuArray& array : file_.arrays())
       if (array.section != "Points" && array.section != "Cells") add(array);
     has_ids_ = {id_array(file_, "PointData", "node_id") != nullptr, id_array(file_, "CellData", "hex_id") != nullptr};
-    const bool ours = std::ranges::any_of(file_.arrays(), is_made_list);
-    if (!ours) find_blocks();
+    if (!ours_) find_blocks();
     MeshSlice slice;
     if (n_hexes_ > 0) slice.file = assemble_vtk(std::move(contents_), file_.cursor());
     Mesh& mesh = slice.file.mesh;
@@ -233,7 +237,8 @@ class VtuSlice {
           picked(file_, array, on_nodes ? nodes() : hexes(), static_cast<std::size_t>(array.head.components)));
       return;
     }
-    if (const std::optional<Rows> rows = rows_of(kind_of(array))) return add_rows(array, *rows);
+    if (const std::optional<Rows> rows = rows_of(kind_of(array)); rows && ours_ && is_integer(array))
+      return add_rows(array, *rows);
     contents_.arrays.push_back(head_of(array));  // only its name is looked at
   }
   /// -1 where it is elsewhere.
@@ -288,6 +293,7 @@ class VtuSlice {
 
   VtuFile& file_;
   std::size_t first_ = 0, n_hexes_ = 0;
+  bool ours_ = false;          // the file is one that we have written
   RankedBits is_here_;         // its nodes in the file
   std::vector<Index> places_;  // of these
   VtkContents contents_;
