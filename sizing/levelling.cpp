@@ -84,6 +84,17 @@ struct LevelRun {
   }
 };
 
+/// Of these (ascending) in new hexes: where they are is not where the forest puts them.
+Index n_fixed_off_cells(const Overlay& overlay, std::span<const Index> pinned, const LevelStep& step) {
+  std::vector<std::uint8_t> is_off(step.old_node.size(), 0);
+  for (const Index n : overlay.nodes) is_off[n] = std::ranges::binary_search(pinned, step.old_node[n]);
+  Index count = 0;
+  for (Index h = 0; h < step.mesh.mesh.n_hexes(); ++h)
+    if (step.origin.kind[h] != HexOrigin::same)
+      for (const Index n : step.mesh.mesh.hexes[h]) count += std::exchange(is_off[n], std::uint8_t{0});
+  return count;
+}
+
 void LevelRun::adopt(LevelStep step, bool is_bare) {
   const Request& request = state.request;
   std::vector<Index> pinned = request.finish.fixed;
@@ -96,6 +107,10 @@ void LevelRun::adopt(LevelStep step, bool is_bare) {
   if (n_dropped > 0)
     state.note(counted(n_dropped, "node") +
                " that had been moved for better shapes went back, as hexes around changed");
+  if (const Index n = pinned.empty() ? 0 : n_fixed_off_cells(overlay, pinned, step); n > 0)
+    state.note(counted(n, "fixed node") +
+               (n == 1 ? " stays where it had been moved to" : " stay where they had been moved to") +
+               ": what is cut around has been placed without that");
   tell_forced(step.n_forced, state.report);
   std::ranges::move(step.off_nodes, std::back_inserter(state.report.off_nodes));
   if (step.is_repaired) state.report.by_whole = repaired_together;

@@ -208,6 +208,21 @@ TEST(SessionLevels, are_as_good_where_a_mesh_was_smoothed_before) {
   }
 }
 
+TEST(SessionLevels, fixed_nodes_that_smoothing_had_moved_are_told_where_hexes_are_cut) {
+  const MeshedModel plate = test::shipped("plate_quarter");
+  Fixture f;
+  f.session.take(plate.mesh, plate.model);
+  const auto n_told = [&] {
+    return std::ranges::count_if(f.session.records().back().notices, [](const std::string& line) {
+      return line.ends_with("stay where they had been moved to: what is cut around has been placed without that");
+    });
+  };
+  run_ok(f, "refine hex 100; smooth volume all; node in surface 2 position fixed; refine surface 2 depth 1");
+  EXPECT_EQ(n_told(), 1);
+  run_ok(f, "undo; node all position free; refine surface 2 depth 1");
+  EXPECT_EQ(n_told(), 0);
+}
+
 TEST(SessionLevels, fixed_nodes_stay_where_they_are_and_are_known_by_id) {
   Fixture f;
   run_ok(f, "create brick x 5 interval 5; refine hex 63; node in hex 140 150 position fixed");
