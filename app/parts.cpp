@@ -62,13 +62,13 @@ int run_parts(const Options& options) {
     if (stops) throw Cancelled();
   });
   try {
-    if (options.in_parts) {
+    std::vector<std::string> lines;
+    if (options.in_parts)
       refine_in_parts(options, fence, say);
-      return console.problem().empty() ? done : command_failed;
-    }
-    const auto lines =
-        options.join ? join_files(options.mesh, options.output, fence)
-                     : split_file(options.mesh, options.output, options.split, partition_by(options.split_by), fence);
+    else if (options.join)
+      lines = join_files(options.mesh, options.output, fence);
+    else
+      lines = split_file(options.mesh, options.output, options.split, partition_by(options.split_by), fence);
     for (const std::string& line : lines) say(line);
     return console.problem().empty() ? done : command_failed;
   } catch (const std::bad_alloc&) {

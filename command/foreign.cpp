@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hextwist/base/text.h"
+#include "hextwist/command/error_at.h"
 
 namespace hextwist {
 namespace {
@@ -198,6 +199,22 @@ std::optional<Foreign> foreign_line(const Statement& statement) {
       return Foreign{row.is_skipped, std::move(*said), row.text};
     }
   return std::nullopt;
+}
+
+std::optional<Foreign> parse_or_skip(const Statement& statement, Command& command) {
+  try {
+    command = parse(statement);
+    return std::nullopt;
+  } catch (const CommandError&) {
+    std::optional<Foreign> foreign = foreign_line(statement);
+    if (!foreign) throw;
+    if (!foreign->is_skipped) throw error_at(statement, statement.tokens.front(), std::string(foreign->text));
+    return foreign;
+  }
+}
+
+std::string skipped_text(const Foreign& foreign) {
+  return "'" + foreign.said + "' is skipped" + (foreign.text.empty() ? "" : ": " + std::string(foreign.text));
 }
 
 }  // namespace hextwist

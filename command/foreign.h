@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "hextwist/command/syntax.h"
 #include "hextwist/command/token.h"
 
 namespace hextwist {
@@ -21,5 +22,10 @@ struct Foreign {
 
 /// nullopt: the line is none of these.
 std::optional<Foreign> foreign_line(const Statement& statement);
+
+/// parse(), also of lines of other programs: one that is skipped is returned. Throws CommandError for what is refused.
+std::optional<Foreign> parse_or_skip(const Statement& statement, Command& command);
+/// What is to be said of a line that is skipped.
+std::string skipped_text(const Foreign& foreign);
 
 }  // namespace hextwist

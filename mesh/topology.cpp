@@ -410,6 +410,7 @@ std::vector<Side> boundary_sides(const Faces& faces) {
 }
 
 std::vector<Side> find_sides(const Mesh& mesh, std::span<const Quad> quads) {
+  if (quads.empty()) return {};
   // Quads by lowest node; then every face of every hex looks there, which costs nothing in most places.
   const auto known = [&](Index node) { return node >= 0 && node < mesh.n_nodes(); };
   std::vector<Quad> sorted(quads.begin(), quads.end());

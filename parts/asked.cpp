@@ -249,39 +249,27 @@ PartCommands::PartCommands(std::span<const std::string> texts) : texts_(texts.be
   bool is_any = false;
   for (const std::string& text : texts)
     for (const Statement& statement : split_statements(text, "", 1)) {
-      if (is_skipped(statement)) continue;
-      is_any = true;
       try {
-        add(statement);
+        is_any = add(statement) || is_any;
       } catch (const NeedsWhole& needs) {
+        is_any = true;
         if (by_whole_.empty()) by_whole_ = needs.why;
       }
     }
   if (!is_any) throw Error("no refinement was asked for");
 }
 
-/// Lines of other programs that only show or log, as in a session.
-bool PartCommands::is_skipped(const Statement& statement) {
-  if (has_braces(statement) || flow_of(statement).kind != Flow::none) return false;
-  try {
-    parse(statement);
-    return false;
-  } catch (const CommandError&) {
-    const std::optional<Foreign> foreign = foreign_line(statement);
-    if (!foreign) throw;
-    if (!foreign->is_skipped) throw error_at(statement, statement.tokens.front(), std::string(foreign->text));
-    notices_.push_back("'" + foreign->said + "' is skipped" +
-                       (foreign->text.empty() ? "" : ": " + std::string(foreign->text)));
-    return true;
-  }
-}
-
-void PartCommands::add(const Statement& statement) {
-  std::string& name = names_.emplace_back();
-  if (has_braces(statement) || flow_of(statement).kind != Flow::none)
+bool PartCommands::add(const Statement& statement) {
+  if (has_braces(statement) || flow_of(statement).kind != Flow::none) {
+    names_.emplace_back();
     refuse("braces", "values may be those of the whole mesh");
-  Command command = parse(statement);
-  name = command.spec->name;
+  }
+  Command command;
+  if (const std::optional<Foreign> foreign = parse_or_skip(statement, command)) {
+    notices_.push_back(skipped_text(*foreign));
+    return false;
+  }
+  const std::string& name = names_.emplace_back(command.spec->name);
   const bool makes_group = name == "create" && (command.has("group") || command.has("block"));
   if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
     throw error_at(statement, statement.tokens.front(),
@@ -292,7 +280,7 @@ void PartCommands::add(const Statement& statement) {
   if (name == "sizing") {
     check_function(command);
     functions_.push_back({commands_.size(), std::move(command)});
-    return;
+    return true;
   }
   if (name != "refine") refuse("'" + name + "'", "only refinements are done in parts");
   if (command.has("sheet")) refuse("a direction or a sheet", "sheets run through the whole mesh");
@@ -308,6 +296,7 @@ void PartCommands::add(const Statement& statement) {
   }
   ids_.push_back(std::move(ids));
   commands_.push_back(std::move(command));
+  return true;
 }
 
 int PartCommands::depth() const {

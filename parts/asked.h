@@ -68,8 +68,8 @@ class PartCommands {
 
  private:
   bool cuts_levels(std::size_t i, Approach approach) const;
-  void add(const Statement& statement);
-  bool is_skipped(const Statement& statement);
+  /// False: a line of another program that is skipped.
+  bool add(const Statement& statement);
   std::vector<std::string> texts_, names_, notices_;
   std::string by_whole_;
   std::vector<Command> commands_;

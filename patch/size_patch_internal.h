@@ -35,7 +35,7 @@ void name_as_whole(Report& report, const PatchNumbers& numbers);
 /// What comes of a plain patch by passes: numbers, verification, splice. The passes are done.
 void finish_patch(PatchResult& made, const MeshedModel& input, const Measured& known, const Request& request,
                   const PatchNumbers& numbers, Report& report);
-/// Counts before and after, memory.
+/// Counts before and after, memory. Throws Error where that many hexes are not allowed (limit_hexes()).
 void count_patch(const PatchResult& made, const MeshedModel& input, Report& report);
 /// Of a request that changes nothing: a patch without hexes.
 PatchResult nothing_done(const MeshedModel& input, const Measured& known, const Request& request, Report report);

@@ -121,9 +121,10 @@ Summary updated(const Summary& before, Metric metric, std::span<const double> ta
   }
   const Index n = difference.n_whole;
   const double shift = sum / n;
+  const bool is_same = taken.empty() && values.empty();  // to the bit: squaring a root is not exact
   return {.count = n,
           .average = before.average + shift,
-          .std_dev = std::sqrt(std::max(0.0, squares / n - shift * shift)),
+          .std_dev = is_same ? before.std_dev : std::sqrt(std::max(0.0, squares / n - shift * shift)),
           .min = both[0].value,
           .max = both[1].value,
           .min_hex = both[0].hex,

@@ -186,12 +186,10 @@ void carry_surface_faces(const Association& old, const Split& split, const Mesh&
     uncut.push_back(i);
     quads.push_back(quad);
   }
+  const std::vector<Side> sides = find_sides(mesh, quads);
   bool is_other = false;
-  if (!quads.empty()) {
-    const std::vector<Side> sides = find_sides(mesh, quads);
-    for (std::size_t i = 0; i < uncut.size(); ++i)
-      if (const Side before = std::exchange(owned[uncut[i]].side, sides[i]); before != sides[i]) is_other = true;
-  }
+  for (std::size_t i = 0; i < uncut.size(); ++i)
+    if (const Side before = std::exchange(owned[uncut[i]].side, sides[i]); before != sides[i]) is_other = true;
   if (is_other)
     std::ranges::sort(owned, {}, &Owned::side);
   else

@@ -14,17 +14,9 @@ namespace {
 
 /// False for a line of another program that is skipped.
 bool parse_into(Execution& run, Command& command, const Statement& statement) {
-  try {
-    command = parse(statement);
-    return true;
-  } catch (const CommandError&) {
-    const std::optional<Foreign> foreign = foreign_line(statement);
-    if (!foreign) throw;
-    if (!foreign->is_skipped) throw error_at(statement, statement.tokens.front(), std::string(foreign->text));
-    if (run.core.skipped.insert(foreign->said).second)
-      run.note("'" + foreign->said + "' is skipped" + (foreign->text.empty() ? "" : ": " + std::string(foreign->text)));
-    return false;
-  }
+  const std::optional<Foreign> foreign = parse_or_skip(statement, command);
+  if (foreign && run.core.skipped.insert(foreign->said).second) run.note(skipped_text(*foreign));
+  return !foreign;
 }
 
 /// Expressions in braces first; they may be all there is.

@@ -86,6 +86,24 @@ void set_integers(VtkArray& to, const std::vector<std::int64_t>& numbers) {
   to.keep();
 }
 
+std::vector<std::string> made_names(VtkArray::On on, std::string_view name) {
+  constexpr std::string_view marker = "hextwist:made";
+  std::vector<std::string> names;
+  if (on != VtkArray::On::file || !name.starts_with(marker)) return names;
+  name.remove_prefix(marker.size());
+  while (!(name = trimmed(name)).empty()) {
+    const auto end = std::min(name.find(' '), name.size());
+    names.emplace_back(name.substr(0, end));
+    name.remove_prefix(end);
+  }
+  return names;
+}
+
+bool is_made(std::string_view name, std::string_view usual) {
+  while (name != usual && name.starts_with(made_prefix)) name.remove_prefix(made_prefix.size());
+  return name == usual;
+}
+
 void say_file_arrays(std::span<const VtkArray> arrays, std::vector<std::string>& notices) {
   std::vector<std::string> names;
   for (const VtkArray& array : arrays)

@@ -182,12 +182,8 @@ class VtkAssembly {
   bool is_made(std::string_view name) const { return std::ranges::find(made_, name) != made_.end(); }
   /// An array of ours by its usual name; null where it is not there.
   const VtkArray* find_made(VtkArray::On on, std::string_view usual) const {
-    for (const std::string& name : made_) {
-      std::string_view plain = name;
-      while (plain != usual && plain.starts_with(made_prefix)) plain.remove_prefix(made_prefix.size());
-      if (plain == usual) return find(on, name);
-    }
-    return nullptr;
+    const auto name = std::ranges::find_if(made_, [&](const std::string& made) { return io::is_made(made, usual); });
+    return name == made_.end() ? nullptr : find(on, *name);
   }
 
   /// What write_vtu() says beyond fields. Such arrays may have been edited by other programs: all is checked.
@@ -195,14 +191,7 @@ class VtkAssembly {
     Mesh& mesh = out_.mesh;
     Association& tags = out_.tags;
     for (const VtkArray& array : in_.arrays)
-      if (array.on == VtkArray::On::file && array.name.starts_with("hextwist:made")) {
-        std::string_view rest = std::string_view(array.name).substr(13);
-        while (!(rest = trimmed(rest)).empty()) {
-          const auto end = std::min(rest.find(' '), rest.size());
-          made_.emplace_back(rest.substr(0, end));
-          rest.remove_prefix(end);
-        }
-      }
+      for (std::string& name : made_names(array.on, array.name)) made_.push_back(std::move(name));
     if (made_.empty()) return;
     const auto n_nodes = mesh.points.size(), n_hexes = mesh.hexes.size(), n_cells = in_.types.size();
     if (!only_hexes_ && cell_of_hex(n_hexes - 1) != n_hexes - 1)

@@ -123,6 +123,11 @@ struct VtkContents {
 
 /// Before the name of an array of ours, as often as a field is called like it: "hextwist_hex_id".
 inline constexpr std::string_view made_prefix = "hextwist_";
+/// Those of them that a file says it has, where this is the name that says so ("hextwist:made node_id hex_id"); else
+/// none.
+std::vector<std::string> made_names(VtkArray::On on, std::string_view name);
+/// Whether an array of ours is the one that is usually called so.
+bool is_made(std::string_view name, std::string_view usual);
 
 /// Cell arrays of other programs that give blocks, the first that is there; and the block that a value means, 0: none.
 inline constexpr std::string_view vtk_group_arrays[] = {"MaterialID",    "CellEntityIds",    "medit:ref",

@@ -126,26 +126,19 @@ std::string_view kind_of(const VtuArray& array) {
   return name.substr(0, name.find(' '));
 }
 
-/// What says that arrays are ours, and which.
-bool is_made_list(const VtuArray& array) {
-  constexpr std::string_view marker = "hextwist:made";
-  const std::string_view name = array.head.name;
-  return array.head.on == VtkArray::On::file && name.starts_with(marker) &&
-         !trimmed(name.substr(marker.size())).empty();
+std::vector<std::string> made_in(VtuFile& file) {
+  std::vector<std::string> names;
+  for (const VtuArray& array : file.arrays())
+    for (std::string& name : made_names(array.head.on, array.head.name)) names.push_back(std::move(name));
+  return names;
 }
 
 /// The ids that we have written, null where the file has none.
 const VtuArray* id_array(VtuFile& file, const char* section, std::string_view usual) {
-  const auto& arrays = file.arrays();
-  const bool is_made = std::ranges::any_of(arrays, [&](const VtuArray& array) {
-    return is_made_list(array) && (array.head.name + " ").find(" " + std::string(usual) + " ") != std::string::npos;
-  });
-  const auto found = std::ranges::find_if(arrays, [&](const VtuArray& array) {
-    std::string_view name = array.head.name;
-    while (name != usual && name.starts_with(made_prefix)) name.remove_prefix(made_prefix.size());
-    return array.section == section && name == usual && is_integer(array);
-  });
-  return is_made && found != arrays.end() ? &*found : nullptr;
+  const std::vector<std::string> made = made_in(file);
+  const auto name = std::ranges::find_if(made, [&](const std::string& one) { return is_made(one, usual); });
+  const VtuArray* const array = name == made.end() ? nullptr : file.find(section, *name);
+  return array && is_integer(*array) ? array : nullptr;
 }
 
 std::int64_t highest_node_id(VtuFile& file) {
@@ -187,7 +180,7 @@ class VtuSlice {
     contents_.points = vtk_points(picked(file_, *file_.find("Points"), nodes(), 3), file_.cursor());
     contents_.notices = file_.notices();
     contents_.old_lagrange = file_.old_lagrange();
-    ours_ = std::ranges::any_of(file_.arrays(), is_made_list);
+    ours_ = !made_in(file_).empty();
     for (const VtuArray& array : file_.arrays())
       if (array.section != "Points" && array.section != "Cells") add(array);
     has_ids_ = {id_array(file_, "PointData", "node_id") != nullptr, id_array(file_, "CellData", "hex_id") != nullptr};

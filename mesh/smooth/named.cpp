@@ -91,7 +91,6 @@ class Finder {
     signature_ = signatures.take();
     collect_node_sets();
     collect_sides();
-    hold_rims_on_cad();
     if (signature_.empty() && sides_.empty() && sets_.empty()) return std::move(holds_);
     local_ = touching_hexes(mesh_.hexes, may_move_);
     const std::vector<Use> uses = face_uses();
@@ -144,16 +143,15 @@ class Finder {
         }
       }
     std::ranges::sort(sides_);
-    // A side set may end within a surface of the CAD.
-    std::ranges::sort(on_cad);
-    for (std::size_t begin = 0, end = 0; begin < on_cad.size(); begin = end) {
-      while (end < on_cad.size() && on_cad[end] == on_cad[begin]) ++end;
-      const Edge& edge = on_cad[begin].nodes;
-      if (end - begin == 1 && !std::ranges::binary_search(association_.curve_edges, edge)) rims_on_cad_.push_back(edge);
-    }
+    hold_rims_on_cad(std::move(on_cad));
   }
-  void hold_rims_on_cad() {
-    for (const auto& [a, b] : rims_on_cad_) {
+  /// Edges of faces in side sets: where one ends within a surface of the CAD.
+  void hold_rims_on_cad(std::vector<NamedEdge> edges) {
+    std::ranges::sort(edges);
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+      while (end < edges.size() && edges[end] == edges[begin]) ++end;
+      const auto [a, b] = edges[begin].nodes;
+      if (end - begin > 1 || std::ranges::binary_search(association_.curve_edges, Edge{a, b})) continue;
       hold_along(a, b);
       hold_along(b, a);
     }
@@ -307,7 +305,6 @@ class Finder {
   std::vector<const NodeSet*> sets_;
   CompressedRows sets_of_;                     ///< per node, where there are sets
   std::vector<std::pair<Side, Label>> sides_;  ///< named ones, ascending
-  std::vector<Edge> rims_on_cad_;              ///< of side sets
   std::vector<Index> local_;                   ///< hexes around nodes that may move
   std::vector<NamedEdge> edges_;               ///< of named faces
   std::vector<Index> on_face_;                 ///< nodes of named faces

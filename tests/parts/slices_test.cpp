@@ -73,6 +73,18 @@ TEST(Slices, joined_are_what_is_read_at_once) {
         }
 }
 
+TEST(Slices, of_vtu_tell_fields_that_are_called_like_ids_from_these) {
+  const auto file = test::output_folder() / "ids.vtu";
+  Mesh mesh = test::sliceable(5, true, {6, 5, 4});
+  mesh.fields.push_back({"node_id", Field::On::node, 1, std::vector<double>(mesh.points.size(), 7)});
+  mesh.fields.push_back({"hex_id", Field::On::hex, 1, std::vector<double>(mesh.hexes.size(), 8)});
+  write_mesh(file, mesh, nullptr);
+  const Mesh whole = read_mesh(file).mesh;
+  EXPECT_EQ(whole.node_ids, mesh.node_ids);
+  expect_slices_make(file, whole, 3);
+  EXPECT_EQ(in_slices(file)->highest_node, mesh.node_ids.back());
+}
+
 /// What VTK writes in all its ways, and with blocks as others give them.
 TEST(Slices, of_vtu_as_vtk_writes_it_are_what_is_read_at_once) {
   const auto folder = test::output_folder();
