@@ -238,7 +238,7 @@ LevelStep change(const Forest& from, const Mesh& current, LevelMarks wished, con
     step.is_repaired |= pass->is_repaired;
   }
 
-  if (wishes.empty()) {  // as if nothing had ever been cut
+  if (grown->marks.empty()) {  // as if nothing had ever been cut
     step.forest.grown = bare(base.mesh);
     step.mesh = std::move(built.mesh);
     return step;
