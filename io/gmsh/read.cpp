@@ -170,6 +170,10 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
   if (!known)
     cursor.fail_at(at, "element " + std::to_string(tag) + " has type " + std::to_string(type) +
                            ", which is not a hex, quad, line or point");
+  if (contents.slice && type != gmsh_kept[known->dim])
+    contents.slice->refuse("elements other than hexes of 8 nodes, quads, lines and points (element " +
+                               std::to_string(tag) + ")",
+                           false);
   if (type == gmsh_kept[known->dim] || std::ranges::find(gmsh_second_order, type) != gmsh_second_order.end())
     return known->dim;
   contents.last_type = type;

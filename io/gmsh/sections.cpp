@@ -5,6 +5,7 @@
 #include "hextwist/base/large_array.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/gmsh/gmsh.h"
+#include "hextwist/io/gmsh/slice_internal.h"
 
 namespace hextwist::io {
 namespace {
@@ -21,18 +22,34 @@ void read_gmsh_nodes_1(GmshContents& contents, GmshSource& source, bool parametr
   const std::int64_t count = cursor.integer("the number of nodes");
   cursor.line();
   const auto n = cursor.check_count(count, cursor.binary ? 28 : 8, "nodes");
-  std::vector<std::int64_t> ids(n);
-  contents.points.resize(n);
-  const std::vector<Run> runs = {{0, cursor.at}};
-  for (std::size_t i = 0; i < n; ++i) {
-    ids[i] = source.integer("a node id");
-    source.coordinates(coordinates(std::span(contents.points).subspan(i, 1)));
-    if (!parametric) continue;
-    // Skips the entity and its parameters: owners are better known from the elements.
-    const int dim = source.integer("a dimension");
-    source.integer("an entity");
-    for (int k = 0; k < dim && dim < 3; ++k) source.real("a parameter");
+  if (contents.slice) contents.slice->n_nodes = static_cast<std::int64_t>(n);
+  std::vector<std::int64_t> ids;
+  std::vector<Run> runs;
+  if (!contents.slice) {
+    ids.reserve(n);
+    reserve_large(contents.points, n);
   }
+  bool was_kept = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    cursor.skip_text_blanks();
+    const char* at = cursor.at;
+    const std::int64_t id = source.integer("a node id");
+    Vec3 point;
+    source.coordinates(std::span(point.data(), 3));
+    if (parametric) {  // skips the entity and its parameters: owners are better known from the elements
+      const int dim = source.integer("a dimension");
+      source.integer("an entity");
+      for (int k = 0; k < dim && dim < 3; ++k) source.real("a parameter");
+    }
+    const bool is_kept = !contents.slice || keeps_node_of_slice(*contents.slice, id);
+    if (is_kept) {
+      if (!was_kept) runs.push_back({ids.size(), at});
+      ids.push_back(id);
+      contents.points.push_back(point);
+    }
+    was_kept = is_kept;
+  }
+  if (contents.slice && contents.slice->walk != GmshSlice::Walk::all) return;
   contents.nodes = Ids(std::move(ids), "node", cursor, parametric ? std::span<const Run>{} : runs);
   contents.nodes.sort(contents.points);
 }
@@ -46,13 +63,17 @@ void begin_run(GmshElements& elements, const char* at) {
 /// Tag, entity, physical group and nodes of an element of the versions 1 and 2.
 void add_element(GmshContents& contents, GmshSource& source, int dim, int type, int tag, int physical, int entity,
                  const char* at) {
-  GmshElements& elements = contents.elements[dim];
-  begin_run(elements, at);
-  elements.physical.push_back(positive(physical));
-  elements.entity.push_back(std::max(entity, 0));
   std::array<std::int64_t, 27> ids;
   const auto nodes = std::span(ids).first(static_cast<std::size_t>(gmsh_type(type)->n_nodes));
   for (std::int64_t& id : nodes) id = source.integer("a node");
+  physical = positive(physical);
+  entity = std::max(entity, 0);
+  if (contents.slice)
+    return add_sliced_gmsh_element(contents, source.cursor, {dim, entity}, physical, tag, nodes, at);
+  GmshElements& elements = contents.elements[dim];
+  begin_run(elements, at);
+  elements.physical.push_back(physical);
+  elements.entity.push_back(entity);
   add_gmsh_element(contents, source.cursor, dim, tag, nodes, at);
 }
 

@@ -1,9 +1,10 @@
-// .msh 4.1 in slices, in walks over the file: one for what is below hexes, one that finds the hexes it lies on, and for
+// .msh in slices, in walks over the file: one for what is below hexes, one that finds the hexes it lies on, and for
 // each slice one for the nodes of its hexes and one for all that they need.
 #include "hextwist/io/gmsh/slice_internal.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "hextwist/base/mixed.h"
 #include "hextwist/base/sorted.h"
@@ -21,48 +22,31 @@ bool has_id(const GmshSlice& slice, const RankedBits& bits, std::int64_t id) {
   return has_bit(slice, id) && bits.has_any(static_cast<Index>(id));
 }
 
+/// Elements of all versions, in one of the walks.
 class SlicedElements {
  public:
-  SlicedElements(GmshContents& contents, GmshSource& source)
-      : contents_(contents), slice_(*contents.slice), source_(source), cursor_(source.cursor) {}
+  SlicedElements(GmshContents& contents, const Cursor& cursor)
+      : contents_(contents), slice_(*contents.slice), cursor_(cursor) {}
 
-  void read() {
-    slice_.n_hexes = 0;
-    for_each_gmsh_element_block(
-        source_, [](std::size_t) {}, [this](const GmshBlock& block) { read(block); });
-  }
-
- private:
-  void read(const GmshBlock& block) {
-    const char* first = cursor_.at;
-    const std::int64_t first_tag = source_.large("an element");
-    const int dim =
-        check_gmsh_type(contents_, cursor_, first, block.kind, first_tag, static_cast<std::int64_t>(block.size));
-    cursor_.at = first;
-    const auto n_nodes = static_cast<std::size_t>(gmsh_type(block.kind)->n_nodes);
-    if (dim < 0 || dim > 3 || block.kind != gmsh_kept[dim])
-      slice_.refuse(
-          "elements other than hexes of 8 nodes, quads, lines and points (element " + std::to_string(first_tag) + ")",
-          false);
-    entity_ = block.dim == gmsh_type(block.kind)->dim ? std::max(block.entity, 0) : 0;
-    if (slice_.walk == GmshWalk::lower && slice_.is_possible) add_groups(dim);
-    if (slice_.walk == GmshWalk::all && slice_.is_possible)
-      contents_.elements[dim].runs.push_back({contents_.elements[dim].tags.size(), first});
-    std::array<std::int64_t, most_gmsh_nodes> ids;
-    const auto nodes = std::span(ids).first(n_nodes);
-    for (std::size_t i = 0; i < block.size; ++i) {
-      cursor_.skip_text_blanks();
-      const char* at = cursor_.at;
-      const auto tag = source_.large("an element");
-      source_.large_ones(nodes, "a node");
-      if (slice_.is_possible) add(dim, tag, nodes, at);
-    }
-  }
-
-  void add_groups(int dim) {
+  /// What follows is of this entity (and, in versions 1 and 2, of this group) and stands there.
+  void begin(int dim, int entity, const char* at) {
+    entity_ = entity;
+    at_ = at;
+    if (slice_.walk != GmshWalk::lower) return;
     const auto found = contents_.entity_physicals.find({dim, entity_});
     if (found == contents_.entity_physicals.end()) return;
     for (const int id : found->second) slice_.whole.groups.push_back({dim, id});
+  }
+  void begin(int dim, int entity, int physical, std::int64_t tag, const char* at) {
+    begin(dim, entity, at);
+    physical_ = physical;
+    if (slice_.walk != GmshWalk::lower) return;
+    const Owner group{dim, physical};
+    if (physical != 0 && (slice_.whole.groups.empty() || slice_.whole.groups.back() != group))
+      slice_.whole.groups.push_back(group);
+    // A hex that is in two groups is in the file twice.
+    if (dim == 3 && slice_.physical_of_volume.try_emplace(entity, physical).first->second != physical)
+      slice_.refuse("a volume in several physical groups (element " + std::to_string(tag) + ")", true);
   }
 
   void add(int dim, std::int64_t tag, std::span<std::int64_t> nodes, const char* at) {
@@ -87,11 +71,15 @@ class SlicedElements {
         break;
     }
     if (!is_here || (dim < 3 && !takes(dim, nodes))) return;
-    contents_.elements[dim].entity.push_back(entity_);
+    GmshElements& elements = contents_.elements[dim];
+    if (at_) elements.runs.push_back({elements.tags.size(), std::exchange(at_, nullptr)});
+    elements.entity.push_back(entity_);
+    if (contents_.version != 41) elements.physical.push_back(physical_);
     if (dim == 3) add_tag(tag);
     add_gmsh_element(contents_, cursor_, dim, tag, nodes, at);
   }
 
+ private:
   void add_tag(std::int64_t tag) {
     if (!has_bit(slice_, tag) || slice_.hex_tags.has_any(static_cast<Index>(tag)))
       slice_.refuse("tags that are far apart or there twice (element " + std::to_string(tag) + ")", true);
@@ -147,9 +135,9 @@ class SlicedElements {
 
   GmshContents& contents_;
   GmshSlice& slice_;
-  GmshSource& source_;
-  Cursor& cursor_;
-  int entity_ = 0;
+  const Cursor& cursor_;
+  int entity_ = 0, physical_ = 0;
+  const char* at_ = nullptr;  // of what begins
 };
 
 /// Walks over a file that is not read in one walk.
@@ -160,11 +148,17 @@ GmshContents walk_gmsh(const Bytes& bytes, GmshSlice& slice, GmshWalk kind) {
   GmshContents contents;
   contents.slice = &slice;
   slice.walk = kind;
+  slice.n_hexes = 0;
   read_gmsh_sections(contents, cursor);
   return contents;
 }
 
 }  // namespace
+
+bool keeps_node_of_slice(GmshSlice& slice, std::int64_t id) {
+  slice.highest_node = std::max(slice.highest_node, id);
+  return slice.walk == GmshWalk::all && has_id(slice, slice.nodes, id);
+}
 
 bool keeps_of_slice(const GmshContents& contents, Field::On on, std::int64_t tag) {
   GmshSlice& slice = *contents.slice;
@@ -208,8 +202,7 @@ void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source) {
           cursor.skip_text_blanks();
           const char* before = cursor.at;
           const std::int64_t id = source.large("a node id");
-          slice.highest_node = std::max(slice.highest_node, id);
-          is_here[i] = is_read && has_id(slice, slice.nodes, id);
+          is_here[i] = keeps_node_of_slice(slice, id);
           if (!is_here[i]) continue;
           if (i == 0 || !is_here[i - 1]) runs.push_back({ids.size(), before});
           ids.push_back(id);
@@ -227,7 +220,37 @@ void read_sliced_gmsh_nodes(GmshContents& contents, GmshSource& source) {
 }
 
 void read_sliced_gmsh_elements(GmshContents& contents, GmshSource& source) {
-  SlicedElements(contents, source).read();
+  Cursor& cursor = source.cursor;
+  SlicedElements elements(contents, cursor);
+  for_each_gmsh_element_block(
+      source, [](std::size_t) {},
+      [&](const GmshBlock& block) {
+        const char* first = cursor.at;
+        const std::int64_t first_tag = source.large("an element");
+        const int dim =
+            check_gmsh_type(contents, cursor, first, block.kind, first_tag, static_cast<std::int64_t>(block.size));
+        cursor.at = first;
+        const GmshType& type = *gmsh_type(block.kind);
+        if (contents.slice->is_possible)
+          elements.begin(dim, block.dim == type.dim ? std::max(block.entity, 0) : 0, first);
+        std::array<std::int64_t, most_gmsh_nodes> ids;
+        const auto nodes = std::span(ids).first(static_cast<std::size_t>(type.n_nodes));
+        for (std::size_t i = 0; i < block.size; ++i) {
+          cursor.skip_text_blanks();
+          const char* at = cursor.at;
+          const auto tag = source.large("an element");
+          source.large_ones(nodes, "a node");
+          if (contents.slice->is_possible) elements.add(dim, tag, nodes, at);
+        }
+      });
+}
+
+void add_sliced_gmsh_element(GmshContents& contents, const Cursor& cursor, Owner entity, int physical, std::int64_t tag,
+                             std::span<std::int64_t> nodes, const char* at) {
+  if (!contents.slice->is_possible) return;
+  SlicedElements elements(contents, cursor);
+  elements.begin(entity.dim, entity.id, physical, tag, at);
+  elements.add(entity.dim, tag, nodes, at);
 }
 
 std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& path, Unsliced& why) {
@@ -237,7 +260,6 @@ std::optional<SlicedFile> gmsh_in_slices(const std::filesystem::path& path, Unsl
   why = slice.why;
   if (slice.is_possible && slice.n_hexes == 0) why = {"no hexes"};
   if (contents.n_partitions > 0) why = {"partitions", true};
-  if (contents.version != 41) why = {"an older version of .msh than 4.1", true};
   if (!why.what.empty()) return std::nullopt;
   for (std::size_t k = 0; k < slice.keys.size(); ++k) {
     std::ranges::sort(slice.keys[k]);

@@ -33,7 +33,8 @@ struct GmshSlice {
   /// Walks over the whole: keys of quads and lines (ascending after the first), and how many hexes have each.
   std::array<std::vector<NodesKey>, 2> keys;
   std::array<std::vector<std::uint8_t>, 2> n_having;
-  RankedBits hex_tags;  ///< of all hexes, or of the slice's
+  RankedBits hex_tags;                    ///< of all hexes, or of the slice's
+  std::map<int, int> physical_of_volume;  ///< versions 1 and 2
   GmshWhole whole;
 
   /// It can't be read so; what stands against it is said of the first.
@@ -42,6 +43,13 @@ struct GmshSlice {
     is_possible = false;
   }
 };
+
+/// Whether a node is kept in this walk, which has come to it.
+bool keeps_node_of_slice(GmshSlice& slice, std::int64_t id);
+
+/// An element of version 1 or 2, of a kept type. Where slices can't be read: nothing.
+void add_sliced_gmsh_element(GmshContents& contents, const Cursor& cursor, Owner entity, int physical, std::int64_t tag,
+                             std::span<std::int64_t> nodes, const char* at);
 
 /// Whether a value of a node or element is kept in this walk.
 bool keeps_of_slice(const GmshContents& contents, Field::On on, std::int64_t tag);

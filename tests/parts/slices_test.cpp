@@ -60,13 +60,14 @@ Mesh without_loose_nodes(Mesh mesh) {
 }
 
 TEST(Slices, joined_are_what_is_read_at_once) {
-  for (const std::string extension : {".e", ".vtu", ".msh"})
+  for (const std::string extension : {".e", ".vtu", ".msh", ".2.msh"})
     for (const unsigned seed : {1u, 2u, 3u, 4u})
       for (const bool gaps : {false, true})
         for (const int n : {1, 2, 3, 7, 200}) {
           SCOPED_TRACE(extension + ", seed " + std::to_string(seed) + ", " + std::to_string(n) + " slices");
           const auto file = test::output_folder() / ("rich" + extension);
-          write_mesh(file, test::sliceable(seed, gaps, {6, 5, 4}), nullptr);
+          write_mesh(file, test::sliceable(seed, gaps, {6, 5, 4}), nullptr,
+                     {.binary = seed % 2 == 0 || extension == ".vtu", .gmsh_version = extension == ".msh" ? 41 : 22});
           const Mesh whole = read_mesh(file).mesh;
           ASSERT_FALSE(whole.fields.empty() || whole.node_sets.empty() || whole.side_sets.empty());
           expect_slices_make(file, whole, n);
@@ -179,7 +180,7 @@ TEST(Slices, of_msh_have_quads_between_hexes_on_the_right_side) {
         if (random() % 5 == 0) nodes.nodes.push_back(n);
       mesh.node_sets.push_back(nodes);
     }
-    write_mesh(folder / "sides.msh", mesh, nullptr, {.binary = i % 2 == 0});
+    write_mesh(folder / "sides.msh", mesh, nullptr, {.binary = i % 2 == 0, .gmsh_version = i % 4 < 2 ? 41 : 22});
     const Mesh whole = read_mesh(folder / "sides.msh").mesh;
     for (const int n : {2, 3, 9}) expect_slices_make(folder / "sides.msh", whole, n);
   }
@@ -223,8 +224,6 @@ TEST(Slices, of_msh_are_not_made_of_what_they_would_lose) {
   for (int i = 13; i > 0; --i) of_nodes += "\n" + std::to_string(i) + " " + std::to_string(i * i);
   EXPECT_TRUE(is_sliced(file_of(with_quad, data("NodeData", of_nodes))));
   EXPECT_FALSE(is_sliced(file_of(with_quad, data("ElementData", "1\n3 1.5")))) << "values of a quad";
-  write_mesh(folder / "old.msh", test::grid(3, 2, 2), nullptr, {.gmsh_version = 22});
-  EXPECT_FALSE(in_slices(folder / "old.msh"));
   // Damage is found by the slice that has it.
   const auto damaged = file_of("1 2 1 2\n3 1 5 2\n1 1 2 4 3 5 6 8 7\n2 5 6 8 7 9 10 12 77\n");
   const std::optional<SlicedFile> sliced = in_slices(damaged);
@@ -233,6 +232,40 @@ TEST(Slices, of_msh_are_not_made_of_what_they_would_lose) {
   EXPECT_NE(at_once.find("names node 77"), std::string::npos) << at_once;
   EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 1, 2); }), at_once);
   EXPECT_EQ(test::error_of([&] { read_slice(*sliced, 0, 2); }), "no error") << "not its business";
+}
+
+TEST(Slices, of_old_msh_are_not_made_of_what_they_would_lose) {
+  const auto folder = test::output_folder();
+  std::string coordinates;
+  for (int i = 0; i < 12; ++i)
+    coordinates += std::to_string(i + 1) + " " + std::to_string(i % 2) + " " + std::to_string(i / 2 % 2) + " " +
+                   std::to_string(i / 4) + "\n";
+  coordinates += "13 9 9 9\n";
+  const std::string lower = " 1 2 4 3 5 6 8 7\n", upper = " 5 6 8 7 9 10 12 11\n";
+  const auto is_sliced = [&](const std::string& text) {
+    const auto file = test::write_text(folder / "a.msh", text);
+    const bool sliced = in_slices(file).has_value();
+    if (sliced)
+      for (const int n : {1, 2}) expect_slices_make(file, without_loose_nodes(read_mesh(file).mesh), n);
+    return sliced;
+  };
+  const auto two = [&](const std::string& elements) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n13\n" + coordinates + "$EndNodes\n$Elements\n" + elements +
+           "$EndElements\n";
+  };
+  EXPECT_TRUE(is_sliced(two("2\n1 5 2 1 1" + lower + "2 5 2 2 2" + upper)));
+  EXPECT_TRUE(is_sliced(two("4\n1 5 2 1 1" + lower + "2 5 2 1 1" + upper + "3 3 2 -7 4 5 6 8 7\n4 15 2 3 1 5\n")));
+  EXPECT_TRUE(is_sliced(two("4\n3 3 2 7 4 1 2 4 3\n4 3 2 8 4 1 2 4 3\n1 5 2 1 1" + lower + "2 5 2 1 1" + upper)))
+      << "a quad in two groups";
+  EXPECT_FALSE(is_sliced(two("3\n1 5 2 1 1" + lower + "2 5 2 1 1" + upper + "3 5 2 2 1" + lower)))
+      << "a hex in two groups";
+  EXPECT_FALSE(is_sliced(two("3\n1 5 2 1 1" + lower + "2 5 2 1 1" + upper + "3 2 2 7 4 1 2 4\n"))) << "a triangle";
+  EXPECT_FALSE(is_sliced(two("3\n1 5 2 1 1" + lower + "2 5 2 1 1" + upper + "3 3 2 7 4 1 2 8 7\n"))) << "no side";
+  const auto one = [&](const std::string& elements) {
+    return "$NOD\n13\n" + coordinates + "$ENDNOD\n$ELM\n" + elements + "$ENDELM\n";
+  };
+  EXPECT_TRUE(is_sliced(one("3\n1 5 1 1 8" + lower + "2 5 1 1 8" + upper + "3 3 7 4 4 1 2 4 3\n")));
+  EXPECT_FALSE(is_sliced(one("3\n1 5 1 1 8" + lower + "2 5 1 1 8" + upper + "3 2 7 4 3 1 2 4\n")));
 }
 
 TEST(Slices, of_vtu_are_not_made_of_what_they_would_lose) {
