@@ -16,6 +16,7 @@ namespace {
 
 constexpr double face_slack = 1e-9;  // of the unit cube: so near to a face it does not matter which side counts
 constexpr int max_steps = 100;       // from hex to hex
+constexpr std::size_t most_seen = 3000;
 
 Vec3 clamped(const Vec3& at) {
   return at.cwiseMax(0.0).cwiseMin(1.0);
@@ -84,6 +85,55 @@ HexPlace step_towards(const Mesh& mesh, const Around& around, const HexPlace& fr
   return best;
 }
 
+double distance_to_box(const Mesh& mesh, Index hex, const Vec3& p) {
+  Box box;
+  for (const Index n : mesh.hexes[hex]) box.add(mesh.points[n]);
+  return (p - p.cwiseMax(box.min).cwiseMin(box.max)).norm();
+}
+
+/// A point that no step from its place brings nearer. Pieces of transitions are skew, so it may be inside of the mesh
+/// all the same. The straight way to it lies in the ball around it: hexes that reach into that are looked at, across
+/// faces, ring by ring.
+struct Stuck {
+  Index point;
+  std::vector<Index> seen, ring;
+
+  void look_around(const Mesh& mesh, const Around& around, const Vec3& p, HexPlace& best) {
+    constexpr double rounding = 1 + 1e-9;
+    std::vector<Index> next_ring;
+    for (const Index hex : ring)
+      for (int face = 0; face < n_hex_faces; ++face) {
+        const Index next = around.across(hex, face);
+        if (next < 0 || std::ranges::find(seen, next) != seen.end()) continue;
+        seen.push_back(next);
+        if (distance_to_box(mesh, next, p) > rounding * best.distance) continue;
+        next_ring.push_back(next);
+        if (const HexPlace there = place_in(mesh, next, p); there.distance < best.distance) best = there;
+        if (best.distance == 0) return ring.clear();
+      }
+    ring = std::move(next_ring);
+    if (seen.size() > most_seen) ring.clear();
+  }
+};
+
+void look_further(const Mesh& mesh, std::span<const Vec3> points, std::span<const Index> open,
+                  std::vector<HexPlace>& places) {
+  std::vector<Stuck> stuck;
+  for (const Index i : open) stuck.push_back({i, {places[i].hex}, {places[i].hex}});
+  while (!stuck.empty()) {
+    std::vector<Index> hexes;
+    for (const Stuck& one : stuck) hexes.insert(hexes.end(), one.ring.begin(), one.ring.end());
+    const Around around(mesh, sorted_unique(std::move(hexes)));
+    parallel_each(
+        stuck.size(),
+        [&](std::size_t k) {
+          stuck[k].look_around(mesh, around, points[stuck[k].point], places[stuck[k].point]);
+        },
+        64);
+    std::erase_if(stuck, [](const Stuck& one) { return one.ring.empty(); });
+  }
+}
+
 }  // namespace
 
 bool has_nodal_fields(const Mesh& mesh) {
@@ -106,6 +156,7 @@ std::vector<HexPlace> find_places(const Mesh& mesh, std::span<const Vec3> points
   parallel_each(points.size(), [&](std::size_t i) { places[i] = place_in(mesh, begin[i], points[i]); });
   std::vector<Index> open =
       indices_where(static_cast<Index>(places.size()), [&](Index i) { return places[i].distance > 0; });
+  std::vector<Index> stuck;
   for (int step = 0; step < max_steps && !open.empty(); ++step) {
     std::vector<Index> hexes;
     for (const Index i : open) hexes.push_back(places[i].hex);
@@ -122,9 +173,13 @@ std::vector<HexPlace> find_places(const Mesh& mesh, std::span<const Vec3> points
         64);
     std::size_t n = 0;
     for (std::size_t k = 0; k < open.size(); ++k)
-      if (goes_on[k]) open[n++] = open[k];
+      if (goes_on[k])
+        open[n++] = open[k];
+      else if (places[open[k]].distance > 0)
+        stuck.push_back(open[k]);
     open.resize(n);
   }
+  look_further(mesh, points, stuck, places);
   return places;
 }
 

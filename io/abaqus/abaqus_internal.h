@@ -54,14 +54,21 @@ struct AbaqusSet {
 
 /// Words of a card that name parts of the mesh.
 struct AbaqusNamed {
-  enum Kind { nodes, elements, surface, faces } kind;  ///< faces: elements, a comma, and a face of theirs
-  std::size_t begin, end;                              ///< in the card's text
+  enum Kind {
+    nodes,
+    node_set,  ///< not by number
+    elements,
+    surface,
+    faces  ///< elements, a comma, and a face of theirs
+  } kind;
+  std::size_t begin, end;  ///< in the card's text
   bool by_keyword;
 };
 /// "A, P2": the elements and the label of their face; its number, 1 to 6.
 struct AbaqusFaceLoad {
   std::string elements, label;
   int face = 0;
+  std::size_t end = 0;  ///< of the elements, with their quotes
 };
 AbaqusFaceLoad abaqus_face_load(const std::string& text);
 
@@ -127,6 +134,8 @@ struct AbaqusContents {
 struct AbaqusPlaced {
   std::string name;  ///< of the instance; sets are name.set; empty: outside of parts
   std::array<const AbaqusScope*, 2> scopes = {nullptr, nullptr};
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vec3 shift = Vec3::Zero();
   /// Its own ids, lowest and highest, and what is added to them in the mesh. No other place has ids between.
   struct Numbers {
     std::int64_t low = 1, high = 0, shift = 0;
@@ -149,10 +158,28 @@ struct AbaqusParts {
   std::vector<std::uint8_t> is_middle;  ///< per node; empty: none is
 };
 AbaqusParts place_abaqus(const AbaqusContents& contents, MeshFile& out);
+/// Types by blocks, which refinements carry. A type whose hexes are no block gets one.
+void set_element_types(const AbaqusParts& parts, MeshFile& out);
 /// Sets, types and cards.
 void add_abaqus_sets(const AbaqusContents& contents, const AbaqusParts& parts, MeshFile& out);
+/// The value of a parameter in the first line of a card, in upper case; empty where it is not there.
+std::string parameter_of(std::string_view card, std::string_view parameter);
+/// What of a card is of the elements that are there, in words; empty: nothing.
+std::string what_does_not_follow(const AbaqusRawCard& card);
 /// Which words of a card name parts of the mesh, and of what kind.
 void find_names(AbaqusRawCard& card);
+/// Cards of a place as they are in a file without parts: systems of coordinates stand where the place does, and have
+/// the name of the place before their own where another place has that name for another one.
+class AbaqusCardsOfPlaces {
+ public:
+  std::vector<AbaqusRawCard> of(const AbaqusContents& contents, const AbaqusPlaced& placed,
+                                std::vector<std::string>& notices);
+
+ private:
+  std::map<std::string, std::string> systems_;  // by name in upper case
+};
+/// Whether a card belongs to the one before it, as it has no name of its own.
+bool belongs_to_last(const AbaqusRawCard& card);
 /// The line of a text that a place is in, with its end.
 std::pair<std::size_t, std::size_t> line_around(std::string_view text, std::size_t at);
 /// Takes lines out of a card.

@@ -75,6 +75,8 @@ class AbaqusAssembly {
     placed.elements = numbers(placed, highest_[1], [](const AbaqusScope& scope, const auto& f) {
       for (const auto* ids : {&scope.hex_ids, &scope.other_ids}) f(*ids);
     });
+    placed.turn = position.turn;
+    placed.shift = position.shift;
     const bool still = position.turn.isIdentity(0) && position.shift.isZero(0);
     for (const AbaqusScope* scope : placed.scopes) {
       if (!scope) continue;

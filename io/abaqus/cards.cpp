@@ -4,48 +4,92 @@
 namespace hextwist::io {
 namespace {
 
+using Named = AbaqusNamed;
+
 struct Parameter {
   std::string_view name;
-  AbaqusNamed::Kind kind;
+  Named::Kind kind;
 };
 /// Of keywords. All other parameters are not about the mesh.
-constexpr Parameter parameters[] = {{"ELSET", AbaqusNamed::elements}, {"NSET", AbaqusNamed::nodes},
-                                    {"TIE NSET", AbaqusNamed::nodes}, {"PIN NSET", AbaqusNamed::nodes},
-                                    {"REF NODE", AbaqusNamed::nodes}, {"ROT NODE", AbaqusNamed::nodes},
-                                    {"SURFACE", AbaqusNamed::surface}};
+constexpr Parameter parameters[] = {
+    {"ELSET", Named::elements},   {"HOST ELSET", Named::elements}, {"NSET", Named::nodes},
+    {"TIE NSET", Named::nodes},   {"PIN NSET", Named::nodes},      {"TIED NSET", Named::nodes},
+    {"REF NODE", Named::nodes},   {"ROT NODE", Named::nodes},      {"NODE", Named::nodes},
+    {"SURFACE", Named::surface},  {"MASTER", Named::surface},      {"SLAVE", Named::surface},
+    {"MAIN", Named::surface},     {"SECONDARY", Named::surface},   {"ADJUST", Named::node_set}};
 
 /// Keywords whose data lines begin with names, and with how many.
 struct DataNames {
   std::string_view keyword;
-  AbaqusNamed::Kind kind;
+  Named::Kind kind;
   int n = 1;
+  std::string_view type = {};  ///< only where TYPE= is this
 };
-constexpr DataNames data_names[] = {{"BOUNDARY", AbaqusNamed::nodes},
-                                    {"CLOAD", AbaqusNamed::nodes},
-                                    {"CFLUX", AbaqusNamed::nodes},
-                                    {"TEMPERATURE", AbaqusNamed::nodes},
-                                    {"FIELD", AbaqusNamed::nodes},
-                                    {"INITIAL CONDITIONS", AbaqusNamed::nodes},
-                                    {"TRANSFORM", AbaqusNamed::nodes, 0},
-                                    {"DLOAD", AbaqusNamed::elements},
-                                    {"DFLUX", AbaqusNamed::elements},
-                                    {"FILM", AbaqusNamed::elements},
-                                    {"RADIATE", AbaqusNamed::elements},
-                                    {"DSLOAD", AbaqusNamed::surface},
-                                    {"DSFLUX", AbaqusNamed::surface},
-                                    {"SFILM", AbaqusNamed::surface},
-                                    {"SRADIATE", AbaqusNamed::surface},
-                                    {"TIE", AbaqusNamed::surface, 2},
-                                    {"CONTACT PAIR", AbaqusNamed::surface, 2},
-                                    {"CONTACT INCLUSIONS", AbaqusNamed::surface, 2},
-                                    {"CONTACT EXCLUSIONS", AbaqusNamed::surface, 2}};
+constexpr int all = 100;  // of a line
+/// Of one keyword the first that fits.
+constexpr DataNames data_names[] = {{"BOUNDARY", Named::nodes},
+                                    {"CLOAD", Named::nodes},
+                                    {"CFLUX", Named::nodes},
+                                    {"TEMPERATURE", Named::nodes},
+                                    {"FIELD", Named::nodes},
+                                    {"INITIAL CONDITIONS", Named::elements, 1, "STRESS"},
+                                    {"INITIAL CONDITIONS", Named::elements, 1, "PLASTIC STRAIN"},
+                                    {"INITIAL CONDITIONS", Named::elements, 1, "HARDENING"},
+                                    {"INITIAL CONDITIONS", Named::elements, 1, "SOLUTION"},
+                                    {"INITIAL CONDITIONS", Named::surface, 2, "CONTACT"},
+                                    {"INITIAL CONDITIONS", Named::nodes},
+                                    {"TRANSFORM", Named::nodes, 0},
+                                    {"KINEMATIC COUPLING", Named::nodes},
+                                    {"DISTRIBUTING COUPLING", Named::nodes},
+                                    {"RETAINED NODAL DOFS", Named::nodes},
+                                    {"DESIGN VARIABLES", Named::nodes},
+                                    {"CLEARANCE", Named::nodes},
+                                    {"SUBMODEL", Named::surface, all, "SURFACE"},
+                                    {"SUBMODEL", Named::nodes, all},
+                                    {"DLOAD", Named::elements},
+                                    {"DFLUX", Named::elements},
+                                    {"FILM", Named::elements},
+                                    {"RADIATE", Named::elements},
+                                    {"RELEASE", Named::elements},
+                                    {"MASS FLOW", Named::elements},
+                                    {"MASS ADJUST", Named::elements},
+                                    {"CONNECTOR LOAD", Named::elements},
+                                    {"CONNECTOR MOTION", Named::elements},
+                                    {"EMBEDDED ELEMENT", Named::elements, all},
+                                    {"MODEL CHANGE", Named::surface, 2, "CONTACT PAIR"},
+                                    {"MODEL CHANGE", Named::elements, all, "ELEMENT"},
+                                    {"DSLOAD", Named::surface},
+                                    {"DSFLUX", Named::surface},
+                                    {"SFILM", Named::surface},
+                                    {"SRADIATE", Named::surface},
+                                    {"SURFACE PROPERTY ASSIGNMENT", Named::surface},
+                                    {"TIE", Named::surface, 2},
+                                    {"SHELL TO SOLID COUPLING", Named::surface, 2},
+                                    {"CONTACT PAIR", Named::surface, 2},
+                                    {"CONTACT INCLUSIONS", Named::surface, 2},
+                                    {"CONTACT EXCLUSIONS", Named::surface, 2},
+                                    {"CONTACT INTERFERENCE", Named::surface, 2},
+                                    {"CONTACT FORMULATION", Named::surface, 2},
+                                    {"CONTACT PROPERTY ASSIGNMENT", Named::surface, 2},
+                                    {"CONTACT INITIALIZATION ASSIGNMENT", Named::surface, 2},
+                                    {"CONTACT CONTROLS ASSIGNMENT", Named::surface, 2},
+                                    {"CONTACT CLEARANCE ASSIGNMENT", Named::surface, 2}};
+
+/// How the data lines of a card begin, nullptr: not with names.
+const DataNames* names_of(const AbaqusRawCard& card) {
+  const std::string type = parameter_of(card.text, "TYPE");
+  const auto* found = std::ranges::find_if(data_names, [&](const DataNames& of) {
+    return of.keyword == card.keyword && (of.type.empty() || of.type == type);
+  });
+  return found == std::end(data_names) ? nullptr : found;
+}
 
 /// Cards whose data lines go on with a face of the elements: a letter and its number.
 struct FaceLetter {
   std::string_view keyword;
   char letter;
 };
-constexpr FaceLetter face_letters[] = {{"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}};
+constexpr FaceLetter face_letters[] = {{"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}, {"MASS FLOW", 'M'}};
 
 bool is_face(std::string_view keyword, const std::string& label) {
   const auto* of = std::ranges::find(face_letters, keyword, &FaceLetter::keyword);
@@ -55,10 +99,25 @@ bool is_face(std::string_view keyword, const std::string& label) {
 
 }  // namespace
 
+std::string parameter_of(std::string_view text, std::string_view parameter) {
+  std::string_view rest = text.substr(0, text.find('\n'));
+  while (!rest.empty()) {
+    const std::string_view item = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), item.size() + 1));
+    const auto equals = item.find('=');
+    if (equals != std::string_view::npos && same_word(trimmed(item.substr(0, equals)), parameter))
+      return upper_case(trimmed(item.substr(equals + 1)));
+  }
+  return {};
+}
+
 AbaqusFaceLoad abaqus_face_load(const std::string& text) {
   const std::size_t comma = text.rfind(',');
   AbaqusFaceLoad load{std::string(trimmed(text.substr(0, comma))), std::string(trimmed(text.substr(comma + 1))), 0};
   load.face = load.label[1] - '0';
+  load.end = trimmed(text.substr(0, comma)).size();
+  if (load.elements.size() > 1 && load.elements.front() == '"' && load.elements.back() == '"')
+    load.elements = load.elements.substr(1, load.elements.size() - 2);
   return load;
 }
 
@@ -67,19 +126,32 @@ bool depends_on_numbers(std::string_view keyword) {
   return std::ranges::find(cards, keyword) != std::end(cards);
 }
 
+std::string what_does_not_follow(const AbaqusRawCard& card) {
+  const auto has = [&](std::string_view word) {
+    return upper_case(std::string_view(card.text).substr(0, card.text.find('\n'))).find(word) != std::string::npos;
+  };
+  if (card.keyword == "SOLID SECTION" && (has("COMPOSITE") || has("STACK DIRECTION")))
+    return "has layers along a direction of the elements; that of hexes that a refinement makes may be another one";
+  if (card.keyword == "ORIENTATION" && parameter_of(card.text, "DEFINITION") == "OFFSET TO NODES")
+    return "counts from nodes of the elements; those of hexes that a refinement makes may be others";
+  if (card.keyword == "ORIENTATION" && parameter_of(card.text, "DEFINITION") == "NODES")
+    return "names nodes by number: these stay as they are";
+  for (const char* file : {"INPUT", "FILE"})
+    if (const std::string name = parameter_of(card.text, file); !name.empty() && names_of(card))
+      return "reads " + name + ", which is not read here: numbers of nodes and elements in it stay as they are";
+  return {};
+}
+
 void find_names(AbaqusRawCard& card) {
-  const auto* data = std::ranges::find(data_names, card.keyword, &DataNames::keyword);
+  card.named.clear();
   const std::string& text = card.text;
-  const auto add = [&](AbaqusNamed::Kind kind, std::size_t begin, std::size_t end, bool by_keyword) {
+  const auto add = [&](Named::Kind kind, std::size_t begin, std::size_t end, bool by_keyword) {
     while (begin < end && Cursor::blank(text[begin])) ++begin;
     while (begin < end && Cursor::blank(text[end - 1])) --end;
     if (begin < end) card.named.push_back({kind, begin, end, by_keyword});
   };
   bool keyword_line = true;
-  const std::string first_line = upper_case(std::string_view(text).substr(0, text.find('\n')));
-  bool by_element = false;  // stresses and the like
-  for (const char* type : {"STRESS", "STRAIN", "HARDENING", "SOLUTION"})
-    by_element = by_element || (card.keyword == "INITIAL CONDITIONS" && first_line.find(type) != std::string::npos);
+  const DataNames* const data = names_of(card);
   for (std::size_t line = 0; line < text.size();) {
     const std::size_t line_end = text.find('\n', line);
     int column = 0;
@@ -93,11 +165,11 @@ void find_names(AbaqusRawCard& card) {
           if (const auto* known = std::ranges::find(parameters, name, &Parameter::name); known != std::end(parameters))
             add(known->kind, equals + 1, end, true);
         }
-      } else if (data != std::end(data_names) && column < data->n) {
-        add(by_element ? AbaqusNamed::elements : data->kind, word, end, false);
+      } else if (data && column < data->n) {
+        add(data->kind, word, end, false);
       } else if (column == 1 && !card.named.empty() && card.named.back().begin >= line &&
                  is_face(card.keyword, upper_case(trimmed(std::string_view(text).substr(word, end - word))))) {
-        card.named.back().kind = AbaqusNamed::faces;
+        card.named.back().kind = Named::faces;
         card.named.back().end = end;
       }
       word = end + 1;

@@ -148,4 +148,40 @@ AbaqusElement abaqus_element(std::string_view type) {
   return best ? AbaqusElement{other, best->shape, best->n_nodes} : AbaqusElement{unknown, OtherShape::connector, 0};
 }
 
+void set_element_types(const AbaqusParts& parts, MeshFile& out) {
+  auto& of_block = out.extras.element_types;
+  const auto n_types = parts.types.size();
+  for (const std::string& type : parts.types)
+    if (type.starts_with("SC8") || type.starts_with("CSS8") || type.starts_with("COH3D8"))
+      out.notices.push_back("elements of type " + type +
+                             " have a thickness direction; that of hexes that a refinement makes may be another one");
+  if (n_types == 1) {
+    if (parts.types[0] != "C3D8") of_block[0] = parts.types[0];
+    return;
+  }
+  std::vector<char> covered(parts.type_of_hex.size(), 0);
+  for (const Block& block : out.mesh.blocks) {
+    const auto type = [&](Index h) { return parts.type_of_hex[h]; };
+    if (block.hexes.empty()) continue;
+    const int first = type(block.hexes[0]);
+    if (!std::ranges::all_of(block.hexes, [&](Index h) { return type(h) == first; })) continue;
+    of_block[block.id] = parts.types[first];
+    for (const Index h : block.hexes) covered[h] = 1;
+  }
+  std::vector<std::vector<Index>> rest(n_types);
+  for (std::size_t h = 0; h < covered.size(); ++h)
+    if (!covered[h]) rest[parts.type_of_hex[h]].push_back(static_cast<Index>(h));
+  const auto most = std::ranges::max_element(rest, {}, [](const auto& hexes) { return hexes.size(); });
+  const auto usual = static_cast<std::size_t>(most - rest.begin());
+  if (parts.types[usual] != "C3D8") of_block[0] = parts.types[usual];
+  for (std::size_t t = 0; t < n_types; ++t) {
+    if (t == usual || rest[t].empty()) continue;
+    Block block{free_id(out.mesh.blocks), parts.types[t], std::move(rest[t])};
+    out.notices.push_back("elements of type " + block.name + " that are in no set of their own are block " +
+                           std::to_string(block.id) + " '" + block.name + "'");
+    of_block[block.id] = block.name;
+    out.mesh.blocks.push_back(std::move(block));
+  }
+}
+
 }  // namespace hextwist::io

@@ -112,6 +112,10 @@ class Parser {
     return *value;
   }
 
+  void refuse_file(const Keyword& keyword) const {
+    if (keyword.find("INPUT")) out_.fail(keyword.at, "*" + keyword.name + " with INPUT= is not supported");
+  }
+
   /// Our own comments give sets their ids and real names: "** hextwist block 3 STEEL steel (hot)". The first announces
   /// "mesh <nodes> <hexes>", the last is "end".
   void comment(std::string_view line, const char* at) {
@@ -205,7 +209,8 @@ class Parser {
                              " is left out: it speaks of single nodes or elements");
       return;
     }
-    find_names(card);
+    if (const std::string what = what_does_not_follow(card); !what.empty())
+      out_.notices.push_back(out_.where(keyword.at) + ": *" + keyword.name + " " + what);
     scope_->cards.push_back(std::move(card));
   }
 
@@ -246,7 +251,7 @@ class Parser {
   static bool line_ends(const Cursor& cursor) { return cursor.at == cursor.end || *cursor.at == '\n'; }
 
   void nodes(Cursor& cursor, const Keyword& keyword) {
-    if (keyword.find("INPUT")) out_.fail(keyword.at, "*NODE with INPUT= is not supported");
+    refuse_file(keyword);
     if (const std::string* system = keyword.find("SYSTEM"); system && upper_case(*system) != "R")
       out_.fail(keyword.at, "*NODE in a cylindrical or spherical system is not supported");
     AbaqusScope& to = *scope_;
@@ -278,9 +283,8 @@ class Parser {
   }
 
   void elements(Cursor& cursor, const Keyword& keyword) {
-    for (const char* parameter : {"INPUT", "OFFSET"})
-      if (keyword.find(parameter))
-        out_.fail(keyword.at, "*ELEMENT with " + std::string(parameter) + "= is not supported");
+    refuse_file(keyword);
+    if (keyword.find("OFFSET")) out_.fail(keyword.at, "*ELEMENT with OFFSET= is not supported");
     const std::string type = upper_case(required(keyword, "TYPE"));
     const AbaqusElement element = abaqus_element(type);
     AbaqusScope& to = *scope_;
@@ -397,6 +401,7 @@ class Parser {
   }
 
   void set(Cursor& cursor, const Keyword& keyword) {
+    refuse_file(keyword);
     AbaqusSet set{.kind = keyword.name == "NSET" ? AbaqusSet::nodes : AbaqusSet::elements,
                   .name = required(keyword, keyword.name),
                   .at = keyword.at};
@@ -428,6 +433,7 @@ class Parser {
   }
 
   void surface(Cursor& cursor, const Keyword& keyword) {
+    refuse_file(keyword);
     const std::string* type = keyword.find("TYPE");
     const bool of_nodes = type && same_word(*type, "NODE");
     AbaqusSet set{.kind = of_nodes ? AbaqusSet::node_surface : AbaqusSet::surface,

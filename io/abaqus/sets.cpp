@@ -38,7 +38,7 @@ class Sets {
         for (const AbaqusSet& set : scope.sets) add_set(placed, set);
       });
     finish_sets();
-    types();
+    set_element_types(parts_, out_);
     cards();
     out_.extras.heading = in_.heading;
     say_missing();
@@ -369,43 +369,6 @@ class Sets {
     mesh.others = other_elements(std::move(heads), mesh.others->first, mesh.others->nodes);
   }
 
-  /// Types by blocks, which refinements carry. A type whose hexes are no block gets one.
-  void types() {
-    auto& of_block = out_.extras.element_types;
-    const auto n_types = parts_.types.size();
-    for (const std::string& type : parts_.types)
-      if (type.starts_with("SC8") || type.starts_with("CSS8") || type.starts_with("COH3D8"))
-        out_.notices.push_back("elements of type " + type +
-                               " have a thickness direction; that of hexes that a refinement makes may be another one");
-    if (n_types == 1) {
-      if (parts_.types[0] != "C3D8") of_block[0] = parts_.types[0];
-      return;
-    }
-    std::vector<char> covered(parts_.type_of_hex.size(), 0);
-    for (const Block& block : out_.mesh.blocks) {
-      const auto type = [&](Index h) { return parts_.type_of_hex[h]; };
-      if (block.hexes.empty()) continue;
-      const int first = type(block.hexes[0]);
-      if (!std::ranges::all_of(block.hexes, [&](Index h) { return type(h) == first; })) continue;
-      of_block[block.id] = parts_.types[first];
-      for (const Index h : block.hexes) covered[h] = 1;
-    }
-    std::vector<std::vector<Index>> rest(n_types);
-    for (std::size_t h = 0; h < covered.size(); ++h)
-      if (!covered[h]) rest[parts_.type_of_hex[h]].push_back(static_cast<Index>(h));
-    const auto most = std::ranges::max_element(rest, {}, [](const auto& hexes) { return hexes.size(); });
-    const auto usual = static_cast<std::size_t>(most - rest.begin());
-    if (parts_.types[usual] != "C3D8") of_block[0] = parts_.types[usual];
-    for (std::size_t t = 0; t < n_types; ++t) {
-      if (t == usual || rest[t].empty()) continue;
-      Block block{free_id(out_.mesh.blocks), parts_.types[t], std::move(rest[t])};
-      out_.notices.push_back("elements of type " + block.name + " that are in no set of their own are block " +
-                             std::to_string(block.id) + " '" + block.name + "'");
-      of_block[block.id] = block.name;
-      out_.mesh.blocks.push_back(std::move(block));
-    }
-  }
-
   /// What a word of a card stands for. Nothing where it is none of the mesh's sets: it stays as it is.
   struct Meaning {
     std::optional<std::pair<Reference::Kind, std::int64_t>> reference;
@@ -414,6 +377,7 @@ class Sets {
   Meaning meaning(const AbaqusPlaced& placed, AbaqusNamed::Kind kind, const std::string& word) const {
     const auto [home, name] = split(placed, word);
     if (const auto id = number(name)) {
+      if (kind == AbaqusNamed::node_set || kind == AbaqusNamed::surface) return {};
       const bool nodes = kind == AbaqusNamed::nodes;
       Index at = nodes ? parts_.nodes.find(home->nodes(*id)) : parts_.hexes.find(home->elements(*id));
       if (!nodes && at < 0) at = parts_.others.find(home->elements(*id));
@@ -441,10 +405,11 @@ class Sets {
   void cards() {
     auto& cards = out_.extras.cards;
     std::size_t n_model = 0;
+    AbaqusCardsOfPlaces places;
     for (const AbaqusPlaced& placed : parts_.placed) {
-      each_scope(placed, [&](const AbaqusScope& scope) {
-        for (const AbaqusRawCard& card : scope.cards) add_card(placed, card);
-      });
+      bool is_last_there = false;  // already
+      for (const AbaqusRawCard& card : places.of(in_, placed, out_.notices))
+        is_last_there = !add_card(placed, card, is_last_there || !belongs_to_last(card));
       if (placed.scopes[0]->kind == AbaqusScope::model) n_model = cards.size();
     }
     const auto model_end = cards.begin() + static_cast<std::ptrdiff_t>(n_model);
@@ -462,6 +427,12 @@ class Sets {
       std::vector<std::string> names;
       for (const auto& [of, id] : load_sets_) names.push_back(group_of_id(out_.mesh.side_sets, id).name);
       out_.notices.push_back("loads on faces of elements are on side sets here: " + joined(names, ", "));
+    }
+    if (!rigid_.empty()) {
+      OtherHeads heads = *out_.mesh.others->heads;
+      heads.is_rigid.resize(static_cast<std::size_t>(n_others(out_.mesh)), 0);
+      for (const Index e : rigid_) heads.is_rigid[e] = 1;
+      out_.mesh.others = other_elements(std::move(heads), out_.mesh.others->first, out_.mesh.others->nodes);
     }
     if (in_.n_normals > 0)
       out_.notices.push_back("more than coordinates of " + counted(in_.n_normals, "node") +
@@ -489,7 +460,19 @@ class Sets {
     return known->second;
   }
 
-  void add_card(const AbaqusPlaced& placed, const AbaqusRawCard& raw) {
+  /// What is said of an edge or an end of elements, which their pieces have in part.
+  void keep_whole(const AbaqusRawCard& raw, const Reference& of) {
+    if (raw.keyword != "RELEASE" && raw.keyword != "DLOAD") return;
+    const std::string rest = upper_case(raw.text.substr(of.end, line_around(raw.text, of.end).second - of.end));
+    if (raw.keyword == "DLOAD" && !trimmed(std::string_view(rest).substr(rest.find(',') + 1)).starts_with("ED")) return;
+    if (of.kind == Reference::block)
+      for (const Index e : others_of_block(out_.mesh, static_cast<int>(of.id))) rigid_.push_back(e);
+    else if (const Index e = parts_.others.find(of.id); e >= 0)
+      rigid_.push_back(e);
+  }
+
+  /// can_be_there: for another place; false: it belongs to what was added last. Returns whether it was added.
+  bool add_card(const AbaqusPlaced& placed, const AbaqusRawCard& raw, bool can_be_there) {
     AbaqusCard card{raw.text, {}, in_.where(raw.at)};
     std::vector<std::pair<std::size_t, std::size_t>> lost_lines, same_lines;
     std::string lost;
@@ -517,12 +500,14 @@ class Sets {
         }
         kind = AbaqusNamed::elements;
         word = load.elements;
-        end = named.begin + raw.text.substr(named.begin).find_first_of(", \t");
+        end = named.begin + load.end;
       }
       if (word.size() > 1 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
       const auto [reference, gone] = meaning(placed, kind, word);
-      if (reference)
+      if (reference) {
         card.references.push_back({reference->first, reference->second, named.begin, end, named.by_keyword});
+        if (!named.by_keyword) keep_whole(raw, card.references.back());
+      }
       if (reference && reference->first == Reference::node_set && first_node_load_.empty() &&
           (raw.keyword == "CLOAD" || raw.keyword == "CFLUX"))
         first_node_load_ = card.where + ": *" + raw.keyword;
@@ -531,7 +516,7 @@ class Sets {
       if (named.by_keyword) {
         out_.notices.push_back(card.where + ": *" + raw.keyword + " is left out: it is about " + lost +
                                ", of which nothing is kept");
-        return;
+        return false;
       }
       lost_lines.push_back(line_around(raw.text, named.begin));
     }
@@ -542,13 +527,14 @@ class Sets {
       out_.notices.push_back(card.where + ": lines of *" + raw.keyword + " about " + lost +
                              " are left out: nothing of that is kept");
     // The same for each instance of a part: an orientation, ...
-    const bool there = card.references.empty() && placed.scopes[0]->kind == AbaqusScope::part &&
+    const bool there = can_be_there && card.references.empty() && placed.scopes[0]->kind == AbaqusScope::part &&
                        std::ranges::find(out_.extras.cards, card.text, &AbaqusCard::text) != out_.extras.cards.end();
-    if (there) return;
+    if (there) return false;
     for (const Reference& reference : card.references)
       if (reference.kind == Reference::node || reference.kind == Reference::hex)
         if (n_numbers_++ == 0) first_number_ = card.where;
     out_.extras.cards.push_back(std::move(card));
+    return true;
   }
 
   void say_missing() {
@@ -576,6 +562,7 @@ class Sets {
   std::map<Placed, Members> surfaces_;            // that others are made of
   std::map<std::pair<int, int>, int> load_sets_;  // block and number of a face: side set
   std::string first_node_load_;
+  std::vector<Index> rigid_;  // other elements
   std::uint64_t n_missing_ = 0;
   std::string first_missing_;
   std::int64_t n_numbers_ = 0;

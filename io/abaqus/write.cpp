@@ -184,9 +184,15 @@ FacesOfLoads write_faces_of_loads(Output& out, const Mesh& mesh, const FileExtra
   return result;
 }
 
+/// What is written for what.
+struct IdsInFile {
+  std::span<const std::int64_t> nodes, hexes;
+  const std::vector<std::int64_t>& others;
+};
+
 /// Cards with the labels that their sets have now, without those and the lines that are about nothing any more.
 void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const AllLabels& labels,
-                 const FacesOfLoads& loads, std::vector<std::string>& notices) {
+                 const FacesOfLoads& loads, const IdsInFile& ids, std::vector<std::string>& notices) {
   using Reference = AbaqusCard::Reference;
   for (AbaqusCard card : extras.cards) {
     const std::string keyword = upper_case(card.text.substr(0, card.text.find_first_of(",\r\n")));
@@ -208,9 +214,14 @@ void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const 
           continue;
         }
       }
-      if (at.kind == Reference::node && find_node(mesh, at.id) >= 0) now = std::to_string(at.id);
-      if (at.kind == Reference::hex && (find_hex(mesh, at.id) >= 0 || find_other(mesh, at.id) >= 0))
-        now = std::to_string(at.id);
+      if (at.kind == Reference::node)
+        if (const Index n = find_node(mesh, at.id); n >= 0) now = std::to_string(id_of(ids.nodes, n));
+      if (at.kind == Reference::hex) {
+        if (const Index h = find_hex(mesh, at.id); h >= 0)
+          now = std::to_string(id_of(ids.hexes, h));
+        else if (const Index e = find_other(mesh, at.id); e >= 0)
+          now = std::to_string(ids.others[e]);
+      }
       if (at.kind <= Reference::side_set)
         if (const std::string* label = labels[at.kind].of(at.id)) now = *label;
       if (!now.empty()) {
@@ -305,7 +316,7 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
       out << other_ids[element] << (side.empty() ? "" : ", ") << side << '\n';
   }
   const FacesOfLoads loads = write_faces_of_loads(out, mesh, extras, hex_ids, number, labels);
-  write_cards(out, mesh, extras, labels, loads, notices);
+  write_cards(out, mesh, extras, labels, loads, {node_ids, hex_ids, other_ids}, notices);
   out << "** hextwist end\n";
 }
 

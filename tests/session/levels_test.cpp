@@ -5,6 +5,8 @@
 #include <random>
 
 #include "hextwist/base/same_bits.h"
+#include "hextwist/base/sorted.h"
+#include "hextwist/mesh/interpolation.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/levels/level_origin.h"
 #include "hextwist/sizing/targets.h"
@@ -537,6 +539,44 @@ TEST(SessionLevels, what_cannot_be_is_refused) {
   const std::vector<std::int8_t> finer(mesh_of(f).hexes.size(), 1);
   EXPECT_THROW(f.session.adapt(finer, {.extensive = {"Mass"}}), CommandError);
   EXPECT_NE(error_of(f, "refine hex all numsplit 8").find("memory"), std::string::npos);
+}
+
+/// Pieces of transitions are skew: the hex that holds a place need not be behind the face that looks nearest.
+TEST(SessionLevels, nodal_fields_are_those_of_the_hex_that_holds_the_place) {
+  const unsigned seed = test::random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  Fixture f;
+  f.session.run("create brick x 4 interval 4");
+  Mesh mesh = mesh_of(f);
+  Field field{"any", Field::On::node, 1, {}};
+  for (std::size_t n = 0; n < mesh.points.size(); ++n) field.values.push_back(static_cast<double>(random() % 1000));
+  mesh.fields = {field};
+  f.session.take(mesh, nullptr);
+  std::size_t n_looked_at = 0;
+  for (int step = 0; step < 20; ++step) {
+    const Mesh before = mesh_of(f);
+    std::vector<std::int8_t> changes(before.hexes.size(), 0);
+    for (std::int8_t& change : changes)
+      if (const auto dice = random() % 40; dice < 12) change = dice == 0 && before.n_hexes() < 5000 ? 1 : -1;
+    f.session.adapt(changes);
+    const Mesh& now = mesh_of(f);
+    std::vector<Index> fresh;
+    for (Index n = 0; n < now.n_nodes(); ++n) {
+      const Index old = find_node(before, node_id(now, n));
+      if (old < 0) {
+        fresh.push_back(n);
+      } else if (before.points[old] == now.points[n]) {
+        ASSERT_EQ(before.fields[0].values[old], now.fields[0].values[n]);
+      }
+    }
+    const std::vector<double> expected =
+        values_at(before, before.fields[0], interpolation_at(before, items_at(now.points, fresh)));
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      ASSERT_NEAR(now.fields[0].values[fresh[i]], expected[i], 1e-6) << "step " << step << ", node " << fresh[i];
+    n_looked_at += fresh.size();
+  }
+  EXPECT_GT(n_looked_at, 1000u);
 }
 
 }  // namespace
