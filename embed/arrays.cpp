@@ -5,6 +5,7 @@
 #include <set>
 
 #include "hextwist/base/sorted.h"
+#include "hextwist/io/field_names.h"
 #include "hextwist/io/format.h"
 #include "hextwist/mesh/corners.h"
 
@@ -98,11 +99,11 @@ void read_fields(const hextwist_arrays& in, Mesh& mesh) {
     if (given.n_components < 1) throw Error("field '" + name + "' has no component");
     const std::int64_t n = given.on_hexes ? in.n_hexes : in.n_nodes;
     const auto values = items(given.values, n, given.n_components, "field '" + name + "'");
-    mesh.fields.push_back({name,
-                           given.on_hexes ? Field::On::hex : Field::On::node,
-                           given.n_components,
-                           {values.begin(), values.end()},
-                           given.is_integer != 0});
+    const Field::On on = given.on_hexes ? Field::On::hex : Field::On::node;
+    if (std::ranges::any_of(mesh.fields, [&](const Field& field) { return field.name == name && field.on == on; }))
+      throw Error("two fields of " + std::string(given.on_hexes ? "hexes" : "nodes") + " are called '" + name + "'");
+    mesh.fields.push_back({name, on, given.n_components, {values.begin(), values.end()}, given.is_integer != 0});
+    io::check_whole_numbers(mesh.fields.back());
   }
 }
 

@@ -298,10 +298,10 @@ hextwist_status hextwist_adapt_flags(hextwist_session* session, const uint8_t* f
                                      const hextwist_adapt_options* options, int32_t** origin);
 /** By how many levels each hex becomes finer (> 0) or coarser (< 0); 27 become one again where none of them stays. Hex
  * h of the N of the new mesh lies in, or was made of, the old hexes[first[h]] .. hexes[first[h + 1] - 1]; kind[h] is 0:
- * the same hex, 1: it lies in a larger one that is gone, 2: the cell that it is, or is a piece of, was several hexes.
- * So kind has N items, first N + 1, hexes first[N]. Each of the three may be NULL; they are yours, by
- * hextwist_free_array(), and NULL after a call that fails. Fields of hexes are copied down and averaged by volume
- * upwards, those of nodes interpolated and injected. */
+ * the same hex (whose nodes may have been moved for better shapes), 1: it lies in a larger one that is gone, 2: the
+ * cell that it is, or is a piece of, was several hexes. So kind has N items, first N + 1, hexes first[N]. Each of the
+ * three may be NULL; they are yours, by hextwist_free_array(), and NULL after a call that fails. Fields of hexes are
+ * copied down and averaged by volume upwards, those of nodes interpolated and injected. */
 hextwist_status hextwist_adapt_levels(hextwist_session* session, const int8_t* changes, int64_t n,
                                       const hextwist_adapt_options* options, int8_t** kind, int32_t** first,
                                       int32_t** hexes);

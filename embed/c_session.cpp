@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "hextwist/embed/arrays.h"
 #include "hextwist/embed/c_internal.h"
@@ -155,6 +156,9 @@ hextwist_status hextwist_set_field(hextwist_session* session, const hextwist_fie
   return with_session(session, [&](Session& s) {
     if (!field || !field->name || n < 0 || (n > 0 && !field->values))
       throw Error("a field with a name and values is needed");
+    if (n / std::max(field->n_components, 1) > std::numeric_limits<Index>::max())
+      throw Error("field '" + std::string(field->name) + "': " + std::to_string(n) +
+                  " values are more than a mesh can have");
     s.set_field({field->name,
                  field->on_hexes ? Field::On::hex : Field::On::node,
                  field->n_components,

@@ -46,4 +46,12 @@ void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std:
                       format + " files have no place for here: " + joined(names, ", "));
 }
 
+void check_whole_numbers(const Field& field) {
+  if (!field.integer) return;
+  const auto odd = std::ranges::find_if(field.values, [](double x) { return std::isfinite(x) && x != std::floor(x); });
+  if (odd != field.values.end())
+    throw Error("field '" + one_line(field.name) + "' is of whole numbers, but values[" +
+                std::to_string(odd - field.values.begin()) + "] is " + short_number(*odd));
+}
+
 }  // namespace hextwist::io

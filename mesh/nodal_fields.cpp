@@ -126,10 +126,7 @@ void look_further(const Mesh& mesh, std::span<const Vec3> points, std::span<cons
     const Around around(mesh, sorted_unique(std::move(hexes)));
     parallel_each(
         stuck.size(),
-        [&](std::size_t k) {
-          stuck[k].look_around(mesh, around, points[stuck[k].point], places[stuck[k].point]);
-        },
-        64);
+        [&](std::size_t k) { stuck[k].look_around(mesh, around, points[stuck[k].point], places[stuck[k].point]); }, 64);
     std::erase_if(stuck, [](const Stuck& one) { return one.ring.empty(); });
   }
 }

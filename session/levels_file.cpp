@@ -263,6 +263,28 @@ void check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
   if (!same) in.fail("is of another mesh than the one that is there: ids, places or hexes differ");
 }
 
+/// Blocks and sets of one kind that are not, or otherwise, in another mesh.
+template <class Groups, class Members>
+void add_lost_groups(const Groups& there, const Groups& now, const char* kind, const Members& members,
+                     std::vector<std::string>& lost) {
+  for (const auto& group : there) {
+    const auto same = std::ranges::find(now, group.id, &std::remove_cvref_t<decltype(group)>::id);
+    if (same == now.end() || same->name != group.name || members(*same) != members(group))
+      lost.push_back(std::string(kind) + " " + std::to_string(group.id) +
+                     (group.name.empty() ? "" : " '" + group.name + "'"));
+  }
+}
+std::vector<std::string> lost_groups(const Mesh& there, const Mesh& now) {
+  std::vector<std::string> lost;
+  add_lost_groups(
+      there.blocks, now.blocks, "block", [](const Block& of) { return of.hexes; }, lost);
+  add_lost_groups(
+      there.node_sets, now.node_sets, "nodeset", [](const NodeSet& of) { return of.nodes; }, lost);
+  add_lost_groups(
+      there.side_sets, now.side_sets, "sideset", [](const SideSet& of) { return of.sides; }, lost);
+  return lost;
+}
+
 }  // namespace
 
 void write_levels(const Transaction& run, const std::filesystem::path& file, bool overwrite) {
@@ -360,6 +382,13 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
   if (there.n_hexes() > 0) {
     check_same(in, mesh.mesh, there);
     mesh.mesh.fields = there.fields;
+    if (std::vector<std::string> lost = lost_groups(there, mesh.mesh); !lost.empty()) {
+      constexpr std::size_t most = 5;
+      const std::size_t n_more = lost.size() - std::min(lost.size(), most);
+      lost.resize(lost.size() - n_more);
+      run.note(file.string() + ": blocks and sets are those of the levels; the mesh had others: " + joined(lost, ", ") +
+               (n_more > 0 ? " and " + std::to_string(n_more) + " more" : ""));
+    }
   }
   const bool is_alone = there.n_hexes() == 0;
   in.check_unchanged();

@@ -205,6 +205,11 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     run.note(what + ": " + counted(static_cast<std::int64_t>(run.record().warnings.size()), "warning") +
              ", the first: " + run.record().warnings.front().text);
 
+  if (const Field* level = level_field(mesh);
+      level && std::ranges::any_of(level->values, [](double x) { return x != 0; }))
+    run.note(what +
+             ": the hex field 'level' is how often hexes were cut: levels made from here on count from this mesh");
+
   if (model && !state.glued && state.glue == Glue::automatic && !state.cad_file.empty() && model->count(3) > 1) {
     const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
     if (in_mesh < in_model) {

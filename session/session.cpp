@@ -4,6 +4,7 @@
 
 #include "hextwist/command/error_at.h"
 #include "hextwist/command/syntax.h"
+#include "hextwist/io/field_names.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
 #include "hextwist/session/run.h"
@@ -104,6 +105,7 @@ void Session::set_field(Field field) {
         field.values.size() % static_cast<std::size_t>(field.components) != 0)
       throw Error("field '" + printable(field.name) + "' has " + std::to_string(field.values.size()) +
                   " values: " + std::to_string(field.components) + " for each of " + std::to_string(n) + " are wanted");
+    io::check_whole_numbers(field);
     if (field.on == Field::On::hex && field.name == "level")
       throw Error("the hex field 'level' says how hexes came about: it is not to be set");
     MeshedModel next = *run.meshed;

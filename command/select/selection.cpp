@@ -336,17 +336,30 @@ class Evaluation {
     return -1;
   }
 
+  struct Named {
+    const Field* field = nullptr;
+    int component = -1;  ///< -1: all
+  };
+  /// A field, or the component of one, that nodes, or hexes, have by this name. Hexes have those of nodes too, where no
+  /// field of their own is called so.
+  Named field_called(EntityKind kind, const std::string& name) const {
+    std::vector<Field::On> places = {Field::On::node};
+    if (kind == EntityKind::hex) places = {Field::On::hex, Field::On::node};
+    for (const bool whole : {true, false})
+      for (const Field::On on : places)
+        for (const Field& field : selector_.meshed.mesh.fields) {
+          const int component = whole ? -1 : component_called(field, name);
+          if (field.on == on && (whole ? field.name == name : component >= 0)) return {&field, component};
+        }
+    return {};
+  }
+
   /// Of a hex: its value, or the average of its nodes. Of a node: its value. Of a vector: its length, but where one
   /// component is named.
   std::vector<double> field_values(EntityKind kind, const RangeFilter& filter) const {
     const Mesh& mesh = selector_.meshed.mesh;
-    const auto is_of = [&](const Field& field) { return kind == EntityKind::hex || field.on == Field::On::node; };
-    auto found = std::ranges::find_if(mesh.fields,
-                                      [&](const Field& field) { return is_of(field) && field.name == filter.field; });
-    int component = -1;
-    for (auto field = mesh.fields.begin(); found == mesh.fields.end() && field != mesh.fields.end(); ++field)
-      if (is_of(*field) && (component = component_called(*field, filter.field)) >= 0) found = field;
-    if (found == mesh.fields.end()) {
+    const auto [found, component] = field_called(kind, filter.field);
+    if (!found) {
       std::string known;
       for (const Field& field : mesh.fields)
         if (kind == EntityKind::hex || field.on == Field::On::node) known += (known.empty() ? "" : ", ") + field.name;
@@ -354,12 +367,12 @@ class Evaluation {
                      "there is no field '" + printable(filter.field) + "' of " + std::string(plural(kind)) +
                          (known.empty() ? "" : "; there are " + known));
     }
-    const auto at = [&](Index i) {
+    const auto at = [&, of = found, only = component](Index i) {
       double sum = 0;
-      for (int c = 0; c < found->components; ++c) {
-        const double x = found->values[static_cast<std::size_t>(i) * static_cast<std::size_t>(found->components) +
-                                       static_cast<std::size_t>(c)];
-        if (found->components == 1 || c == component) return x;
+      for (int c = 0; c < of->components; ++c) {
+        const double x = of->values[static_cast<std::size_t>(i) * static_cast<std::size_t>(of->components) +
+                                    static_cast<std::size_t>(c)];
+        if (of->components == 1 || c == only) return x;
         sum += x * x;
       }
       return std::sqrt(sum);

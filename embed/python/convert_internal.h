@@ -70,9 +70,31 @@ inline py::array checked(const py::object& given, const char* name, py::ssize_t 
   return array;
 }
 
+using Int64Array = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// Throws ValueError where an unsigned integer has no place among signed ones.
+inline void check_sign(const py::array& given, const Int64Array& signed_ones, const char* name) {
+  if (given.dtype().kind() != 'u') return;
+  for (py::ssize_t i = 0; i < signed_ones.size(); ++i)
+    if (signed_ones.data()[i] < 0)
+      throw py::value_error(std::string(name) + ": " +
+                            std::to_string(static_cast<std::uint64_t>(signed_ones.data()[i])) + " is too large");
+}
+
+/// Integers beyond 2^53, which doubles do not tell from their neighbours, are refused.
 inline std::vector<double> doubles(const py::object& given, const char* name, py::ssize_t width) {
-  const auto array =
-      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(checked(given, name, width));
+  const py::array of = checked(given, name, width);
+  if (const char kind = of.dtype().kind(); (kind == 'i' || kind == 'u') && of.itemsize() == 8) {
+    constexpr std::int64_t most = std::int64_t{1} << 53;
+    const auto wide = Int64Array::ensure(of);
+    if (!wide) throw py::type_error(std::string(name) + ": an array of numbers is wanted");
+    check_sign(of, wide, name);
+    for (py::ssize_t i = 0; i < wide.size(); ++i)
+      if (wide.data()[i] > most || wide.data()[i] < -most)
+        throw py::value_error(std::string(name) + ": " + std::to_string(wide.data()[i]) +
+                              " can't be kept: values are doubles, which are exact up to 2**53");
+  }
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(of);
   if (!array) throw py::type_error(std::string(name) + ": an array of numbers is wanted");
   return {array.data(), array.data() + array.size()};
 }
@@ -83,8 +105,9 @@ std::vector<T> integers(const py::object& given, const char* name, py::ssize_t w
   const py::array array = checked(given, name, width);
   if (const char kind = array.dtype().kind(); array.size() > 0 && kind != 'i' && kind != 'u' && kind != 'b')
     throw py::type_error(std::string(name) + ": integers are wanted, not " + std::string(py::str(array.dtype())));
-  const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  const auto wide = Int64Array::ensure(array);
   if (!wide) throw py::type_error(std::string(name) + ": an array of integers is wanted");
+  check_sign(array, wide, name);
   std::vector<T> result(static_cast<std::size_t>(wide.size()));
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = static_cast<T>(wide.data()[i]);

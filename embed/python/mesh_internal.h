@@ -162,6 +162,10 @@ class PyArrays {
         names_.back() = value[py::int_(0)].cast<std::string>();
         members = value[py::int_(1)];
       }
+      if (names_.back().find('\0') != std::string::npos)
+        throw py::value_error(std::string(name) + ": the name of " + std::string(py::repr(key)) + " has a zero byte");
+      if (const py::array array = numbers(members, name); array.size() > 0 && array.dtype().kind() == 'b')
+        throw py::type_error(std::string(name) + ": members are indices; those of a mask are numpy.flatnonzero(mask)");
       hextwist_group group{id_of(key, name), names_.back().c_str(), 0, nullptr};
       if (const py::array array = width == 4 ? numbers(members, name) : py::array();
           array && array.ndim() == 2 && array.shape(1) == 2 && array.size() > 0) {

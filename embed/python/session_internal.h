@@ -85,6 +85,7 @@ class PySession {
     throw error;
   }
 
+  /// Throws where the callback raises, so that the command is taken back: who called it does not know what it did.
   void say(const py::object& to, const std::string& line) {
     if (raised_) return;
     const py::gil_scoped_acquire lock;
@@ -93,6 +94,7 @@ class PySession {
       to(text(line));
     } catch (py::error_already_set& error) {
       raised_.emplace(std::move(error));
+      throw Cancelled();
     }
   }
 
@@ -105,7 +107,11 @@ class PySession {
     const py::gil_scoped_acquire lock;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      return progress_.is_none() || !progress_(stage, fraction).is(py::bool_(false));
+      if (progress_.is_none()) return true;
+      const py::object said = progress_(stage, fraction);
+      const int is_true = said.is_none() ? 1 : PyObject_IsTrue(said.ptr());  // numpy has a False of its own
+      if (is_true < 0) throw py::error_already_set();
+      return is_true != 0;
     } catch (py::error_already_set& error) {
       raised_.emplace(std::move(error));
       return false;

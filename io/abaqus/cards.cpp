@@ -12,11 +12,10 @@ struct Parameter {
 };
 /// Of keywords. All other parameters are not about the mesh.
 constexpr Parameter parameters[] = {
-    {"ELSET", Named::elements},   {"HOST ELSET", Named::elements}, {"NSET", Named::nodes},
-    {"TIE NSET", Named::nodes},   {"PIN NSET", Named::nodes},      {"TIED NSET", Named::nodes},
-    {"REF NODE", Named::nodes},   {"ROT NODE", Named::nodes},      {"NODE", Named::nodes},
-    {"SURFACE", Named::surface},  {"MASTER", Named::surface},      {"SLAVE", Named::surface},
-    {"MAIN", Named::surface},     {"SECONDARY", Named::surface},   {"ADJUST", Named::node_set}};
+    {"ELSET", Named::elements}, {"HOST ELSET", Named::elements}, {"NSET", Named::nodes},     {"TIE NSET", Named::nodes},
+    {"PIN NSET", Named::nodes}, {"TIED NSET", Named::nodes},     {"REF NODE", Named::nodes}, {"ROT NODE", Named::nodes},
+    {"NODE", Named::nodes},     {"SURFACE", Named::surface},     {"MASTER", Named::surface}, {"SLAVE", Named::surface},
+    {"MAIN", Named::surface},   {"SECONDARY", Named::surface},   {"ADJUST", Named::node_set}};
 
 /// Keywords whose data lines begin with names, and with how many.
 struct DataNames {
@@ -89,7 +88,8 @@ struct FaceLetter {
   std::string_view keyword;
   char letter;
 };
-constexpr FaceLetter face_letters[] = {{"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}, {"MASS FLOW", 'M'}};
+constexpr FaceLetter face_letters[] = {
+    {"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}, {"MASS FLOW", 'M'}};
 
 bool is_face(std::string_view keyword, const std::string& label) {
   const auto* of = std::ranges::find(face_letters, keyword, &FaceLetter::keyword);

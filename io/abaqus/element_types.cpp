@@ -154,7 +154,7 @@ void set_element_types(const AbaqusParts& parts, MeshFile& out) {
   for (const std::string& type : parts.types)
     if (type.starts_with("SC8") || type.starts_with("CSS8") || type.starts_with("COH3D8"))
       out.notices.push_back("elements of type " + type +
-                             " have a thickness direction; that of hexes that a refinement makes may be another one");
+                            " have a thickness direction; that of hexes that a refinement makes may be another one");
   if (n_types == 1) {
     if (parts.types[0] != "C3D8") of_block[0] = parts.types[0];
     return;
@@ -178,7 +178,7 @@ void set_element_types(const AbaqusParts& parts, MeshFile& out) {
     if (t == usual || rest[t].empty()) continue;
     Block block{free_id(out.mesh.blocks), parts.types[t], std::move(rest[t])};
     out.notices.push_back("elements of type " + block.name + " that are in no set of their own are block " +
-                           std::to_string(block.id) + " '" + block.name + "'");
+                          std::to_string(block.id) + " '" + block.name + "'");
     of_block[block.id] = block.name;
     out.mesh.blocks.push_back(std::move(block));
   }

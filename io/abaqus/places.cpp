@@ -67,8 +67,8 @@ void rename_system(AbaqusRawCard& card, const std::string& name, const std::stri
     const bool is_parameter = equals != std::string_view::npos && at < first_end;
     const std::string_view parameter = is_parameter ? trimmed(word.substr(0, equals)) : std::string_view();
     const std::string_view value = is_parameter ? trimmed(word.substr(equals + 1)) : word;
-    const bool is_system = same_word(parameter, "ORIENTATION") ||
-                           (same_word(parameter, "NAME") && card.keyword == "ORIENTATION");
+    const bool is_system =
+        same_word(parameter, "ORIENTATION") || (same_word(parameter, "NAME") && card.keyword == "ORIENTATION");
     if (same_word(value, name) && (is_parameter ? is_system : in_lines && at > first_end)) {
       const auto where = static_cast<std::size_t>(value.data() - card.text.data());
       card.text.replace(where, value.size(), now);

@@ -82,4 +82,8 @@ MeshSlice read_exodus_slice(const SlicedFile& file, int number, int n);
 /// Name of the element block for hexes that are in no block.
 inline constexpr const char* exodus_rest_block = "hextwist_no_block";
 
+/// Distribution factors of sides of 8 or 9 nodes (`each`) from those of their corners, four a side: means of the
+/// corners at middle nodes.
+std::vector<double> with_middle_factors(std::span<const double> of_corners, int each);
+
 }  // namespace hextwist::io

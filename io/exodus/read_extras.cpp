@@ -1,6 +1,7 @@
 // Exodus II: what a file has beyond mesh, groups and the fields of one step.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hextwist/base/memory.h"
 #include "hextwist/io/exodus/exodus_internal.h"
@@ -241,14 +242,24 @@ class ExtrasReader {
   Values factors(ex_entity_type type, std::int64_t id, int n_members, int n_factors) const {
     const bool of_sides = type == EX_SIDE_SET;
     const std::string who = std::string(of_sides ? "side set " : "node set ") + std::to_string(id);
-    const std::int64_t expected = std::int64_t{n_members} * (of_sides ? 4 : 1);
-    if (n_factors > 0 && n_factors != expected)
+    // Per side one for each of its nodes: the corners first, then middle nodes of edges, then that of the face.
+    std::size_t each = of_sides ? 4 : 1;
+    for (const std::size_t of_second_order : {8, 9})
+      if (of_sides && n_factors == static_cast<std::int64_t>(of_second_order) * n_members) each = of_second_order;
+    if (n_factors > 0 && n_factors != static_cast<std::int64_t>(each) * n_members)
       notices_.push_back("dropped the distribution factors of " + who + ", of which there are " +
                          std::to_string(n_factors) + " for " + std::to_string(n_members) + " members");
     Values result;
-    if (n_factors <= 0 || n_factors != expected) return result;
+    if (n_factors <= 0 || n_factors != static_cast<std::int64_t>(each) * n_members) return result;
     result.resize(static_cast<std::size_t>(n_factors));
     check(ex_get_set_dist_fact(in_.file, type, id, result.data()), "distribution factors of " + who);
+    if (each > 4) {
+      const Values given = std::exchange(result, {});
+      for (std::size_t i = 0; i < given.size(); i += each)
+        for (std::size_t c = 0; c < 4; ++c) result.push_back(given[i + c]);
+      if (with_middle_factors(result, static_cast<int>(each)) != given)
+        notices_.push_back("distribution factors of " + who + " are kept at corners; at middle nodes they are means");
+    }
     // Most programs write factors, all of them 1: one for all takes no room.
     if (std::ranges::adjacent_find(result, std::ranges::not_equal_to{}) == result.end()) result.resize(1);
     return result;

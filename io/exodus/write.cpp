@@ -416,6 +416,7 @@ class ExodusWriter {
         sides.push_back(exodus_side_of(side.face));
       }
       std::vector<double> factors = values_.factors(set);
+      if (second_) factors = with_middle_factors(factors, second_->nodes_per_hex == 20 ? 8 : 9);
       const bool alike = std::ranges::adjacent_find(factors, std::ranges::not_equal_to{}) == factors.end();
       std::int64_t n_lost = 0;
       bool has_others = false;

@@ -18,6 +18,17 @@ std::string exodus_name(const std::string& name) {
   return std::string(trimmed(trimmed(name).substr(0, 255)));  // readers cut blanks around it
 }
 
+std::vector<double> with_middle_factors(std::span<const double> of_corners, int each) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i + 4 <= of_corners.size(); i += 4) {
+    const auto f = of_corners.subspan(i, 4);
+    result.insert(result.end(), f.begin(), f.end());
+    for (std::size_t c = 0; c < 4; ++c) result.push_back((f[c] + f[(c + 1) % 4]) / 2);
+    if (each == 9) result.push_back((f[0] + f[1] + f[2] + f[3]) / 4);
+  }
+  return result;
+}
+
 ExodusValues::ExodusValues(const Mesh& mesh, std::vector<std::string>& notices)
     : mesh_(mesh),
       notices_(notices),

@@ -275,7 +275,11 @@ class GmshAssembly {
         members<std::size_t>(1, [](std::size_t i, std::vector<std::size_t>& group) { group.push_back(i); });
     for (const auto& [id, of_group] : lines_of) {
       std::vector<Index>& nodes = groups[1][id];
-      for (const std::size_t i : of_group) nodes.insert(nodes.end(), {lines.nodes[2 * i], lines.nodes[2 * i + 1]});
+      for (const std::size_t i : of_group) {
+        nodes.insert(nodes.end(), {lines.nodes[2 * i], lines.nodes[2 * i + 1]});
+        if (in_.middles.any() && i < in_.line_middles.size() && in_.line_middles[i] >= 0)
+          nodes.push_back(in_.line_middles[i]);
+      }
       sort_unique(nodes);
     }
     if (!in_.slice) find_line_blocks(lines_of, good);

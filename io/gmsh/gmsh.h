@@ -53,6 +53,7 @@ struct GmshContents {
   std::vector<int> other_types;                        ///< of elements[4]
   std::vector<Index> other_first = {0};                ///< of elements[4]: where the nodes of each begin
   int last_type = 0;                                   ///< that check_gmsh_type() was asked about
+  std::vector<Index> line_middles;                     ///< of elements[1]: middle nodes, -1; may be shorter
   std::vector<Hex> hexes;                              ///< nodes of elements[3], in our corner order
   FoundMiddles middles;                                ///< of these
   std::map<Owner, std::vector<int>> entity_physicals;  ///< 4.1 only

@@ -171,9 +171,8 @@ int check_gmsh_type(GmshContents& contents, const Cursor& cursor, const char* at
     cursor.fail_at(at, "element " + std::to_string(tag) + " has type " + std::to_string(type) +
                            ", which is not a hex, quad, line or point");
   if (contents.slice && type != gmsh_kept[known->dim])
-    contents.slice->refuse("elements other than hexes of 8 nodes, quads, lines and points (element " +
-                               std::to_string(tag) + ")",
-                           false);
+    contents.slice->refuse(
+        "elements other than hexes of 8 nodes, quads, lines and points (element " + std::to_string(tag) + ")", false);
   if (type == gmsh_kept[known->dim] || std::ranges::find(gmsh_second_order, type) != gmsh_second_order.end())
     return known->dim;
   contents.last_type = type;
@@ -211,6 +210,10 @@ void add_gmsh_element(GmshContents& contents, const Cursor& cursor, int dim, std
   } else {
     for (const std::int64_t id : node_ids.first(static_cast<std::size_t>(gmsh_corners[dim])))
       contents.elements[dim].nodes.push_back(node(id));
+    if (dim == 1 && node_ids.size() > 2) {
+      contents.line_middles.resize(contents.elements[dim].tags.size(), -1);
+      contents.line_middles.back() = node(node_ids[2]);
+    }
   }
 }
 

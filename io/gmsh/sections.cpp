@@ -68,8 +68,7 @@ void add_element(GmshContents& contents, GmshSource& source, int dim, int type, 
   for (std::int64_t& id : nodes) id = source.integer("a node");
   physical = positive(physical);
   entity = std::max(entity, 0);
-  if (contents.slice)
-    return add_sliced_gmsh_element(contents, source.cursor, {dim, entity}, physical, tag, nodes, at);
+  if (contents.slice) return add_sliced_gmsh_element(contents, source.cursor, {dim, entity}, physical, tag, nodes, at);
   GmshElements& elements = contents.elements[dim];
   begin_run(elements, at);
   elements.physical.push_back(physical);

@@ -133,6 +133,9 @@ class NastranReader {
     const auto tell = [&](std::int64_t n, const char* kind, const std::string& first, const char* why) {
       if (n > 0) listing_.note(counted(n, kind) + " " + why + " (the first: " + first + ")");
     };
+    tell(n_tied_, "RBE2", first_tied_, "with nodes named one by one: those that a refinement adds are not among them");
+    tell(n_turned_, "material angle", first_turned_,
+         "counted from the first edge, which is another one in pieces of a transition");
     tell(n_pressures_, "PLOAD4", first_pressure_,
          "with another pressure than 1 all over: the sides are kept, not the pressure");
     tell(n_solids_, "PSOLID", first_solid_, "with another material than 1, or more: the properties are kept alone");
@@ -186,6 +189,12 @@ class NastranReader {
                           !card[4].empty() && card[5].empty() && card[6].empty();
       if (turned) nodes.push_back(integer(card, 4, "a node"));
     }
+    if (of.name == "RBE2" && nodes.size() > 2 && n_tied_++ == 0) first_tied_ = card[0];
+    const std::size_t angle = of.first + of.n_nodes[0];
+    if ((of.name == "CQUAD4" || of.name == "CQUADR" || of.name == "CTRIA3" || of.name == "CTRIAR") &&
+        card[angle].find_first_not_of("0.+- ") != std::string::npos && card[angle].find('.') != std::string::npos &&
+        n_turned_++ == 0)
+      first_turned_ = std::string(of.name) + " " + card[0];
     const OtherType type{of.shape, static_cast<int>(n), std::string(of.name)};
     listing_.add_other(type, element, part, nodes, joined(card.fields, ","), is_rigid_card(card), card.at);
   }
@@ -281,7 +290,8 @@ class NastranReader {
   std::map<std::pair<std::string, int>, std::string> names_;
   std::set<int> parts_of_hexes_;
   std::map<std::int64_t, int> block_of_other_;  // of elements without a property, by our comments
-  std::int64_t n_other_ = 0, n_pressures_ = 0, n_solids_ = 0;
+  std::int64_t n_other_ = 0, n_pressures_ = 0, n_solids_ = 0, n_tied_ = 0, n_turned_ = 0;
+  std::string first_tied_, first_turned_;
   std::string first_pressure_, first_solid_;
   NastranCard defaults_{"GRDSET", {}, nullptr};
   struct {

@@ -114,7 +114,7 @@ void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::in
     const OtherType& type = others.type_of(e);
     const std::string name = own ? type.name : usual_card(type);
     const NastranOther* card = nastran_other(name);
-    if (!card || (card->shape == OtherShape::connector && !same_nodes)) {
+    if (!card) {
       ++n_lost[type.name];
       continue;
     }
@@ -132,6 +132,16 @@ void write_nastran_others(Output& out, const Mesh& mesh, std::span<const std::in
     const auto n = static_cast<std::size_t>(type.n_nodes);
     for (std::size_t i = 0; i < n && card->shape != OtherShape::connector; ++i)
       set(card->first + nastran_place(*card, n, i), std::to_string(id_of(node_ids, nodes[i])));
+    if (card->shape == OtherShape::connector && !same_nodes) {
+      const NastranCard as_it_was{name, fields, nullptr};
+      std::vector<std::size_t> of_nodes = nastran_node_fields(as_it_was);
+      const bool has_direction = as_it_was[4].empty() || as_it_was[4].find('.') != std::string::npos;
+      if ((name == "CBUSH" || name == "CGAP") && !has_direction) of_nodes.push_back(4);  // a node to turn to
+      for (const std::size_t field : of_nodes) {
+        const auto id = std::strtoll(fields[field].c_str(), nullptr, 10);
+        if (const Index node = find_node(mesh, id); node >= 0) set(field, std::to_string(id_of(node_ids, node)));
+      }
+    }
     const bool bar = name == "CBAR" || name == "CBEAM";
     if (bar && nodes.size() > n) set(4, std::to_string(id_of(node_ids, nodes[n])));
     if (bar && !own && nodes.size() == n) set(4, "0."), set(5, "0."), set(6, "1.");

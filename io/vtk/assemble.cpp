@@ -546,6 +546,13 @@ class VtkAssembly {
         }
     });
     say_rounded(array.name, n_rounded, out_.notices);
+    Index n_left_out = 0;  // what has become a side has no values
+    for (std::size_t e = 0; e < is_side_.size(); ++e)
+      n_left_out += is_side_[e] && std::ranges::find(vtk_group_arrays, array.name) == std::end(vtk_group_arrays) &&
+                    !std::isnan(field.values[e * width]);
+    if (n_left_out > 0)
+      out_.notices.push_back("field '" + array.name + "': " + counted(n_left_out, "value") +
+                             " left out, of quads that " + "are sides of hexes");
     if (std::ranges::any_of(field.values, [](double x) { return !std::isnan(x); }))
       heads_.fields.push_back(std::move(field));
   }

@@ -1,6 +1,7 @@
 #include "hextwist/refine/levels/transfer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/mesh/nodal_fields.h"
@@ -18,10 +19,11 @@ std::vector<Index> hexes_before(const LevelOrigin& origin) {
 
 /// Volumes that hex fields are averaged and shared out with; 0 where nobody asks.
 struct Volumes {
-  std::vector<double> before;  ///< per item of origin.several
-  std::vector<double> of_row;  ///< per row: sum of the hexes now that share it
-  std::vector<double> of_hex;  ///< per hex before: sum of those now that are finer
-  std::vector<double> now;     ///< per hex now that is not the same
+  std::vector<double> before;     ///< per item of origin.several
+  std::vector<double> of_row;     ///< per row: sum of the hexes now that share it
+  std::vector<double> of_hex;     ///< per hex before: sum of those now that are finer
+  std::vector<double> now;        ///< per hex now that is not the same
+  std::vector<double> before_it;  ///< per hex now: of those that share with it and come first
 };
 
 Volumes volumes(const LevelChange& change, bool extensive) {
@@ -31,12 +33,15 @@ Volumes volumes(const LevelChange& change, bool extensive) {
   if (!extensive) return result;
   const auto n = static_cast<Index>(origin.kind.size());
   result.now.assign(origin.kind.size(), 0);
+  result.before_it.assign(origin.kind.size(), 0);
   result.of_row.assign(static_cast<std::size_t>(origin.several.size()), 0);
   result.of_hex.assign(change.before.hexes.size(), 0);
   for (Index h = 0; h < n; ++h) {
     if (origin.kind[h] == HexOrigin::same) continue;
     result.now[h] = volume(change.now, h);
-    (origin.kind[h] == HexOrigin::finer ? result.of_hex : result.of_row)[origin.at[h]] += result.now[h];
+    double& sum = (origin.kind[h] == HexOrigin::finer ? result.of_hex : result.of_row)[origin.at[h]];
+    result.before_it[h] = sum;
+    sum += result.now[h];
   }
   return result;
 }
@@ -59,7 +64,10 @@ std::vector<double> hex_values(const LevelChange& change, const Volumes& volume,
       double sum = 0, total = 0;
       for (std::size_t i = 0; i < hexes.size(); ++i) {
         const double weight = extensive ? 1 : volume.before[origin.several.first[row] + i];
-        sum += weight * (extensive ? value(hexes[i], c) : value(hexes[i], c) - value(hexes[0], c));
+        if (extensive)
+          sum += value(hexes[i], c);
+        else if (value(hexes[i], c) != value(hexes[0], c))
+          sum += weight * (value(hexes[i], c) - value(hexes[0], c));
         total += weight;
       }
       rows[row * width + c] = extensive ? sum : value(hexes[0], c) + (total > 0 ? sum / total : 0);
@@ -70,11 +78,19 @@ std::vector<double> hex_values(const LevelChange& change, const Volumes& volume,
   parallel_each(origin.kind.size(), [&](std::size_t h) {
     const Index at = origin.at[h];
     const bool from_row = origin.kind[h] == HexOrigin::coarser;
-    double share = 1;
-    if (extensive && origin.kind[h] != HexOrigin::same)
-      share = volume.now[h] / (from_row ? volume.of_row : volume.of_hex)[at];
-    for (std::size_t c = 0; c < width; ++c)
-      values[h * width + c] = share * (from_row ? rows[at * width + c] : value(at, c));
+    const bool is_shared = extensive && origin.kind[h] != HexOrigin::same;
+    const double all = is_shared ? (from_row ? volume.of_row : volume.of_hex)[at] : 1;
+    for (std::size_t c = 0; c < width; ++c) {
+      const double whole = from_row ? rows[at * width + c] : value(at, c);
+      double& to = values[h * width + c];
+      if (!is_shared)
+        to = whole;
+      else if (!field.integer)
+        to = volume.now[h] / all * whole;
+      else  // what is counted stays whole, and all that share have all of it
+        to = std::round((volume.before_it[h] + volume.now[h]) / all * whole) -
+             std::round(volume.before_it[h] / all * whole);
+    }
   });
   return values;
 }

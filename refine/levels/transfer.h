@@ -21,7 +21,8 @@ struct LevelChange {
 ///     (mesh/nodal_fields.h), so what is linear stays so;
 ///  2. hexes: those of the same hex and of the hex that it lies in are copied; where there were several, the average by
 ///     volume, exact when all are equal; of whole numbers that of the largest;
-///  3. hex fields named in `extensive` keep their sum instead: they are shared out by volume downwards and summed up.
+///  3. hex fields named in `extensive` keep their sum instead: they are shared out by volume downwards (whole numbers
+///     as whole numbers) and summed up.
 std::vector<Field> transferred_fields(const LevelChange& change, std::span<const std::string> extensive);
 
 }  // namespace hextwist

@@ -290,6 +290,12 @@ static void arrays_go_round(void) {
   CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "-1"));
   bad = a, bad.n_nodes = (int64_t)1 << 40;
   CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "2147483647"));
+  const double* const parts = a.points; /* of no whole numbers */
+  const hextwist_field alike[2] = {{"f", 0, 1, parts, 0}, {"f", 0, 3, parts, 0}}, fraction = {"f", 0, 3, parts, 1};
+  bad = a, bad.fields = alike, bad.n_fields = 2;
+  CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "two fields of nodes are called 'f'"));
+  bad = a, bad.fields = &fraction, bad.n_fields = 1;
+  CHECK(hextwist_take(session, &bad) == HEXTWIST_FAILED && strstr(hextwist_error(), "of whole numbers"));
   bad = a;
   int64_t* ids = malloc((size_t)a.n_nodes * sizeof *ids);
   memcpy(ids, a.node_ids, (size_t)a.n_nodes * sizeof *ids);
@@ -420,6 +426,10 @@ static void fields_are_set_and_taken_along(void) {
   CHECK(hextwist_set_field(NULL, NULL, n) == HEXTWIST_FAILED && strstr(hextwist_error(), "null"));
   const hextwist_field level = {"level", 1, 1, values, 0};
   CHECK(hextwist_set_field(session, &level, n_hexes) == HEXTWIST_FAILED && strstr(hextwist_error(), "level"));
+  const double half = 0.5;
+  const hextwist_field whole = {"whole", 0, 1, &half, 1};
+  CHECK(hextwist_set_field(session, &whole, INT64_MAX) == HEXTWIST_FAILED &&
+        strstr(hextwist_error(), "more than a mesh can have"));
 
   uint8_t* flags = calloc((size_t)n_hexes, 1);
   flags[17] = flags[100] = 1;

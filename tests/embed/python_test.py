@@ -197,6 +197,11 @@ class Arrays(unittest.TestCase):
             (ValueError, "blocks: ids are integers", dict(blocks={1.5: [0]})),
             (ValueError, "node_sets: ids are integers", dict(node_sets={2**40: [0]})),
             (hextwist.Error, r"hex_volumes\[0\]: there is no volume -7", dict(hex_volumes=[-7])),
+            (TypeError, "blocks: members are indices", dict(blocks={1: [True]})),
+            (TypeError, "node_sets: members are indices", dict(node_sets={1: points[:, 0] > 0.5})),
+            (ValueError, "blocks: the name of 1 has a zero byte", dict(blocks={1: ("a\0b", [0])})),
+            (ValueError, "node_ids: 18446744073709551615 is too large", dict(node_ids=np.full(8, 2**64 - 1, np.uint64))),
+            (ValueError, r"id: 9007199254740993 can't be kept", dict(node_fields={"id": np.full(8, 2**53 + 1)})),
             (hextwist.Error, "not a side", dict(side_sets={1: [[0, 1, 2, 7]]})),
             (hextwist.Error, "hex 1 is flat", dict(points=points * 0)),
         ):
@@ -347,9 +352,14 @@ class Callbacks(unittest.TestCase):
         go_on[0] = False
         with self.assertRaises(hextwist.Cancelled):
             session.cmd("refine curve 5")
-        go_on[0] = True
-        self.assertEqual(session.mesh.points.__array_interface__, before.__array_interface__)
-        session.cmd("refine curve 5")
+        for no in (np.False_, np.bool_(False), 0):
+            go_on[0] = no
+            with self.assertRaises(hextwist.Cancelled):
+                session.cmd("refine curve 5")
+        for yes in (True, None, np.True_):
+            go_on[0] = yes
+            session.cmd("undo" if yes is None else "refine curve 5")
+            self.assertEqual(yes is None, np.array_equal(session.mesh.points, before))
 
     def test_exceptions_come_out_of_the_command(self):
         def progress(stage, x):
@@ -366,6 +376,25 @@ class Callbacks(unittest.TestCase):
         session = hextwist.Session(output=output)
         with self.assertRaises(ZeroDivisionError):
             session.cmd("create brick x 1 y 1 z 1 interval 2 2 2")
+        self.assertEqual(session.mesh.n_hexes, 0)
+
+    def test_exceptions_take_the_command_back(self):
+        armed = []
+
+        def listen(line):
+            if armed:
+                raise BrokenPipeError(line)
+
+        session = hextwist.Session(output=listen, notice=listen)
+        session.cmd("create brick x 3 interval 3; refine hex 1")
+        for command in ("refine hex 27; refine surface 2", "undo", "move volume 1 x 2", "smooth hex all"):
+            points, hexes = session.mesh.points, session.mesh.hexes
+            armed.append(1)
+            with self.assertRaises(BrokenPipeError):
+                session.cmd(command)
+            armed.clear()
+            self.assertTrue(np.array_equal(session.mesh.points, points), command)
+            self.assertTrue(np.array_equal(session.mesh.hexes, hexes), command)
 
     def test_that_hold_their_session_go_with_it(self):
         class Listener:

@@ -32,18 +32,33 @@ TEST(AbaqusCards, names_of_sets_follow_in_all_cards_that_have_them) {
   const std::array<const char*, 3> names = {"\"fix left\"", "\"top face\"", "\"all of it\""},
                                    now = {"fix_left", "top_face", "all_of_it"};
   // N, S, E: a node set, a surface, elements.
-  for (const std::string card :
-       {"*KINEMATIC COUPLING, REF NODE=3\nN, 1, 3", "*DISTRIBUTING COUPLING, ELSET=E\nN, 1.",
-        "*EMBEDDED ELEMENT, HOST ELSET=E\nE, E", "*CONTACT PAIR, INTERACTION=I, ADJUST=N\nS, S",
-        "*CLEARANCE, MASTER=S, SLAVE=S, VALUE=0.1", "*CONTACT PROPERTY ASSIGNMENT\nS, S, I\n, , I",
-        "*SURFACE PROPERTY ASSIGNMENT, PROPERTY=THICKNESS\nS, 0.5", "*CONTACT INITIALIZATION ASSIGNMENT\nS, S, I",
-        "*INITIAL CONDITIONS, TYPE=CONTACT\nS, S", "*INITIAL CONDITIONS, TYPE=STRESS\nE, 1., 2.",
-        "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN, 20.", "*SHELL TO SOLID COUPLING, CONSTRAINT NAME=C\nS, S",
-        "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nS, S", "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nE", "*SUBMODEL\nN, N",
-        "*SUBMODEL, TYPE=SURFACE\nS", "*CONTACT CONTROLS, MASTER=S, SLAVE=S", "*CONTACT PRINT, MASTER=S, SLAVE=S",
-        "*CONTACT OUTPUT, NSET=N", "*CONTACT INTERFERENCE\nS, S, 0.1", "*RETAINED NODAL DOFS\nN, 1, 3",
-        "*DESIGN VARIABLES, TYPE=COORDINATE\nN", "*MASS FLOW\nE, M1, 0.1", "*MASS ADJUST\nE, 3.",
-        "*MONITOR, DOF=1, NODE=N", "*TIE, NAME=T, TIED NSET=N\nS, S", "*RELEASE\nE, S1, M1"}) {
+  for (const std::string card : {"*KINEMATIC COUPLING, REF NODE=3\nN, 1, 3",
+                                 "*DISTRIBUTING COUPLING, ELSET=E\nN, 1.",
+                                 "*EMBEDDED ELEMENT, HOST ELSET=E\nE, E",
+                                 "*CONTACT PAIR, INTERACTION=I, ADJUST=N\nS, S",
+                                 "*CLEARANCE, MASTER=S, SLAVE=S, VALUE=0.1",
+                                 "*CONTACT PROPERTY ASSIGNMENT\nS, S, I\n, , I",
+                                 "*SURFACE PROPERTY ASSIGNMENT, PROPERTY=THICKNESS\nS, 0.5",
+                                 "*CONTACT INITIALIZATION ASSIGNMENT\nS, S, I",
+                                 "*INITIAL CONDITIONS, TYPE=CONTACT\nS, S",
+                                 "*INITIAL CONDITIONS, TYPE=STRESS\nE, 1., 2.",
+                                 "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN, 20.",
+                                 "*SHELL TO SOLID COUPLING, CONSTRAINT NAME=C\nS, S",
+                                 "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nS, S",
+                                 "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nE",
+                                 "*SUBMODEL\nN, N",
+                                 "*SUBMODEL, TYPE=SURFACE\nS",
+                                 "*CONTACT CONTROLS, MASTER=S, SLAVE=S",
+                                 "*CONTACT PRINT, MASTER=S, SLAVE=S",
+                                 "*CONTACT OUTPUT, NSET=N",
+                                 "*CONTACT INTERFERENCE\nS, S, 0.1",
+                                 "*RETAINED NODAL DOFS\nN, 1, 3",
+                                 "*DESIGN VARIABLES, TYPE=COORDINATE\nN",
+                                 "*MASS FLOW\nE, M1, 0.1",
+                                 "*MASS ADJUST\nE, 3.",
+                                 "*MONITOR, DOF=1, NODE=N",
+                                 "*TIE, NAME=T, TIED NSET=N\nS, S",
+                                 "*RELEASE\nE, S1, M1"}) {
     const auto with = [&](const std::array<const char*, 3>& called) {
       std::string text;
       for (std::size_t i = 0; i < card.size(); ++i) {
@@ -69,9 +84,8 @@ TEST(AbaqusCards, names_of_sets_follow_in_all_cards_that_have_them) {
     const std::string rest = written(read, less, &notices);
     for (const char* name : names) EXPECT_EQ(rest.find(name), std::string::npos) << rest;
     for (const char* name : now) EXPECT_EQ(rest.find(name), std::string::npos) << rest;
-    EXPECT_TRUE(std::ranges::any_of(notices, [](const std::string& said) {
-      return said.find("left out: what") != std::string::npos;
-    }));
+    EXPECT_TRUE(std::ranges::any_of(
+        notices, [](const std::string& said) { return said.find("left out: what") != std::string::npos; }));
   }
 }
 
@@ -101,10 +115,11 @@ std::string cards_of(const MeshFile& file) {
 }
 
 TEST(AbaqusCards, of_a_part_are_of_each_instance) {
-  const MeshFile read = read_text(in_instances(
-      "*SOLID SECTION, ELSET=\"all of it\", MATERIAL=M\n,\n*HOURGLASS STIFFNESS\n5.\n*KINEMATIC COUPLING, REF NODE=3\n4, 1, "
-      "3\n*COUPLING, CONSTRAINT NAME=C, REF NODE=3, SURFACE=\"top face\"\n*KINEMATIC\n1, 3\n",
-      "0., 0., 5.\n"));
+  const MeshFile read =
+      read_text(in_instances("*SOLID SECTION, ELSET=\"all of it\", MATERIAL=M\n,\n*HOURGLASS STIFFNESS\n5.\n*KINEMATIC "
+                             "COUPLING, REF NODE=3\n4, 1, "
+                             "3\n*COUPLING, CONSTRAINT NAME=C, REF NODE=3, SURFACE=\"top face\"\n*KINEMATIC\n1, 3\n",
+                             "0., 0., 5.\n"));
   EXPECT_EQ(written(read, read.mesh).substr(written(read, read.mesh).find("*SOLID")),
             "*SOLID SECTION, ELSET=I1_all_of_it, MATERIAL=M\n,\n*HOURGLASS STIFFNESS\n5.\n"
             "*KINEMATIC COUPLING, REF NODE=3\n4, 1, 3\n"
@@ -128,9 +143,9 @@ TEST(AbaqusCards, systems_of_a_part_stand_where_the_instance_does) {
             "*ORIENTATION, NAME=I2_AXIS, SYSTEM=CYLINDRICAL\n0, 0, 5, 0, 0, 6\n"
             "*SOLID SECTION, ELSET=\"all of it\", ORIENTATION=ori-1, MATERIAL=M\n,\n"
             "*TRANSFORM, NSET=\"fix left\", TYPE=R\n1., 0., 0., 0., 1., 0.\n");
-  const MeshFile turned = read_text(in_instances(
-      cards + "*BEAM SECTION, ELSET=\"all of it\", MATERIAL=M\n1., 1.\n0., 0., -1.\n",
-      "2., 0., 0.\n2., 0., 0., 2., 0., 1., 90.\n"));
+  const MeshFile turned =
+      read_text(in_instances(cards + "*BEAM SECTION, ELSET=\"all of it\", MATERIAL=M\n1., 1.\n0., 0., -1.\n",
+                             "2., 0., 0.\n2., 0., 0., 2., 0., 1., 90.\n"));
   const std::string text = cards_of(turned);
   for (const char* card :
        {"*ORIENTATION, NAME=I2_ORI-1\n0, 1, 0, -1, 0, 0\n3, 20.\n",
@@ -159,9 +174,10 @@ TEST(AbaqusCards, two_parts_may_call_a_system_alike) {
 }
 
 TEST(AbaqusCards, what_is_said_of_edges_and_ends_keeps_elements_whole) {
-  const std::string shells = std::string(bar) +
-                             "*ELEMENT, TYPE=S4, ELSET=SHX\n11, 1,2,5,4\n12, 2,3,6,5\n*ELEMENT, TYPE=B31, ELSET=BM\n21, 1,2\n"
-                             "22, 2,3\n";
+  const std::string shells =
+      std::string(bar) +
+      "*ELEMENT, TYPE=S4, ELSET=SHX\n11, 1,2,5,4\n12, 2,3,6,5\n*ELEMENT, TYPE=B31, ELSET=BM\n21, 1,2\n"
+      "22, 2,3\n";
   const auto rigid = [&](const std::string& cards) {
     const auto others = read_text(shells + cards).mesh.others;
     std::vector<int> result;
@@ -179,9 +195,10 @@ TEST(AbaqusCards, what_is_said_of_edges_and_ends_keeps_elements_whole) {
 
 TEST(AbaqusCards, what_does_not_follow_is_said) {
   for (const auto& [card, said] :
-       {std::pair("*SOLID SECTION, ELSET=\"all of it\", COMPOSITE, STACK DIRECTION=3\n0.1, 3, M\n",
-                  "*SOLID SECTION has layers along a direction of the elements; that of hexes that a refinement makes may "
-                  "be another one"),
+       {std::pair(
+            "*SOLID SECTION, ELSET=\"all of it\", COMPOSITE, STACK DIRECTION=3\n0.1, 3, M\n",
+            "*SOLID SECTION has layers along a direction of the elements; that of hexes that a refinement makes may "
+            "be another one"),
         {"*ORIENTATION, NAME=O, DEFINITION=OFFSET TO NODES\n1, 2, 4\n",
          "*ORIENTATION counts from nodes of the elements; those of hexes that a refinement makes may be others"},
         {"*INITIAL CONDITIONS, TYPE=STRESS, INPUT=s.dat\n",

@@ -256,10 +256,11 @@ TEST(Kept, why_a_file_is_not_read_in_slices_is_said) {
   second.order = 2;
   write_mesh(folder / "second.e", grid, nullptr, second);
   EXPECT_EQ(refusal("second.e"), "hexes of 20 nodes (element block 1)") << "which are not split either";
-  test::write_text(folder / "old.msh",
-                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"
-                   "7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 2 1 1 2 3 4 5 6 7 8\n"
-                   "$EndElements\n");
+  test::write_text(
+      folder / "old.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"
+      "7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 2 1 1 2 3 4 5 6 7 8\n"
+      "$EndElements\n");
   EXPECT_EQ(refusal("old.msh"), "a volume in several physical groups (element 2)" + hint);
   write_mesh(folder / "grid.bdf", grid, nullptr);
   EXPECT_EQ(refusal("grid.bdf"), "another format than Exodus, .vtu and .msh" + hint);

@@ -159,5 +159,21 @@ TEST(Fields, of_a_patch_find_their_time_steps_too) {
   for (Index h = 0; h < now.n_hexes(); ++h) ASSERT_EQ(now.fields[0].values[h], now.file_hexes[h]);
 }
 
+/// ParaView's filters and error estimators leave such pairs.
+TEST(Fields, of_hexes_come_first_where_nodes_have_one_of_that_name) {
+  test::Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  Mesh mesh = f.session.meshed().mesh;
+  Field of_nodes{"error", Field::On::node, 1, {}}, of_hexes{"error", Field::On::hex, 1, {}};
+  for (const Vec3& p : mesh.points) of_nodes.values.push_back(-p.x());
+  for (Index h = 0; h < mesh.n_hexes(); ++h) of_hexes.values.push_back(h);
+  Field vector{"v", Field::On::node, 3, std::vector<double>(3 * mesh.points.size(), 1)};
+  mesh.fields = {of_nodes, of_hexes, vector};
+  f.session.take(mesh, nullptr);
+  EXPECT_EQ(f.session.ids("hex", "in field \"error\" top 10 %"), (std::vector<std::int64_t>{25, 26, 27}));
+  EXPECT_EQ(f.session.ids("node", "in field \"error\" above 0").size(), 32u);
+  EXPECT_EQ(f.session.ids("hex", "in field \"v_x\" above 0").size(), 27u);
+}
+
 }  // namespace
 }  // namespace hextwist

@@ -1,7 +1,9 @@
 // Levels in a session: any number of refinements in any order keep the quality of one, and can be taken back.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <numeric>
 #include <random>
 
 #include "hextwist/base/same_bits.h"
@@ -577,6 +579,54 @@ TEST(SessionLevels, nodal_fields_are_those_of_the_hex_that_holds_the_place) {
     n_looked_at += fresh.size();
   }
   EXPECT_GT(n_looked_at, 1000u);
+}
+
+TEST(SessionLevels, whole_numbers_that_are_shared_out_stay_whole) {
+  std::mt19937 random(test::random_seed());
+  Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  Mesh mesh = mesh_of(f);
+  Field number{"particles", Field::On::hex, 1, {}, true};
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h) number.values.push_back(static_cast<double>(random() % 200));
+  const double sum = std::accumulate(number.values.begin(), number.values.end(), 0.0);
+  mesh.fields = {number};
+  f.session.take(mesh, nullptr);
+  for (int step = 0; step < 8; ++step) {
+    std::vector<std::int8_t> changes(mesh_of(f).hexes.size());
+    for (std::int8_t& change : changes) change = random() % 30 == 0 ? 1 : random() % 3 ? -1 : 0;
+    f.session.adapt(changes, {.extensive = {"particles"}});
+    const Field& now = mesh_of(f).fields[0];
+    EXPECT_TRUE(now.integer);
+    for (const double value : now.values) ASSERT_TRUE(value >= 0 && value == std::floor(value)) << value;
+    EXPECT_EQ(std::accumulate(now.values.begin(), now.values.end(), 0.0), sum);
+  }
+}
+
+TEST(SessionLevels, groups_that_are_not_in_the_file_of_levels_are_named) {
+  const std::string file = (test::folder() / "groups.levels").string();
+  Fixture f;
+  f.session.run("create brick x 3 interval 3; nodeset 1 surface 1; refine hex 3; export levels \"" + file + "\"");
+  f.session.run("import levels \"" + file + "\"");
+  EXPECT_TRUE(f.notices.empty());
+  f.session.run("nodeset 9 surface 2 name \"clamp\"; nodeset 1 surface 3; sideset 8 surface 4; import levels \"" +
+                file + "\"");
+  ASSERT_FALSE(f.notices.empty());
+  EXPECT_EQ(
+      f.notices.back(),
+      file + ": blocks and sets are those of the levels; the mesh had others: nodeset 1, nodeset 9 'clamp', sideset 8");
+}
+
+TEST(SessionLevels, a_field_called_level_is_said_to_be_ours) {
+  Fixture f;
+  f.session.run("create brick x 3 interval 3");
+  Mesh mesh = mesh_of(f);
+  mesh.fields = {{"level", Field::On::hex, 1, std::vector<double>(mesh.hexes.size(), 0)}};
+  f.session.take(mesh, nullptr);
+  EXPECT_TRUE(f.notices.empty());
+  mesh.fields[0].values[4] = 70;
+  f.session.take(mesh, nullptr);
+  ASSERT_EQ(f.notices.size(), 1u);
+  EXPECT_NE(f.notices[0].find("the hex field 'level' is how often hexes were cut"), std::string::npos);
 }
 
 }  // namespace
