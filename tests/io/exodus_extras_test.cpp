@@ -1,4 +1,6 @@
 // What Exodus files say beyond mesh and fields: times, factors, attributes, ids, records.
+#include <exodusII.h>
+
 #include <numeric>
 
 #include "hextwist/io/results.h"
@@ -52,6 +54,33 @@ TEST(ExodusExtras, everything_comes_back) {
   const auto again = file.parent_path() / "again.e";
   EXPECT_TRUE(write_mesh(again, read.mesh, nullptr).empty());
   EXPECT_EQ(test::text_of(again), test::text_of(file));
+}
+
+TEST(ExodusExtras, factors_of_second_order_are_as_many_as_nodes_of_sides) {
+  const Mesh mesh = with_extras();
+  for (const int nodes_per_hex : {20, 27}) {
+    SCOPED_TRACE(nodes_per_hex);
+    const auto file = test::output_folder() / "second.e", again = test::output_folder() / "first.e";
+    WriteOptions options;
+    options.order = 2;
+    options.nodes_per_hex = nodes_per_hex;
+    options.overwrite = true;
+    write_mesh(file, mesh, nullptr, options);
+    float version = 0;
+    int memory = 8, disk = 0, n = 0, n_factors = 0;
+    const int id = ex_open(file.c_str(), EX_READ, &memory, &disk, &version);
+    ASSERT_GE(ex_get_set_param(id, EX_SIDE_SET, 4, &n, &n_factors), 0);
+    std::vector<int> counts(static_cast<std::size_t>(n));
+    ASSERT_GE(ex_get_side_set_node_count(id, 4, counts.data()), 0);  // what the library says of each side
+    EXPECT_EQ(n_factors, std::accumulate(counts.begin(), counts.end(), 0));
+    ASSERT_GE(ex_get_set_param(id, EX_NODE_SET, 3, &n, &n_factors), 0);
+    EXPECT_EQ(n_factors, n);
+    ex_close(id);
+    const MeshFile read = read_mesh(file);
+    for (const std::string& said : read.notices) EXPECT_EQ(said.find("factors"), std::string::npos) << said;
+    ASSERT_EQ(read.mesh.results->side_sets.size(), 1u);
+    EXPECT_EQ(read.mesh.results->side_sets[0].factors, mesh.results->side_sets[0].factors);
+  }
 }
 
 TEST(ExodusExtras, what_other_formats_have_no_place_for_is_said) {

@@ -134,5 +134,38 @@ TEST(listed_files, begin_with_a_byte_order_mark_as_without) {
   EXPECT_DOUBLE_EQ(volume(read_mesh(test::write_text(folder / "d.bdf", text)).mesh), 1);
 }
 
+TEST(nastran_files, connectors_go_with_their_nodes_where_these_count_anew) {
+  const std::string connectors =
+      "GRID,500,,0.5,0.5,2.\nGRID,501,,0.5,3.,2.\nRBE2,60,500,123,2,6\nCBUSH,61,3,8,500,501\nCBUSH,62,3,8,500,1.,0.,0."
+      "\n"
+      "CELAS2,63,100.,7,1,500,1\n";
+  const auto file =
+      test::write_text(test::output_folder() / "a.bdf", nastran_cube() + connectors + nastran_hex + ended);
+  MeshFile read = read_mesh(file);
+  EXPECT_EQ(read.notices, (Lines{"1 RBE2 with nodes named one by one: those that a refinement adds are not among them "
+                                 "(the first: 60)"}));
+  read.mesh.node_ids = {1, 2, 3, 4, 5, 6, 7, 8, 500, 1'000'000'000};
+  const auto out = test::output_folder() / "b.bdf";
+  EXPECT_EQ(write_mesh(out, read.mesh, nullptr, {.extras = &read.extras}).at(0),
+            "node id 1000000000 has more than eight digits: nodes are counted from 1 in the file");
+  const std::string text = test::text_of(out);
+  for (const char* card : {"RBE2          60       9     123       2       6\n",
+                           "CBUSH         61       3       8       9     501\n",  // that node is not there any more
+                           "CBUSH         62       3       8       9      1.      0.      0.\n",
+                           "CELAS2        63    100.       7       1       9       1\n"})
+    EXPECT_NE(text.find(card), std::string::npos) << card << text;
+}
+
+TEST(nastran_files, angles_of_materials_that_count_from_an_edge_are_told) {
+  for (const auto& [angle, is_told] :
+       {std::pair("", false), {"0.", false}, {"7", false}, {"45.", true}, {"-30.0", true}})
+    EXPECT_EQ(
+        notices_of(nastran_cube() + nastran_hex + "CQUAD4,2,2,1,2,3,4," + angle + "\n" + ended),
+        is_told ? Lines{"1 material angle counted from the first edge, which is another one in pieces of a transition "
+                        "(the first: CQUAD4 2)"}
+                : Lines())
+        << angle;
+}
+
 }  // namespace
 }  // namespace hextwist
