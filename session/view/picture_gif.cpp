@@ -120,7 +120,12 @@ void set_times(GifFileType* file) {
 std::string gif(std::string_view file, const std::vector<Colour>& pixels, int width, int height) {
   int code = 0;
   std::string result;
-  GifFileType* out = EGifOpen(&result, write_some, &code);
+  // Closing a file that is written does not free its pictures.
+  const auto close = [](GifFileType* f) {
+    GifFreeSavedImages(f);
+    EGifCloseFile(f, nullptr);
+  };
+  std::unique_ptr<GifFileType, decltype(close)> out(EGifOpen(&result, write_some, &code), close);
   if (!out) fail(code);
   out->SWidth = width;
   out->SHeight = height;
@@ -137,11 +142,16 @@ std::string gif(std::string_view file, const std::vector<Colour>& pixels, int wi
                   std::to_string(in->SHeight) + " pixels, not " + std::to_string(width) + " by " +
                   std::to_string(height));
     for (int i = 0; i < in->ImageCount; ++i)
-      if (!GifMakeSavedImage(out, &in->SavedImages[i])) fail(E_GIF_ERR_NOT_ENOUGH_MEM);
+      if (!GifMakeSavedImage(out.get(), &in->SavedImages[i])) fail(E_GIF_ERR_NOT_ENOUGH_MEM);
   }
-  add_picture(out, pixels, width, height);
-  set_times(out);
-  if (EGifSpew(out) != GIF_OK) fail(out->Error);  // it closes the file too
+  add_picture(out.get(), pixels, width, height);
+  set_times(out.get());
+  GifFileType pictures{};
+  pictures.SavedImages = out->SavedImages;
+  pictures.ImageCount = out->ImageCount;
+  if (EGifSpew(out.get()) != GIF_OK) fail(out->Error);
+  [[maybe_unused]] const GifFileType* closed = out.release();  // by writing it
+  GifFreeSavedImages(&pictures);
   return result;
 }
 
