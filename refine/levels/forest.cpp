@@ -255,8 +255,15 @@ LevelStep change(const Forest& from, const Mesh& current, LevelMarks wished, con
       same_hex, grown->pieces.first[1], current.n_hexes(), grown->next_hex_id,
       [&](Index i) { return hex_id(base.mesh, static_cast<Index>(grown->pieces.cell[i])); },
       [&](Index place) { return hex_id(current, place); });
-  step.mesh = nodes.order.empty() && hexes.order.empty() ? std::move(built.mesh)
-                                                         : reordered(built.mesh, nodes.order, hexes.order);
+  if (nodes.order.empty() && hexes.order.empty()) {
+    step.mesh = std::move(built.mesh);
+  } else {
+    Forest& after = step.forest;
+    if (!after.base_corners) after.base_corners = std::make_shared<const CompressedRows>(node_corners(base.mesh));
+    if (!after.inner_surfaces)
+      after.inner_surfaces = std::make_shared<const std::vector<int>>(inner_surfaces(base, *after.base_corners));
+    step.mesh = reordered(built.mesh, nodes.order, hexes.order, after.inner_surfaces.get());
+  }
   // As carry() has it: where the base has no ids, nodes have none until one is missing.
   const bool by_index = base.mesh.node_ids.empty() && nodes.ids.back() == static_cast<std::int64_t>(nodes.ids.size());
   step.mesh.mesh.node_ids = by_index ? std::vector<std::int64_t>{} : std::move(nodes.ids);

@@ -35,9 +35,10 @@ struct GrownForest {
 struct Forest {
   std::shared_ptr<const MeshedModel> base;
   LevelMarks wished;  ///< closed: with a cell its parent is wished too. Forced cells are not among them
-  std::shared_ptr<const GrownForest> grown;            ///< null where its mesh came about otherwise: see grown()
-  std::shared_ptr<const CompressedRows> base_corners;  ///< node_corners() of the base; made when first needed
-  std::shared_ptr<const Mirror> mirror;                ///< marks go from one side of its pairs to the other; null: none
+  std::shared_ptr<const GrownForest> grown;                ///< null where its mesh came about otherwise: see grown()
+  std::shared_ptr<const CompressedRows> base_corners;      ///< node_corners() of the base; made when first needed
+  std::shared_ptr<const std::vector<int>> inner_surfaces;  ///< inner_surfaces() of the base; made when first needed
+  std::shared_ptr<const Mirror> mirror;  ///< marks go from one side of its pairs to the other; null: none
 
   bool is_bare() const { return wished.empty(); }
 };

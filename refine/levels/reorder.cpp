@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/sorted.h"
 #include "hextwist/mesh/corners.h"
 #include "hextwist/mesh/others.h"
 
@@ -53,7 +54,8 @@ void sort_both(std::vector<Item>& items, std::vector<int>& values) {
   }
 }
 
-Association reordered(const Association& old, const Mesh& mesh, const Order& nodes, const Order& hexes) {
+Association reordered(const Association& old, const Mesh& mesh, const Order& nodes, const Order& hexes,
+                      const std::vector<int>* inner) {
   Association result;
   result.node_owner = nodes.values(old.node_owner);
   result.node_parameters = nodes.values(old.node_parameters);
@@ -69,16 +71,41 @@ Association reordered(const Association& old, const Mesh& mesh, const Order& nod
   result.face_surface = old.face_surface;
   for (Side& side : result.surface_faces) side.hex = hexes(side.hex);
   // A face inside the mesh, between two volumes or on a surface within one, is a side of the lower hex.
+  std::vector<std::size_t> of_two;
   std::vector<Quad> quads;
-  for (const Side side : result.surface_faces) quads.push_back(face_nodes(mesh.hexes[side.hex], side.face));
-  result.surface_faces = find_sides(mesh, quads);
+  for (std::size_t i = 0; i < result.surface_faces.size(); ++i) {
+    if (inner && !std::ranges::binary_search(*inner, result.face_surface[i])) continue;
+    const Side side = result.surface_faces[i];
+    of_two.push_back(i);
+    quads.push_back(face_nodes(mesh.hexes[side.hex], side.face));
+  }
+  const std::vector<Side> sides = find_sides(mesh, quads);
+  for (std::size_t i = 0; i < sides.size(); ++i) result.surface_faces[of_two[i]] = sides[i];
   sort_both(result.surface_faces, result.face_surface);
   return result;
 }
 
 }  // namespace
 
-MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_order, std::span<const Index> hex_order) {
+std::vector<int> inner_surfaces(const MeshedModel& meshed, const CompressedRows& corners) {
+  const Association& of = meshed.association;
+  std::vector<int> result;
+  for (std::size_t i = 0; i < of.surface_faces.size(); ++i) {
+    if (!result.empty() && result.back() == of.face_surface[i]) continue;
+    const Side side = of.surface_faces[i];
+    const Quad quad = face_nodes(meshed.mesh.hexes[side.hex], side.face);
+    const auto has_all = [&](Index corner) {
+      const Hex& hex = meshed.mesh.hexes[corner >> 3];
+      return corner >> 3 != side.hex &&
+             std::ranges::all_of(quad, [&](Index n) { return std::ranges::find(hex, n) != hex.end(); });
+    };
+    if (std::ranges::any_of(corners[quad[0]], has_all)) result.push_back(of.face_surface[i]);
+  }
+  return sorted_unique(std::move(result));
+}
+
+MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_order, std::span<const Index> hex_order,
+                      const std::vector<int>* inner) {
   const Mesh& old = meshed.mesh;
   const Order nodes(node_order), hexes(hex_order);
   MeshedModel result{{}, meshed.model, {}};
@@ -107,7 +134,7 @@ MeshedModel reordered(const MeshedModel& meshed, std::span<const Index> node_ord
   mesh.others = node_order.empty() ? old.others : renumbered(old.others, nodes.to);
   mesh.results = old.results;
   mesh.file_hexes = hexes.values(old.file_hexes);
-  if (!meshed.association.empty()) result.association = reordered(meshed.association, mesh, nodes, hexes);
+  if (!meshed.association.empty()) result.association = reordered(meshed.association, mesh, nodes, hexes, inner);
   return result;
 }
 
