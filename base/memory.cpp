@@ -136,8 +136,8 @@ std::size_t peak_memory() {
 void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many) {
   const double needed = bytes_of(n_hexes, n_nodes), free = static_cast<double>(available);
   if (needed <= free) return;
-  throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, which take " +
-              gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
+  throw TooLarge("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, which take " +
+                 gigabytes(needed) + " of memory; " + gigabytes(free) + " are free");
 }
 
 WithoutHexLimit::WithoutHexLimit() {
@@ -149,8 +149,8 @@ WithoutHexLimit::~WithoutHexLimit() {
 
 void check_hexes(double n_hexes, const char* how_many) {
   if (const double limit = hex_limit; limit > 0 && n_hexes > limit && n_without_limit == 0)
-    throw Error("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) + " hexes, more than the " +
-                text_of(limit) + " that are allowed");
+    throw TooLarge("the refined mesh would have " + std::string(how_many) + text_of(n_hexes) +
+                   " hexes, more than the " + text_of(limit) + " that are allowed");
 }
 
 void check_memory(double n_hexes, double n_nodes, const char* how_many) {

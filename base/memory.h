@@ -3,7 +3,14 @@
 
 #include <cstddef>
 
+#include "hextwist/base/types.h"
+
 namespace hextwist {
+
+/// A mesh that would be larger than memory or a limit allows.
+struct TooLarge : Error {
+  using Error::Error;
+};
 
 /// Built with a sanitizer: these have memory of their own, more than any limit, and keep what was freed.
 inline constexpr bool is_sanitized =
@@ -37,7 +44,7 @@ void return_freed_memory();
 void limit_memory(std::size_t bytes);
 /// The most hexes that a mesh may have from now on, in all of the process; 0: as many as fit.
 void limit_hexes(double n_hexes);
-/// Throws Error where that is fewer. how_many: "" or "at least ".
+/// Throws TooLarge where that is fewer. how_many: "" or "at least ".
 void check_hexes(double n_hexes, const char* how_many = "");
 /// While it lives, limit_hexes() is nothing to this thread, which makes a mesh that there is already.
 class WithoutHexLimit {
@@ -47,8 +54,8 @@ class WithoutHexLimit {
   WithoutHexLimit(const WithoutHexLimit&) = delete;
 };
 
-/// Throws Error, with both amounts, when a mesh of this size takes more than `available` bytes while a pass makes it.
-/// how_many: "" or "at least ".
+/// Throws TooLarge, with both amounts, when a mesh of this size takes more than `available` bytes while a pass makes
+/// it. how_many: "" or "at least ".
 void check_memory(double n_hexes, double n_nodes, std::size_t available, const char* how_many = "");
 
 /// check_memory() against available_memory(), of which small meshes are not checked, and limit_hexes().

@@ -90,6 +90,7 @@ class Taking {
   void operator()(std::vector<T>& items) {
     resize_for_overwrite(items, count(sizeof(T)));
     if (items.size() * sizeof(T) > from_.left()) from_.fail_truncated("what was handed over");
+    if (items.empty()) return;
     std::memcpy(static_cast<void*>(items.data()), from_.at, items.size() * sizeof(T));
     from_.at += items.size() * sizeof(T);
   }

@@ -46,6 +46,13 @@ void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std:
                       format + " files have no place for here: " + joined(names, ", "));
 }
 
+void say_whole_numbers(const Mesh& mesh, const char* format, std::vector<std::string>& notices) {
+  std::string names;
+  for (const Field& field : mesh.fields)
+    if (field.integer) names += (names.empty() ? "'" : ", '") + one_line(field.name) + "'";
+  if (!names.empty()) notices.push_back("whole numbers are real ones in " + std::string(format) + ": " + names);
+}
+
 void check_whole_numbers(const Field& field) {
   if (!field.integer) return;
   const auto odd = std::ranges::find_if(field.values, [](double x) { return std::isfinite(x) && x != std::floor(x); });

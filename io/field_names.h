@@ -26,6 +26,9 @@ std::string distinct_field_name(const std::string& name, const std::string& fitt
 /// Tells which fields have values on other elements that are written without them. format: "MED".
 void say_values_of_others(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
 
+/// Tells which fields of whole numbers a file does not know as such.
+void say_whole_numbers(const Mesh& mesh, const char* format, std::vector<std::string>& notices);
+
 /// Throws Error naming the first value of a field of whole numbers that is none.
 void check_whole_numbers(const Field& field);
 

@@ -202,14 +202,23 @@ void Listing::assemble_groups(bool parts_count_always) {
   for (const Group& from : groups_) {
     std::vector<Index> members, hexes;
     std::vector<Side> sides;
+    std::int64_t n_inwards = 0;
     for (const auto& corners : from.quads) {
       if (!std::ranges::all_of(corners, [&](std::int64_t id) { return nodes_.find(id) >= 0; })) continue;
-      if (next_side->hex >= 0)
+      if (next_side->hex >= 0) {
+        const Quad& cycle = cycles[static_cast<std::size_t>(next_side - sides_of_cycles.begin())];
+        const Quad outwards = face_node_cycle(mesh.hexes[next_side->hex], next_side->face);
+        const auto at = std::ranges::find(outwards, cycle[0]) - outwards.begin();
+        n_inwards += from.has_normals && outwards[(at + 1) % 4] != cycle[1];
         sides.push_back(*next_side);
-      else
+      } else {
         ++n_lost;
+      }
       ++next_side;
     }
+    if (n_inwards > 0)
+      note(counted(n_inwards, "side") + " of set " + std::to_string(from.id) + (n_inwards == 1 ? " turns" : " turn") +
+           " into the hex: here it is the other way, outwards");
     add_within(members, from.node_ranges, mesh.node_ids, mesh.n_nodes());
     add_within(hexes, from.element_ranges, mesh.hex_ids, mesh.n_hexes());
     if (!from.hexes_only)

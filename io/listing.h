@@ -49,8 +49,9 @@ class Listing {
     std::vector<std::array<std::int64_t, 4>> quads = {};                              ///< sides by their corners
     /// All between a first and a last id that are there.
     std::vector<std::pair<std::int64_t, std::int64_t>> node_ranges = {}, element_ranges = {};
-    bool hexes_only = false;  ///< elements are no quads
-    bool is_own = false;      ///< id and name are its own, even where others call unnamed groups so ("block_5")
+    bool hexes_only = false;   ///< elements are no quads
+    bool has_normals = false;  ///< of quads: what is said of them is of one side of theirs
+    bool is_own = false;       ///< id and name are its own, even where others call unnamed groups so ("block_5")
     bool empty_block = false, empty_node_set = false, empty_side_set = false;  ///< is one, even if without members
   };
   Group& add_group(int id, const std::string& name) { return groups_.emplace_back(Group{id, name}); }

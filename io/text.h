@@ -51,6 +51,13 @@ class Cursor {
     skip_blanks();
     return at < end;
   }
+  /// Whether a line follows, be it empty, before a blank rest of the file.
+  bool more_lines() {
+    const char* const here = at;
+    if (!more()) return false;
+    at = here;
+    return true;
+  }
   std::size_t left() const { return static_cast<std::size_t>(end - at); }
 
   /// Next run of non-blanks, empty at the end.
@@ -91,6 +98,7 @@ class Cursor {
   template <class T>
   void raw_all(std::span<T> to, std::string_view what) {
     if (to.size_bytes() > left()) fail_truncated(what);
+    if (to.empty()) return;
     std::memcpy(to.data(), at, to.size_bytes());
     at += to.size_bytes();
     if (swapped)

@@ -301,7 +301,7 @@ void take_measured(Transaction& run, const Report& report) {
   run.state.tags = nullptr;
   if (report.poor.count > 0) {
     const PoorHexes& poor = report.poor;
-    std::string line = counted(poor.count, EntityKind::hex) + (poor.count == 1 ? " has" : " have") +
+    std::string line = counted(poor.count, "new hex", "new hexes") + (poor.count == 1 ? " has" : " have") +
                        " a scaled Jacobian below " + short_number(poor.limit) + ", the smallest " +
                        short_number(poor.smallest) + " (hex";
     for (const Index h : poor.worst) line += " " + std::to_string(hex_id(run.meshed->mesh, h));

@@ -56,6 +56,7 @@ std::optional<State::Passed> State::pass(const Cut& cut) {
   check_others(from.mesh, *cut.table, cut.codes);
   begin("split");
   Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), cut.table, cut.codes);
+  if (is_second_try && std::ssize(parts.lineage.parent) > give_up_above) return std::nullopt;
   begin("carry");
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
@@ -248,6 +249,30 @@ std::vector<Index> State::of_boxes(std::span<const Index> hexes) const {
   return result;
 }
 
+bool State::lift(std::span<const Index> low) {
+  Finish finish = request.finish;
+  finish.fixed = fixed_now();
+  std::vector<Index> nodes = with_moved_neighbours(new_nodes());
+  if (const auto& periodic = request.finish.periodic)
+    nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
+  BoundsOfAll of_all;
+  if (bounds_of_all)
+    of_all = [&](int freedom, std::span<const Index> hexes, double wanted) {
+      return bounds_of_all(freedom, mesh(), hexes, result_.origin, wanted);
+    };
+  const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(low), of_all);
+  result_.smoothed = union_of(result_.smoothed, moved);
+  return !moved.empty();
+}
+
+void State::smooth_result() {
+  // First what is done without being asked, so that smoothing, which lowers no smallest shape, ends no lower.
+  begin("improve");
+  const std::vector<Index> low = hexes_below(mesh(), lift_below, n_kept(mesh()));
+  if (!std::holds_alternative<Layers>(request.how) && !low.empty()) lift(low);
+  smooth_band();
+}
+
 void State::close() {
   begin("improve");
   const Index first_new = n_kept(mesh());
@@ -268,22 +293,8 @@ void State::close() {
   }
   // Layers are as thin as they were asked for.
   const bool only_new_hexes = result_.old_node.empty();  // else nodes of others may lie elsewhere, too
-  if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty())) {
-    Finish finish = request.finish;
-    finish.fixed = fixed_now();
-    std::vector<Index> nodes = with_moved_neighbours(new_nodes());
-    if (const auto& periodic = request.finish.periodic)
-      nodes = difference(nodes, periodic_nodes(mesh(), result_.refined.association, periodic->pairs));
-    BoundsOfAll of_all;
-    if (bounds_of_all)
-      of_all = [&](int freedom, std::span<const Index> hexes, double wanted) {
-        return bounds_of_all(freedom, mesh(), hexes, result_.origin, wanted);
-      };
-    const std::vector<Index> moved =
-        lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(may_be_lifted), of_all);
-    result_.smoothed = union_of(result_.smoothed, moved);
-    if (!moved.empty()) look();
-  }
+  if (!std::holds_alternative<Layers>(request.how) && !(only_new_hexes && may_be_lifted.empty()))
+    if (lift(may_be_lifted)) look();
   if (request.finish.periodic) repeat_periodic();
   report.poor = poor_hexes(input.mesh, report.scaled_jacobian_before, mesh(), low);
   report.off_nodes_allowed = request.finish.allow_off_cad;
@@ -348,7 +359,7 @@ void make_passes(State& state, Approach approach) {
 
 RefineResult finish_passes(State& state) {
   if (!state.request.finish.dry_run) {
-    if (state.request.finish.smooth) state.smooth_band();
+    if (state.request.finish.smooth) state.smooth_result();
     state.close();
     state.measure_sizes();
     state.tell_of_moved_nodes();

@@ -63,6 +63,8 @@ class State {
 
   /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
   bool is_second_try = false;
+  /// Nor is more than so many hexes then (in all parts of the mesh).
+  std::int64_t give_up_above = std::numeric_limits<std::int64_t>::max();
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result. False: a second try
   /// that was given up, without a result.
@@ -78,6 +80,8 @@ class State {
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
+  /// The same of the result, lifted first as it would be without smoothing.
+  void smooth_result();
   /// After close(): nodes may have moved since hexes were cut to size, and old ones may have given way.
   void measure_sizes();
   void tell_of_moved_nodes();
@@ -102,6 +106,8 @@ class State {
   void smooth_between_passes();
   /// Are children of a pass inverted (in this part's own hexes, where it is one among others)?
   bool comes_out_inverted(const Mesh& mesh, const Split& parts) const;
+  /// Moves new nodes for better corners of these new hexes (lift_new.h). Did any move?
+  bool lift(std::span<const Index> low);
   /// Makes the input the result.
   void keep();
   /// Hexes of the input that a mesh made of it still has.

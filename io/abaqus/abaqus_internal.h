@@ -64,13 +64,16 @@ struct AbaqusNamed {
   std::size_t begin, end;  ///< in the card's text
   bool by_keyword;
 };
-/// "A, P2": the elements and the label of their face; its number, 1 to 6.
+/// "A, P2NU": the elements, and the label of their face: P, 2 and NU.
 struct AbaqusFaceLoad {
-  std::string elements, label;
-  int face = 0;
+  std::string elements, before, behind;
+  int face = 0;         ///< 1 to 6
   std::size_t end = 0;  ///< of the elements, with their quotes
+  std::string label(int of_face) const { return before + std::to_string(of_face) + behind; }
 };
 AbaqusFaceLoad abaqus_face_load(const std::string& text);
+/// Whether data lines of a card may name faces of elements so.
+bool has_faces(std::string_view keyword);
 
 /// A card that is no mesh, with its data lines.
 struct AbaqusRawCard {

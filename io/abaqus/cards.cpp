@@ -12,10 +12,12 @@ struct Parameter {
 };
 /// Of keywords. All other parameters are not about the mesh.
 constexpr Parameter parameters[] = {
-    {"ELSET", Named::elements}, {"HOST ELSET", Named::elements}, {"NSET", Named::nodes},     {"TIE NSET", Named::nodes},
-    {"PIN NSET", Named::nodes}, {"TIED NSET", Named::nodes},     {"REF NODE", Named::nodes}, {"ROT NODE", Named::nodes},
-    {"NODE", Named::nodes},     {"SURFACE", Named::surface},     {"MASTER", Named::surface}, {"SLAVE", Named::surface},
-    {"MAIN", Named::surface},   {"SECONDARY", Named::surface},   {"ADJUST", Named::node_set}};
+    {"ELSET", Named::elements}, {"HOST ELSET", Named::elements}, {"NSET", Named::nodes},
+    {"TIE NSET", Named::nodes}, {"PIN NSET", Named::nodes},      {"TIED NSET", Named::nodes},
+    {"NODE SET", Named::nodes}, {"REF NODE", Named::nodes},      {"ROT NODE", Named::nodes},
+    {"NODE", Named::nodes},     {"SURFACE", Named::surface},     {"MASTER", Named::surface},
+    {"SLAVE", Named::surface},  {"MAIN", Named::surface},        {"SECONDARY", Named::surface},
+    {"ADJUST", Named::node_set}};
 
 /// Keywords whose data lines begin with names, and with how many.
 struct DataNames {
@@ -43,6 +45,14 @@ constexpr DataNames data_names[] = {{"BOUNDARY", Named::nodes},
                                     {"RETAINED NODAL DOFS", Named::nodes},
                                     {"DESIGN VARIABLES", Named::nodes},
                                     {"CLEARANCE", Named::nodes},
+                                    {"CFILM", Named::nodes},
+                                    {"CRADIATE", Named::nodes},
+                                    {"CECHARGE", Named::nodes},
+                                    {"CECURRENT", Named::nodes},
+                                    {"DESIGNVARIABLES", Named::nodes},
+                                    {"ADAPTIVE MESH CONSTRAINT", Named::nodes},
+                                    {"NODAL ENERGY RATE", Named::nodes},
+                                    {"PRESSURE PENETRATION", Named::nodes},
                                     {"SUBMODEL", Named::surface, all, "SURFACE"},
                                     {"SUBMODEL", Named::nodes, all},
                                     {"DLOAD", Named::elements},
@@ -51,15 +61,29 @@ constexpr DataNames data_names[] = {{"BOUNDARY", Named::nodes},
                                     {"RADIATE", Named::elements},
                                     {"RELEASE", Named::elements},
                                     {"MASS FLOW", Named::elements},
+                                    {"MASSFLOW", Named::elements},
                                     {"MASS ADJUST", Named::elements},
+                                    {"FOUNDATION", Named::elements},
+                                    {"BOUNDARYF", Named::elements},
+                                    {"FLOW", Named::elements},
+                                    {"DFLOW", Named::elements},
+                                    {"DECHARGE", Named::elements},
+                                    {"DECURRENT", Named::elements},
+                                    {"IMPEDANCE", Named::elements},
                                     {"CONNECTOR LOAD", Named::elements},
                                     {"CONNECTOR MOTION", Named::elements},
                                     {"EMBEDDED ELEMENT", Named::elements, all},
                                     {"MODEL CHANGE", Named::surface, 2, "CONTACT PAIR"},
-                                    {"MODEL CHANGE", Named::elements, all, "ELEMENT"},
+                                    {"MODEL CHANGE", Named::elements, all},
                                     {"DSLOAD", Named::surface},
                                     {"DSFLUX", Named::surface},
                                     {"SFILM", Named::surface},
+                                    {"SFLOW", Named::surface},
+                                    {"DSFLOW", Named::surface},
+                                    {"DSECHARGE", Named::surface},
+                                    {"DSECURRENT", Named::surface},
+                                    {"SIMPEDANCE", Named::surface},
+                                    {"INCIDENT WAVE", Named::surface},
                                     {"SRADIATE", Named::surface},
                                     {"SURFACE PROPERTY ASSIGNMENT", Named::surface},
                                     {"TIE", Named::surface, 2},
@@ -83,18 +107,25 @@ const DataNames* names_of(const AbaqusRawCard& card) {
   return found == std::end(data_names) ? nullptr : found;
 }
 
-/// Cards whose data lines go on with a face of the elements: a letter and its number.
-struct FaceLetter {
-  std::string_view keyword;
-  char letter;
+/// Cards whose data lines go on with a face of the elements: letters, its number, and other letters.
+struct FaceLabel {
+  std::string_view keyword, letters;
 };
-constexpr FaceLetter face_letters[] = {
-    {"DLOAD", 'P'}, {"DFLUX", 'S'}, {"FILM", 'F'}, {"RADIATE", 'R'}, {"MASS FLOW", 'M'}};
+constexpr FaceLabel face_labels[] = {{"DLOAD", "P"},      {"DLOAD", "HP"},    {"DLOAD", "TRVEC"}, {"DLOAD", "TRSHR"},
+                                     {"DLOAD", "VP"},     {"DLOAD", "SP"},    {"DFLUX", "S"},     {"FILM", "F"},
+                                     {"RADIATE", "R"},    {"MASS FLOW", "M"}, {"MASSFLOW", "M"},  {"FOUNDATION", "F"},
+                                     {"BOUNDARYF", "F"},  {"FLOW", "Q"},      {"DFLOW", "S"},     {"DECHARGE", "ES"},
+                                     {"DECURRENT", "CS"}, {"IMPEDANCE", "I"}};
 
-bool is_face(std::string_view keyword, const std::string& label) {
-  const auto* of = std::ranges::find(face_letters, keyword, &FaceLetter::keyword);
-  return of != std::end(face_letters) && label.size() >= 2 && label[0] == of->letter && label[1] >= '1' &&
-         label[1] <= '6' && (label.size() == 2 || std::isalpha(static_cast<unsigned char>(label[2])));
+/// How many letters a label of a face begins with, 0: it is none.
+std::size_t letters_of_face(std::string_view keyword, const std::string& label) {
+  for (const FaceLabel& of : face_labels) {
+    const std::size_t n = of.letters.size();
+    if (of.keyword == keyword && label.size() > n && label.starts_with(of.letters) && label[n] >= '1' &&
+        label[n] <= '6' && (label.size() == n + 1 || std::isalpha(static_cast<unsigned char>(label[n + 1]))))
+      return n;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -111,13 +142,18 @@ std::string parameter_of(std::string_view text, std::string_view parameter) {
   return {};
 }
 
+bool has_faces(std::string_view keyword) {
+  return std::ranges::find(face_labels, keyword, &FaceLabel::keyword) != std::end(face_labels);
+}
+
 AbaqusFaceLoad abaqus_face_load(const std::string& text) {
   const std::size_t comma = text.rfind(',');
-  AbaqusFaceLoad load{std::string(trimmed(text.substr(0, comma))), std::string(trimmed(text.substr(comma + 1))), 0};
-  load.face = load.label[1] - '0';
-  load.end = trimmed(text.substr(0, comma)).size();
-  if (load.elements.size() > 1 && load.elements.front() == '"' && load.elements.back() == '"')
-    load.elements = load.elements.substr(1, load.elements.size() - 2);
+  const std::string_view before = trimmed(std::string_view(text).substr(0, comma)),
+                         label = trimmed(std::string_view(text).substr(comma + 1));
+  const std::size_t digit = label.find_first_of("123456");
+  AbaqusFaceLoad load{std::string(before), std::string(label.substr(0, digit)), std::string(label.substr(digit + 1)),
+                      label[digit] - '0', before.size()};
+  std::erase(load.elements, '"');
   return load;
 }
 
@@ -168,7 +204,8 @@ void find_names(AbaqusRawCard& card) {
       } else if (data && column < data->n) {
         add(data->kind, word, end, false);
       } else if (column == 1 && !card.named.empty() && card.named.back().begin >= line &&
-                 is_face(card.keyword, upper_case(trimmed(std::string_view(text).substr(word, end - word))))) {
+                 letters_of_face(card.keyword, upper_case(trimmed(std::string_view(text).substr(word, end - word)))) >
+                     0) {
         card.named.back().kind = Named::faces;
         card.named.back().end = end;
       }

@@ -103,8 +103,9 @@ class Parser {
     return result;
   }
   static std::string unquoted(std::string_view text) {
-    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    return std::string(text);
+    std::string result(text);  // I."my set"
+    std::erase(result, '"');
+    return result;
   }
   const std::string& required(const Keyword& keyword, const std::string& parameter) const {
     const std::string* value = keyword.find(parameter);
@@ -196,7 +197,7 @@ class Parser {
       if (!card.text.ends_with('\n')) card.text += '\n';
     };
     add();
-    while (cursor.more()) {
+    while (cursor.more_lines()) {  // an empty line is a data line
       from = cursor.at;
       if (*from == '*' && (cursor.left() < 2 || from[1] != '*')) break;
       if (const std::string_view line = cursor.line(); line.starts_with("**"))
@@ -359,9 +360,12 @@ class Parser {
       words.push_back({std::string(trimmed({start, static_cast<std::size_t>(cursor.at - start)})), start});
       more = comma(cursor);
     }
-    const bool is_short = !any && words.size() < least, has_gap = std::ranges::any_of(
-                                                            words, [](const auto&word) { return word.text.empty(); });
-    if (element.shape == OtherShape::connector && (is_short || has_gap || words.empty())) {
+    // CalculiX has node 0 where a fluid comes in or goes out.
+    const bool is_short = !any && words.size() < least,
+               has_gap = std::ranges::any_of(
+                   words, [](const auto&word) { return word.text.empty() || word.text == "0"; });
+    const bool may_have_gap = element.shape == OtherShape::connector || type == "D";
+    if (may_have_gap && (is_short || has_gap || words.empty())) {
       ++out_.n_dropped[type];
       return false;
     }
@@ -442,6 +446,7 @@ class Parser {
     if (const std::string* instance = keyword.find("INSTANCE")) set.instance = *instance;
     if (const std::string* combine = keyword.find("COMBINE")) set.combine = upper_case(*combine);
     bool ignored = false;
+    int n_areas = 0;
     while (data_line(cursor, ignored)) {
       if (!set.combine.empty()) {
         each_word(cursor, [&](std::string_view word, const char* at) {
@@ -455,6 +460,9 @@ class Parser {
       each_word(cursor, [&](std::string_view word, const char* at) {
         if (i == 0) member = {unquoted(word), at};
         if (i == 1) face = upper_case(word);
+        if (i == 1 && of_nodes && !word.empty() && word != "1" && word != "1." && word != "1.0" && n_areas++ == 0)
+          out_.notices.push_back(out_.where(at) + ": areas of the nodes of surface " + shown(set.name) +
+                                 " are left out: they are 1 in a file of ours");
         ++i;
       });
       if (!of_nodes)

@@ -343,7 +343,8 @@ class Sets {
           to.id = set.id;
           for (auto& [element, side] : members.other_sides) {
             // Edges of shells and ends of beams: pieces have them in part.
-            if (side.starts_with("E")) is_rigid[element] = 1, any_rigid = true;
+            if (side.starts_with("E") || (is_shell(element) && side.size() == 2 && side >= "S3" && side <= "S6"))
+              is_rigid[element] = 1, any_rigid = true;
             to.elements.push_back(element);
             to.sides.push_back(std::move(side));
           }
@@ -460,15 +461,26 @@ class Sets {
     return known->second;
   }
 
-  /// What is said of an edge or an end of elements, which their pieces have in part.
+  /// What is said of an edge or an end of elements, which their pieces have in part: ends of beams, edges of shells
+  /// (with CalculiX their faces from the third on).
   void keep_whole(const AbaqusRawCard& raw, const Reference& of) {
-    if (raw.keyword != "RELEASE" && raw.keyword != "DLOAD") return;
     const std::string rest = upper_case(raw.text.substr(of.end, line_around(raw.text, of.end).second - of.end));
-    if (raw.keyword == "DLOAD" && !trimmed(std::string_view(rest).substr(rest.find(',') + 1)).starts_with("ED")) return;
+    const std::string_view label = trimmed(std::string_view(rest).substr(rest.find(',') + 1));
+    const bool is_of_end = raw.keyword == "RELEASE" || (raw.keyword == "DLOAD" && label.starts_with("ED"));
+    const std::size_t digit = label.find_first_of("0123456789"), word_end = label.find(',');
+    const bool is_of_edge = has_faces(raw.keyword) && digit < word_end && label[digit] >= '3' && label[digit] <= '6';
+    if (!is_of_end && !is_of_edge) return;
+    const auto add = [&](Index e) {
+      if (is_of_end || is_shell(e)) rigid_.push_back(e);
+    };
     if (of.kind == Reference::block)
-      for (const Index e : others_of_block(out_.mesh, static_cast<int>(of.id))) rigid_.push_back(e);
+      std::ranges::for_each(others_of_block(out_.mesh, static_cast<int>(of.id)), add);
     else if (const Index e = parts_.others.find(of.id); e >= 0)
-      rigid_.push_back(e);
+      add(e);
+  }
+  bool is_shell(Index other) const {
+    const OtherShape shape = out_.mesh.others->type_of(other).shape;
+    return shape == OtherShape::quad || shape == OtherShape::triangle;
   }
 
   /// can_be_there: for another place; false: it belongs to what was added last. Returns whether it was added.
@@ -485,8 +497,7 @@ class Sets {
         if (const auto faces = loaded_faces(placed, load)) {
           const AbaqusCard::Reference here{Reference::faces, *faces, named.begin, named.end, false};
           const auto rest = [&](const AbaqusCard::Reference& of) {
-            const std::string label = abaqus_face_load(raw.text.substr(of.begin, of.end - of.begin)).label;
-            return label.substr(0, 1) + label.substr(2) +
+            return abaqus_face_load(raw.text.substr(of.begin, of.end - of.begin)).label(0) +
                    raw.text.substr(of.end, line_around(raw.text, of.end).second - of.end);
           };
           // One load is a line for each face of elements in a file of ours.
@@ -502,7 +513,7 @@ class Sets {
         word = load.elements;
         end = named.begin + load.end;
       }
-      if (word.size() > 1 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
+      std::erase(word, '"');
       const auto [reference, gone] = meaning(placed, kind, word);
       if (reference) {
         card.references.push_back({reference->first, reference->second, named.begin, end, named.by_keyword});

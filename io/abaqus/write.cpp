@@ -207,8 +207,8 @@ void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const 
         const auto [begin, end] = line_around(card.text, at.begin);
         const AbaqusFaceLoad load = abaqus_face_load(card.text.substr(at.begin, at.end - at.begin));
         for (const FacesOfLoad& of : loads.at(at.id))
-          now += card.text.substr(begin, at.begin - begin) + of.label + ", " + load.label[0] + std::to_string(of.face) +
-                 load.label.substr(2) + card.text.substr(at.end, end - at.end);
+          now += card.text.substr(begin, at.begin - begin) + of.label + ", " + load.label(of.face) +
+                 card.text.substr(at.end, end - at.end);
         if (!now.empty()) {
           card.text.replace(begin, end - begin, now);
           continue;
@@ -233,11 +233,12 @@ void write_cards(Output& out, const Mesh& mesh, const FileExtras& extras, const 
       if (!at.by_keyword) cut_out(card, begin, end), ++n_lines;
     }
     if (!whole)
-      notices.push_back(card.where + ": " + keyword + " is left out: what it is about is gone");
+      notices.push_back(card.where + ": " + keyword + " is left out: what it is about is gone, or was cut");
     else if (n_lines > 0)
       notices.push_back(card.where + ": " + counted(static_cast<std::int64_t>(n_lines), "line") + " of " + keyword +
-                        " left out: what they are about is gone");
-    if (whole) out << card.text;
+                        " left out: what they are about is gone, or was cut");
+    const bool is_empty = n_lines > 0 && card.text.find('\n') + 1 == card.text.size();
+    if (whole && !is_empty) out << card.text;
   }
 }
 

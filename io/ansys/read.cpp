@@ -42,6 +42,9 @@ class AnsysReader {
     turned_.tell(listing_, "directions of degrees of freedom (rotations in NBLOCK)", "node");
     if (n_empty_ > 0)
       listing_.note(counted(n_empty_, "empty component") + " left out (the first: " + first_empty_ + ")");
+    if (n_geometric_ > 0)
+      listing_.note(counted(n_geometric_, "component") +
+                    " of points, lines, areas or volumes of a model left out (the first: " + first_geometric_ + ")");
     MeshFile file = listing_.result(false);
     columns(file.mesh);
     return file;
@@ -323,6 +326,14 @@ class AnsysReader {
   }
 
   void component() {
+    if (std::ranges::any_of(std::array{"KP", "LINE", "AREA", "VOLU"},
+                            [&](const char* kind) { return same_word(word(2).substr(0, 4), kind); })) {
+      if (n_geometric_++ == 0) first_geometric_ = std::string(word(1));
+      const std::size_t n = cursor_.check_count(integer(word(3), "a number of members"), 1, "members of a component");
+      const std::size_t in_line = std::max<std::size_t>(format("CMBLOCK").n_integers, 1);
+      for (std::size_t i = 0; i < n; i += in_line) row_of("CMBLOCK");
+      return;
+    }
     Listing::Group& group = listing_.add_group(0, std::string(word(1)));
     const bool of_nodes = word(2).size() >= 4 && same_word(word(2).substr(0, 4), "NODE");
     if (!of_nodes && !(word(2).size() >= 4 && same_word(word(2).substr(0, 4), "ELEM")))
@@ -411,8 +422,8 @@ class AnsysReader {
   std::vector<std::int64_t> nodes_;
   std::vector<Component> names_;
   OwnName comment_;
-  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0, n_empty_ = 0;
-  std::string first_other_, first_empty_;
+  std::int64_t n_blocks_ = 0, n_unnamed_ = 0, n_others_ = 0, n_empty_ = 0, n_geometric_ = 0;
+  std::string first_other_, first_empty_, first_geometric_;
   Losses turned_;
 };
 

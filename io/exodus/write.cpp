@@ -62,6 +62,7 @@ class ExodusWriter {
       : out_(file), mesh_(mesh), second_(second), of_whole_(of_whole), notices_(notices), values_(mesh, notices) {
     divide();
     say_exodus_names(mesh_, notices_);
+    if (!of_whole_) say_whole_numbers(mesh_, "Exodus", notices_);
     create();
   }
 

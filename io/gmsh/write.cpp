@@ -518,6 +518,7 @@ void write_gmsh(Output& out, const Mesh& mesh, const Association& association, c
     write_periodic(to, mesh, plan_periodic(mesh, association, options.extras->periodic, notices), v4);
   write_parts(out, plan);
   say_values_of_others(mesh, "Gmsh", notices);
+  say_whole_numbers(mesh, "Gmsh", notices);
   write_fields(to, mesh, selection, notices);
 }
 

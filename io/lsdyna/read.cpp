@@ -18,11 +18,28 @@ class DynaReader {
     if (n_other_ > 0)
       listing_.note(counted(n_other_, "other keyword") + " left out: *" + joined(others_, ", *") +
                     (others_.size() == most_named ? ", ..." : ""));
+    tell_sets_from_parts();
     return listing_.result(true);
   }
 
  private:
   static constexpr std::size_t most_named = 5;
+
+  /// Parts and sets are numbered each for itself, and both are blocks here: sets come behind all parts, so that hexes
+  /// stay in their parts. In files of ours a set is the part of that number.
+  void tell_sets_from_parts() {
+    if (ours_) return;
+    std::ranges::stable_sort(solid_sets_, {}, &Listing::Group::id);
+    int next = highest_part_;
+    for (const Listing::Group* set : solid_sets_) next = std::max(next, set->id);
+    std::string moved;
+    for (Listing::Group* set : solid_sets_) {
+      if (set->id > highest_part_ || next == std::numeric_limits<int>::max()) continue;
+      moved += (moved.empty() ? "" : ", ") + std::to_string(set->id) + " is " + std::to_string(next + 1);
+      set->id = ++next;
+    }
+    if (!moved.empty()) listing_.note("sets of solids are blocks behind those of parts: " + moved);
+  }
 
   /// Is this the end?
   bool read(const std::string& name) {
@@ -108,6 +125,7 @@ class DynaReader {
       const char* const at = card.at;
       const std::int64_t element = cards_.integer(card, 0, "an element id");
       const int own_part = cards_.id(card, 1, "a part");
+      highest_part_ = std::max(highest_part_, own_part);
       std::array<std::int64_t, 20> nodes{};
       std::size_t n = 0;
       const auto take = [&](std::size_t from, std::size_t most) {
@@ -159,6 +177,7 @@ class DynaReader {
       const char* const at = card.at;
       const std::int64_t element = cards_.integer(card, 0, "an element id");
       const int own_part = cards_.id(card, 1, "a part");
+      highest_part_ = std::max(highest_part_, own_part);
       std::array<std::int64_t, 4> nodes{};
       for (std::size_t i = 0; i < 4; ++i) nodes[i] = cards_.integer(card, 2 + i, "a node");
       if (nodes[3] == 0 || nodes[3] == nodes[2])
@@ -177,6 +196,7 @@ class DynaReader {
     while (cards_.next_title(title) && cards_.next(card, dyna_set)) {
       const int number = cards_.id(card, 0, "a part");
       listing_.name_part(number, title);
+      highest_part_ = std::max(highest_part_, number);
       if ((card.any(1, 1) && card[1] != "1") || (card.any(2, 2) && card[2] != "1") || card.any(3, 7) || name != "PART")
         made_of_.add(number);
       if (name != "PART") return;  // of others, cards follow that belong to it
@@ -225,6 +245,8 @@ class DynaReader {
     }
     if (attributed) attributes_.add(group.id);
     group.hexes_only = group.is_own = true;
+    group.has_normals = of_segments;
+    if (of_solids) solid_sets_.push_back(&group);
     group.empty_node_set = of_nodes, group.empty_block = of_solids, group.empty_side_set = of_segments;
     return true;
   }
@@ -236,6 +258,8 @@ class DynaReader {
   std::int64_t n_other_ = 0;
   Losses held_, made_of_, attributes_;
   std::vector<std::string> others_;
+  std::vector<Listing::Group*> solid_sets_;
+  int highest_part_ = 0;
 };
 
 }  // namespace

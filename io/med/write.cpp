@@ -248,6 +248,7 @@ class MedWriter {
 
   void fields() {
     say_values_of_others(mesh_, "MED", notices_);
+    say_whole_numbers(mesh_, "MED", notices_);
     std::set<std::string> taken;
     for (const Field& field : mesh_.fields) {
       const std::string name = distinct_field_name(

@@ -1,10 +1,13 @@
 // What comes nearer to wished sizes: threes alone, or with twos, or with the combination at the target.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
+#include "hextwist/base/text.h"
 #include "hextwist/mesh/neighbourhood.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
@@ -46,41 +49,6 @@ struct Candidate {
   bool has_done = false;  ///< more than threes alone would have
   int number = 0;         ///< AmongParts
 };
-
-/// Nothing: a second try, beside a result that is good, that was given up.
-std::optional<Candidate> attempt(const State& from, const Report& start, Approach approach,
-                                 bool is_second_try = false) {
-  Candidate candidate;
-  candidate.report = start;
-  State state(from.input, from.request, candidate.report, from.progress);
-  state.is_second_try = is_second_try;
-  state.part = from.part;
-  state.among = from.among;
-  if (from.among) candidate.number = from.among->begin(state);
-  bool is_whole = true;
-  if (approach == Approach::size_by_levels) {
-    run_levels(state);
-  } else {
-    const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
-    is_whole = state.run(*technique);
-    candidate.has_done = technique->has_done();
-    if (from.among) technique->wait_for_others(state);
-  }
-  if (from.among) {
-    const PartNumbers all = from.among->all({{!is_whole, candidate.has_done}});
-    is_whole = all.sum[0] == 0;
-    candidate.has_done = all.sum[1] > 0;
-  }
-  if (!is_whole) return std::nullopt;
-  candidate.result = state.take_result();
-  if (from.among) {
-    from.among->end(candidate.result);
-    std::string& by_whole = from.among->by_whole;
-    if (by_whole.empty()) by_whole = candidate.report.has_smoothed ? smoothed_together : candidate.report.by_whole;
-  }
-  candidate.straight = state.take_straight();
-  return candidate;
-}
 
 /// Sum of |log(ratio)|, in units so small that the order does not matter: a part adds up to what the whole does.
 constexpr double distance_unit = 1e-8;
@@ -136,12 +104,93 @@ void judge(Candidate& candidate, const State& state) {
 }
 
 /// So that what comes out inverted elsewhere need not be repaired.
-bool is_good(const Candidate& candidate) {
-  return candidate.sound && candidate.worst_shape >= poor_shape;
+bool is_good(const Candidate& candidate, double least_shape) {
+  return candidate.sound && candidate.worst_shape >= least_shape;
 }
 /// So that nothing nearer needs to be looked for.
-bool is_well_met(const Candidate& candidate) {
-  return is_good(candidate) && candidate.met >= well_met;
+bool is_well_met(const Candidate& candidate, double least_shape) {
+  return is_good(candidate, least_shape) && candidate.met >= well_met;
+}
+
+/// What a good result has: no shape is poor, nor much worse than what was there.
+double least_good_shape(const State& state) {
+  const Mesh& mesh = state.input.mesh;
+  double worst = 0;
+  if (state.among) {
+    const std::vector<Index> own = indices_where(mesh.n_hexes(), [&](Index h) { return state.among->own[h] != 0; });
+    worst = state.among->all({{}, own.empty() ? PartNumbers().least : summarize(quality(Metric::shape, mesh, own)).min})
+                .least;
+  } else {
+    worst = summarize(quality(Metric::shape, mesh)).min;
+    if (state.part) worst = std::min(worst, state.part->worst_shape_outside);
+  }
+  return std::min(poor_shape, worst / 2);
+}
+
+/// give_up_above: there is a good result already, and this is a second try; 0: there is none. Nothing: given up.
+std::optional<Candidate> attempt(const State& from, const Report& start, Approach approach,
+                                 std::int64_t give_up_above = 0) {
+  Candidate candidate;
+  candidate.report = start;
+  State state(from.input, from.request, candidate.report, from.progress);
+  state.is_second_try = give_up_above > 0;
+  if (give_up_above > 0 && !from.among) state.give_up_above = give_up_above;
+  state.part = from.part;
+  state.among = from.among;
+  if (from.among) candidate.number = from.among->begin(state);
+  bool is_whole = true;
+  if (approach == Approach::size_by_levels) {
+    run_levels(state);
+  } else {
+    const std::unique_ptr<SizeTechnique> technique = size_technique(state, approach);
+    is_whole = state.run(*technique);
+    candidate.has_done = technique->has_done();
+    if (from.among) technique->wait_for_others(state);
+  }
+  if (from.among) {
+    const PartNumbers all = from.among->all({{!is_whole, candidate.has_done}});
+    is_whole = all.sum[0] == 0;
+    candidate.has_done = all.sum[1] > 0;
+  }
+  if (!is_whole) return std::nullopt;
+  candidate.result = state.take_result();
+  if (from.among) {
+    from.among->end(candidate.result);
+    std::string& by_whole = from.among->by_whole;
+    if (by_whole.empty()) by_whole = candidate.report.has_smoothed ? smoothed_together : candidate.report.by_whole;
+  }
+  candidate.straight = state.take_straight();
+  return candidate;
+}
+
+/// A second try, which is given up where a result that is good is there and this comes out inverted, or much larger, or
+/// where it is too large for memory and limits. What it takes is added to the report of what is there.
+struct SecondTry {
+  std::optional<Candidate> made;
+  bool is_too_large = false;
+};
+SecondTry second_try(const State& from, const Report& start, Approach approach, Candidate& there, double least_shape) {
+  SecondTry result;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::int64_t most = std::int64_t{most_times_more} * there.n_hexes;
+  const bool may_give_up = is_good(there, least_shape);
+  try {
+    result.made = attempt(from, start, approach, may_give_up ? std::max<std::int64_t>(most - n_outside(from), 1) : 0);
+    if (result.made) judge(*result.made, from);
+    if (may_give_up && result.made && result.made->n_hexes > most) {  // parts find that out at the end
+      result.made.reset();
+      result.is_too_large = true;
+    }
+  } catch (const TooLarge&) {
+    if (from.among) throw;  // all parts go on together
+    result.is_too_large = true;
+  }
+  if (!result.made) {
+    const double wasted = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    there.report.seconds.push_back({"other technique", wasted});
+    there.report.total_seconds += wasted;
+  }
+  return result;
 }
 
 bool is_better(const Candidate& a, const Candidate& b) {
@@ -216,18 +265,17 @@ bool are_uneven(const State& state, const SizeWish& wish, int by) {
 
 /// What is too long in some directions only may be cut in these first: where hexes are that uneven, and sizes and
 /// shapes come out better, or directions do and sizes well.
-Candidate or_by_directions(Candidate taken, const State& state, const Report& start) {
+Candidate or_by_directions(Candidate taken, const State& state, const Report& start, double least_shape) {
   if (state.request.method != Method::automatic || !is_regular(state.request)) return taken;
   const std::shared_ptr<const SizeWish> wish = size_wish(state);
-  if (!are_uneven(state, *wish, is_well_met(taken) ? 2 : 1)) return taken;
-  std::optional<Candidate> tried = attempt(state, start, Approach::size_by_directions, is_good(taken));
-  if (!tried) return taken;
-  Candidate& directions = *tried;
-  judge(directions, state);
+  if (!are_uneven(state, *wish, is_well_met(taken, least_shape) ? 2 : 1)) return taken;
+  SecondTry tried = second_try(state, start, Approach::size_by_directions, taken, least_shape);
+  if (!tried.made) return taken;
+  Candidate& directions = *tried.made;
   if (directions.n_hexes > std::int64_t{most_times_more} * taken.n_hexes) return taken;
   const bool are_nearer =
       part_of_directions(directions, state, *wish) > part_of_directions(taken, state, *wish) + near_tie;
-  if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions))) return taken;
+  if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions, least_shape))) return taken;
   return preferred(std::move(directions), taken, "directions that are too long by themselves first, then whole hexes",
                    start);
 }
@@ -238,26 +286,44 @@ bool is_same(const Candidate& levels, const Candidate& nested, const State& stat
 }
 
 /// By threes: by levels, nested, or whichever is better.
-Candidate by_threes(const State& state, const Report& start) {
+Candidate by_threes(const State& state, const Report& start, double least_shape) {
   if (!is_regular(state.request)) return *attempt(state, start, Approach::size_by_threes);
   Candidate levels = *attempt(state, start, Approach::size_by_levels);
   judge(levels, state);
-  if (is_well_met(levels)) return levels;
-  std::optional<Candidate> nested = attempt(state, start, Approach::size_by_threes, is_good(levels));
-  if (!nested) {
-    levels.report.notices.push_back(
-        "by levels, no piece of a transition is cut again: cut again, they would come out inverted");
+  if (is_well_met(levels, least_shape)) return levels;
+  SecondTry nested = second_try(state, start, Approach::size_by_threes, levels, least_shape);
+  if (!nested.made) {
+    if (!nested.is_too_large)
+      levels.report.notices.push_back(
+          "by levels, no piece of a transition is cut again: cut again, they would come out inverted");
     return levels;
   }
-  judge(*nested, state);
-  if (is_same(levels, *nested, state)) return levels;
-  return better_of(std::move(levels), std::move(*nested), "by levels, no piece of a transition is cut again",
+  if (is_same(levels, *nested.made, state)) return levels;
+  return better_of(std::move(levels), std::move(*nested.made), "by levels, no piece of a transition is cut again",
                    "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
 }
 
 std::int64_t n_hexes_before(const State& state) {
   if (state.among) return state.among->all({{std::ranges::count(state.among->own, 1)}}).sum[0];
   return state.input.mesh.n_hexes() + n_outside(state);
+}
+
+/// Edges at the target are held to the wish one by one, hexes by their volume: these may all have been near it.
+void tell_of_sizes_before(State& state, Candidate& taken) {
+  if (state.among) return;
+  const auto met = [](const SizeReport& sizes) {
+    return sizes.ratio.empty()
+               ? 0.0
+               : 1 - static_cast<double>(sizes.n_coarser + sizes.n_finer) / static_cast<double>(sizes.ratio.size());
+  };
+  const double before = state.part ? met(state.part->all.report(state.part->all.region)) : [&] {
+    const SizesOfAll all(state.input, state.request);
+    return met(all.report(all.region));
+  }();
+  if (before > taken.met + near_tie)
+    taken.report.notices.push_back("before, " + short_number(100 * before) +
+                                   "% of the hexes there were within a factor of sqrt(3): single edges at the target were "
+                                   "too long; a size a little larger leaves them as they are");
 }
 
 }  // namespace
@@ -269,22 +335,23 @@ void run_nearest_size(State& state) {
   const bool may_mix = may_halve(request) || (request.method != Method::single && may_combine(request.target, sizes));
   state.stages.close();  // those of the candidates count
   const Report start = state.report;
-  Candidate taken = by_threes(state, start);
-  std::optional<Candidate> mixed;
+  const double least_shape = least_good_shape(state);
+  Candidate taken = by_threes(state, start, least_shape);
   judge(taken, state);
   const bool cuts_anything = taken.n_hexes > n_hexes_before(state);
+  SecondTry mixed;
   if (may_mix && cuts_anything)
-    mixed = attempt(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, is_good(taken));
-  if (mixed && mixed->has_done) {
-    judge(*mixed, state);
-    taken = better_of(std::move(*mixed), std::move(taken),
+    mixed =
+        second_try(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, taken, least_shape);
+  if (mixed.made && mixed.made->has_done)
+    taken = better_of(std::move(*mixed.made), std::move(taken),
                       varies ? "the combination for the last passes at the target, else whole hexes"
                              : "one into eight where that comes nearer, else one into 27",
                       varies ? "whole hexes alone, not the combination at the target as well"
                              : "one into 27 alone, not one into eight as well",
                       start);
-  }
-  if (cuts_anything) taken = or_by_directions(std::move(taken), state, start);
+  if (cuts_anything) taken = or_by_directions(std::move(taken), state, start, least_shape);
+  if (cuts_anything && taken.met < well_met) tell_of_sizes_before(state, taken);
   if (state.among) state.among->taken = taken.number;
   state.report = std::move(taken.report);
   state.adopt(std::move(taken.result), std::move(taken.straight));

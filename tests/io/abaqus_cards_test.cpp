@@ -214,5 +214,58 @@ TEST(AbaqusCards, what_does_not_follow_is_said) {
   }
 }
 
+TEST(AbaqusCards, loads_on_faces_of_all_kinds_are_on_side_sets) {
+  for (const auto& [card, label] : {std::pair("*DLOAD", "P2"),
+                                    {"*DLOAD", "P2NU"},
+                                    {"*DLOAD", "HP2"},
+                                    {"*DLOAD", "TRVEC2"},
+                                    {"*DLOAD", "TRSHR2NU"},
+                                    {"*DFLUX", "S2"},
+                                    {"*FILM", "F2FC"},
+                                    {"*RADIATE", "R2CR"},
+                                    {"*FOUNDATION", "F2"},
+                                    {"*MASSFLOW", "M2"},
+                                    {"*BOUNDARYF", "F2"},
+                                    {"*FLOW", "Q2"},
+                                    {"*DECURRENT", "CS2"}}) {
+    SCOPED_TRACE(label);
+    const MeshFile read = read_text(bar + std::string(card) + "\n\"all of it\", " + label + ", 5.\n");
+    const auto set = std::ranges::find(read.mesh.side_sets, "all of it_S2", &SideSet::name);
+    ASSERT_NE(set, read.mesh.side_sets.end());
+    EXPECT_EQ(set->sides.size(), 2u);
+    const std::string text = written(read, read.mesh);
+    EXPECT_TRUE(text.ends_with(std::string(card) + "\nall_of_it_S2_E2, " + label + ", 5.\n")) << text;
+  }
+}
+
+TEST(AbaqusCards, edges_of_shells_keep_them_whole_with_CalculiX_too) {
+  const std::string shells = std::string(bar) + "*ELEMENT, TYPE=S4, ELSET=SHX\n11, 1,2,5,4\n12, 2,3,6,5\n";
+  const auto n_rigid = [&](const std::string& cards) {
+    const auto others = read_text(shells + cards).mesh.others;
+    return std::ranges::count(others->heads->is_rigid, 1);
+  };
+  EXPECT_EQ(n_rigid("*FILM\nSHX, F1, 20., 5.\n*DLOAD\nSHX, P2, 5.\n*SURFACE, NAME=e\nSHX, SPOS\n11, S1\n"), 0);
+  EXPECT_EQ(n_rigid("*FILM\nSHX, F3, 20., 5.\n"), 2);
+  EXPECT_EQ(n_rigid("*DFLUX\n11, S6, 20.\n"), 1);
+  EXPECT_EQ(n_rigid("*SURFACE, NAME=e\n11, S3\n"), 1);
+}
+
+TEST(AbaqusCards, empty_lines_are_data_lines) {
+  const std::string cards = "*SPRING, ELSET=\"all of it\"\n\n100.\n*STEP\n*STATIC\n\n*END STEP\n";
+  const MeshFile read = read_text(bar + cards + "\n\n");
+  EXPECT_EQ(cards_of(read), cards);
+}
+
+TEST(AbaqusCards, areas_of_nodes_and_ends_of_networks_are_told) {
+  const MeshFile read = read_text(std::string(bar) +
+                                  "*SURFACE, TYPE=NODE, NAME=N\n1, 0.25\n2, 1.\n*ELEMENT, TYPE=D\n"
+                                  "31, 0, 1, 2\n");
+  const auto has = [&](const std::string& end) {
+    return std::ranges::any_of(read.notices, [&](const std::string& said) { return said.ends_with(end); });
+  };
+  EXPECT_TRUE(has("areas of the nodes of surface 'N' are left out: they are 1 in a file of ours"));
+  EXPECT_TRUE(has("dropped 1 element of type D, which leaves a node out"));
+}
+
 }  // namespace
 }  // namespace hextwist

@@ -84,7 +84,7 @@ TEST(ansys_files, what_is_wrong_is_said_with_its_line) {
        ":18: element 10 is a tetrahedron" + only);
   says("CMBLOCK,A,NODE,       2\n(8i10)\n        -5         2\n",
        ":18: component A has the member -5, which ends no range");
-  says("CMBLOCK,A,LINE,       2\n", ":16: component 'A' is neither of nodes nor of elements");
+  says("CMBLOCK,A,BODY,       2\n", ":16: component 'A' is neither of nodes nor of elements");
   says("CMBLOCK,A,NODE,  20000\n", ":17: the file is too short for 20000 members of component A");
   says("EN,R5.5,ATTR,8,1\n",
        ":16: nodes and elements are read from NBLOCK and EBLOCK only: write the file with CDWRITE and its option "
@@ -155,6 +155,22 @@ TEST(ansys_files, what_can_not_be_kept_is_told) {
   EXPECT_TRUE(test::told(notices, "hexes in no block, or in block 0, are of material 71"));
   std::istringstream lines(test::text_of(folder / "a.cdb"));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 171U) << line;
+}
+
+TEST(ansys_files, components_of_a_model_are_left_out_with_a_note) {
+  const std::string hex =
+      "EBLOCK,19,SOLID\n(19i7)\n      1      1      1      1      0      0      0      0      8      0      3      1   "
+      "   2"
+      "      3      4      5      6      7      8\n     -1\n";
+  const MeshFile read = read_mesh(test::write_text(
+      test::output_folder() / "a.cdb",
+      ansys_cube + hex +
+          "CMBLOCK,KPS,KP  ,       3  ! of points\n(2i7)\n      1      2\n      3\n"
+          "CMBLOCK,WALL,AREA,       1\n(8i7)\n      9\nCMBLOCK,N,NODE,       2\n(8i7)\n      1     -3\n"));
+  EXPECT_EQ(read.mesh.node_sets.size(), 1u);
+  EXPECT_EQ(read.mesh.node_sets.at(0).nodes.size(), 3u);
+  EXPECT_EQ(read.notices.back(),
+            "2 components of points, lines, areas or volumes of a model left out (the first: KPS)");
 }
 
 }  // namespace

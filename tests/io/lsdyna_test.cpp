@@ -101,8 +101,9 @@ TEST(lsdyna_files, constraints_attributes_and_materials_are_told) {
       (Lines{"sections, materials and the like (SECID 1 and MID 1 are written) of 3 parts left out; the first is "
              "3"}));
   EXPECT_EQ(notices("*SET_SEGMENT\n3\n         1         2         3         4       5.0       6.0\n"
-                    "*SET_SEGMENT\n2,0,0,0,0,MECH\n5,6,7,8\n*SET_NODE_LIST\n4,0.,2.5\n1,2\n*SET_SOLID\n5,MECH\n10\n"),
-            (Lines{"attributes (A1 to A4, DA1 to DA4) of 2 sets left out; the first is 3"}));
+                    "*SET_SEGMENT\n2,0,0,0,0,MECH\n5,6,7,8\n*SET_NODE_LIST\n4,0.,2.5\n1,2\n*SET_SOLID\n9,MECH\n10\n"),
+            (Lines{"attributes (A1 to A4, DA1 to DA4) of 2 sets left out; the first is 3",
+                   "1 side of set 3 turns into the hex: here it is the other way, outwards"}));
   // Of nodes in fields of all widths.
   std::string small = "*KEYWORD\n*NODE\n", ten = "*KEYWORD I10=Y\n*NODE\n", wide = "*KEYWORD LONG=Y\n*NODE\n",
               free = "*KEYWORD\n*NODE\n", none = small;
@@ -221,6 +222,25 @@ TEST(lsdyna_files, of_gmsh_have_the_volume_that_gmsh_has_in_them) {
     std::ranges::sort(found), std::ranges::sort(wanted);
     for (std::size_t e = 0; e < found.size(); ++e) EXPECT_NEAR(found[e], wanted[e], 1e-5);
   }
+}
+
+/// Both are numbered each for itself, and a hex of a part in a set stays in its part.
+TEST(lsdyna_files, sets_of_solids_are_behind_the_parts) {
+  const auto folder = test::output_folder();
+  const MeshFile read = read_mesh(test::write_text(
+      folder / "a.k", std::string(dyna_cube) +
+                          "*ELEMENT_SOLID\n10,7,1,2,3,4,5,6,7,8\n*PART\nsteel\n7,1,1\n*PART\nalu\n5,1,1\n"
+                          "*SET_SOLID_TITLE\noutput\n7\n10\n*SET_SOLID\n2\n10\n*SET_SOLID\n9\n10\n*END\n"));
+  EXPECT_EQ(read.notices,
+            (std::vector<std::string>{"sets of solids are blocks behind those of parts: 2 is 10, 7 is 11"}));
+  std::map<int, std::string> names;
+  for (const Block& block : read.mesh.blocks) names[block.id] = block.name;
+  EXPECT_EQ(names.at(7), "steel");
+  EXPECT_EQ(names.at(11), "output");
+  write_mesh(folder / "b.k", read.mesh, nullptr, {.extras = &read.extras});
+  EXPECT_NE(test::text_of(folder / "b.k").find("*ELEMENT_SOLID\n      10       7"), std::string::npos) << "its part";
+  // Files of ours have the same number for both.
+  EXPECT_TRUE(test::same_mesh(read.mesh, read_mesh(folder / "b.k").mesh));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ std::vector<std::vector<T>> everywhere(Ranks& ranks, const std::vector<T>& mine)
   std::vector<std::vector<T>> all;
   for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
     all.emplace_back(bytes.size() / sizeof(T));
-    std::memcpy(all.back().data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(all.back().data(), bytes.data(), bytes.size());
   }
   return all;
 }

@@ -81,11 +81,11 @@ TEST(SessionFiles, abaqus_types_and_cards_come_out_of_a_refinement) {
   const auto out = test::folder() / "out.inp";
   Fixture f;
   f.session.run("import mesh '" + in.string() + "'; refine hex 1; export mesh '" + out.string() + "'");
-  EXPECT_EQ(f.notices.back(), in.string() + ":33: 1 line of *DLOAD left out: what they are about is gone");
+  EXPECT_EQ(f.notices.back(), in.string() + ":33: 1 line of *DLOAD left out: what they are about is gone, or was cut");
   const std::string written = text_of(out);
   for (const char* part :
        {"*HEADING\nmine\n", "*ELEMENT, TYPE=C3D8R,", "*ELEMENT, TYPE=C3D8I,", "*NSET, NSET=Base\n",
-        "*SOLID SECTION, ELSET=right, MATERIAL=M\n,\n*STEP\n*STATIC\n*BOUNDARY\nBase, 1, 3\n*DLOAD\n*END STEP\n"})
+        "*SOLID SECTION, ELSET=right, MATERIAL=M\n,\n*STEP\n*STATIC\n*BOUNDARY\nBase, 1, 3\n*END STEP\n"})
     EXPECT_NE(written.find(part), std::string::npos) << part;
   const auto back = read_mesh(out);
   ASSERT_EQ(back.mesh.blocks.size(), 2u);
