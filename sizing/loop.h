@@ -80,8 +80,8 @@ class State {
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);
-  /// The same of the result, lifted first as it would be without smoothing.
-  void smooth_result();
+  /// smooth_band() and close(), which leave no smaller corner among the new hexes than close() alone would.
+  void smooth_and_close();
   /// After close(): nodes may have moved since hexes were cut to size, and old ones may have given way.
   void measure_sizes();
   void tell_of_moved_nodes();
@@ -106,6 +106,7 @@ class State {
   void smooth_between_passes();
   /// Are children of a pass inverted (in this part's own hexes, where it is one among others)?
   bool comes_out_inverted(const Mesh& mesh, const Split& parts) const;
+  double least_new_corner() const;  ///< smallest scaled Jacobian of the new hexes
   /// Moves new nodes for better corners of these new hexes (lift_new.h). Did any move?
   bool lift(std::span<const Index> low);
   /// Makes the input the result.

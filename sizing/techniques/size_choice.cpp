@@ -321,9 +321,10 @@ void tell_of_sizes_before(State& state, Candidate& taken) {
     return met(all.report(all.region));
   }();
   if (before > taken.met + near_tie)
-    taken.report.notices.push_back("before, " + short_number(100 * before) +
-                                   "% of the hexes there were within a factor of sqrt(3): single edges at the target were "
-                                   "too long; a size a little larger leaves them as they are");
+    taken.report.notices.push_back(
+        "before, " + short_number(100 * before) +
+        "% of the hexes there were within a factor of sqrt(3): single edges at the target were "
+        "too long; a size a little larger leaves them as they are");
 }
 
 }  // namespace

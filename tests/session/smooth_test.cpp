@@ -6,8 +6,10 @@
 #include <random>
 
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/quality/quality.h"
 #include "session/session_fixture.h"
 #include "support/checkers.h"
+#include "support/seed.h"
 
 namespace hextwist {
 
@@ -245,6 +247,32 @@ TEST(Tangled, what_cannot_be_repaired_is_refused_with_ids) {
     EXPECT_NE(std::string(error.what()).find("untangling did not help"), std::string::npos) << error.what();
   }
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 1);
+}
+
+/// Corners are lifted without being asked; what is asked for must not end below that.
+TEST(Smoothing, of_a_refinement_leaves_no_corner_lower_than_without) {
+  constexpr double low = 0.3, rounding = 1e-6;
+  const unsigned seed = test::random_seed();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const auto least = [](const Fixture& f) {
+    return summarize(quality(Metric::scaled_jacobian, f.session.meshed().mesh)).min;
+  };
+  int n_low = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double thickness = std::array{0.2, 0.5, 1.0, 2.5, 5.0}[random() % 5];
+    const std::string target = std::array{"surface ", "curve ", "vertex ", "hex "}[random() % 4] +
+                               std::to_string(1 + random() % 6) + (random() % 3 ? "" : " numsplit 2");
+    SCOPED_TRACE(target + " of " + std::to_string(thickness));
+    Fixture plain, smoothed;
+    for (Fixture* f : {&plain, &smoothed})
+      f->session.run("create brick x 5 y 5 z " + std::to_string(thickness) + " interval 5");
+    plain.session.run("refine " + target);
+    smoothed.session.run("refine " + target + " smooth");
+    n_low += least(plain) < low;
+    EXPECT_GE(least(smoothed), std::min(low, least(plain)) - rounding);
+  }
+  EXPECT_GT(n_low, 5);
 }
 
 }  // namespace
