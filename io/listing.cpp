@@ -164,6 +164,7 @@ void Listing::assemble_quads() {
 void Listing::assemble_groups(bool parts_count_always) {
   Mesh& mesh = out_.mesh;
   bool quads_grouped = false;
+  std::vector<std::uint8_t> is_grouped(quad_sides_.size(), 0);
   std::int64_t n_missing = 0, first_missing = 0;
   const auto missing = [&](std::int64_t id) {
     if (n_missing++ == 0) first_missing = id;
@@ -224,8 +225,10 @@ void Listing::assemble_groups(bool parts_count_always) {
     if (!from.hexes_only)
       for (const auto& [first, last] : united(from.element_ranges))
         for (auto q = std::ranges::lower_bound(quad_of_id_, std::pair(first, Index{0}));
-             q != quad_of_id_.end() && q->first <= last; ++q)
+             q != quad_of_id_.end() && q->first <= last; ++q) {
+          is_grouped[q->second] = 1;
           if (quad_sides_[q->second].hex >= 0) sides.push_back(quad_sides_[q->second]);
+        }
     for (const std::int64_t id : from.nodes)
       if (const Index n = nodes_.find(id); n >= 0)
         members.push_back(n);
@@ -236,6 +239,7 @@ void Listing::assemble_groups(bool parts_count_always) {
         hexes.push_back(h);
       } else if (const auto q = std::ranges::lower_bound(quad_of_id_, std::pair(id, Index{0}));
                  !from.hexes_only && q != quad_of_id_.end() && q->first == id) {
+        is_grouped[q->second] = 1;
         if (quad_sides_[q->second].hex >= 0) sides.push_back(quad_sides_[q->second]);
       } else if (!std::ranges::binary_search(dropped_ids_, id)) {
         missing(id);
@@ -293,6 +297,11 @@ void Listing::assemble_groups(bool parts_count_always) {
         continue;
       put(mesh.blocks, group_of(part), "block").hexes = std::move(hexes);
     }
+  }
+  if (quads_grouped && !parts_count_always) {
+    std::int64_t n_left_out = 0;
+    for (std::size_t q = 0; q < is_grouped.size(); ++q) n_left_out += !is_grouped[q] && quad_sides_[q].hex >= 0;
+    if (n_left_out > 0) note(counted(n_left_out, "quad") + " in no group left out, as others are in groups");
   }
   if (!quads_grouped || parts_count_always) {
     std::map<int, std::vector<Side>> of_part;

@@ -95,6 +95,25 @@ TEST(listed_files, what_a_format_can_not_keep_is_told) {
   EXPECT_TRUE(told("a.unv", "node id 1000000000 has more than nine digits: nodes are counted from 1 in the file"));
 }
 
+TEST(listed_files, quads_in_no_group_are_told_where_others_are_in_groups) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.side_sets = {{1, "kept", {{0, 4}}}, {2, "gone", {{0, 5}, {1, 5}}}};
+  write_mesh(folder / "a.unv", mesh, nullptr);
+  EXPECT_EQ(read_mesh(folder / "a.unv").notices, std::vector<std::string>());
+  std::istringstream in(test::text_of(folder / "a.unv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  const auto name = std::ranges::find(lines, "gone");
+  ASSERT_NE(name, lines.end());
+  lines.erase(name - 1, name + 2);  // what the group has, its name, and two members in a line
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  const MeshFile read = read_mesh(test::write_text(folder / "b.unv", text));
+  EXPECT_EQ(read.notices, std::vector<std::string>{"2 quads in no group left out, as others are in groups"});
+  EXPECT_EQ(read.mesh.side_sets.size(), 1u);
+}
+
 TEST(listed_files, fields_come_back_from_med) {
   if (!has_med()) GTEST_SKIP() << "built without MED";
   const auto file = test::output_folder() / "a.med";
