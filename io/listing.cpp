@@ -208,9 +208,8 @@ void Listing::assemble_groups(bool parts_count_always) {
       if (!std::ranges::all_of(corners, [&](std::int64_t id) { return nodes_.find(id) >= 0; })) continue;
       if (next_side->hex >= 0) {
         const Quad& cycle = cycles[static_cast<std::size_t>(next_side - sides_of_cycles.begin())];
-        const Quad outwards = face_node_cycle(mesh.hexes[next_side->hex], next_side->face);
-        const auto at = std::ranges::find(outwards, cycle[0]) - outwards.begin();
-        n_inwards += from.has_normals && outwards[(at + 1) % 4] != cycle[1];
+        n_inwards +=
+            from.has_normals && !turn_the_same_way(cycle, face_node_cycle(mesh.hexes[next_side->hex], next_side->face));
         sides.push_back(*next_side);
       } else {
         ++n_lost;

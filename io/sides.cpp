@@ -48,11 +48,6 @@ struct ByLowestNode {
   }
 };
 
-bool turns_the_same_way(const Quad& a, const Quad& b) {
-  const auto at = std::ranges::find(b, a[0]) - b.begin();
-  return a[1] == b[(at + 1) % 4];
-}
-
 }  // namespace
 
 std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles, std::vector<Side>* lower) {
@@ -72,7 +67,7 @@ std::vector<Side> oriented_sides(const Mesh& mesh, std::span<const Quad> cycles,
         const Quad outward = face_node_cycle(mesh.hexes[h], f);
         quads.find(outward, [&](Index q) {
           Candidates& of_quad = best[q];
-          const bool same = turns_the_same_way(cycles[q], outward);
+          const bool same = turn_the_same_way(cycles[q], outward);
           atomic_min(same ? of_quad.outwards : of_quad.inwards, std::int64_t{6} * h + f);
         });
       }

@@ -69,5 +69,11 @@ constexpr std::array<Index, 4> face_node_cycle(const Hex& hex, int face) {
   const auto cycle = face_cycle(face);
   return {hex[cycle[0]], hex[cycle[1]], hex[cycle[2]], hex[cycle[3]]};
 }
+/// Whether two cycles of the same four nodes turn the same way.
+constexpr bool turn_the_same_way(const std::array<Index, 4>& a, const std::array<Index, 4>& b) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (b[i] == a[0]) return b[(i + 1) % 4] == a[1];
+  return false;
+}
 
 }  // namespace hextwist

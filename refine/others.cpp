@@ -44,10 +44,6 @@ QuadsOnSides quads_on_sides(const Mesh& mesh) {
 Quad turned_over(const Quad& cycle) {
   return {cycle[0], cycle[3], cycle[2], cycle[1]};
 }
-bool turn_alike(const Quad& a, const Quad& b) {
-  const auto at = std::ranges::find(b, a[0]) - b.begin();
-  return at < 4 && b[(at + 1) % 4] == a[1];
-}
 
 /// A cycle from the corner at which its first edge comes nearest to a direction.
 Quad begun_along(const Quad& cycle, const Vec3& direction, std::span<const Vec3> points) {
@@ -139,7 +135,7 @@ OtherElementsPtr carried_others(const Mesh& before, const Split& split, std::spa
       if (children && children->size() > 1) {
         is_cut = true;
         const Quad quad = corners_of_quad(nodes);
-        const bool outward = turn_alike(quad, face_node_cycle(before.hexes[side.hex], side.face));
+        const bool outward = turn_the_same_way(quad, face_node_cycle(before.hexes[side.hex], side.face));
         const Vec3 direction = before.points[quad[1]] - before.points[quad[0]];
         for (const ChildSide& child : *children) {
           Quad cycle = face_node_cycle(hexes[cut->first_child + child.child], child.face);

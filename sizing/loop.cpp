@@ -56,7 +56,7 @@ std::optional<State::Passed> State::pass(const Cut& cut) {
   check_others(from.mesh, *cut.table, cut.codes);
   begin("split");
   Split parts = split(from.mesh.hexes, from.mesh.n_nodes(), cut.table, cut.codes);
-  if (is_second_try && std::ssize(parts.lineage.parent) > give_up_above) return std::nullopt;
+  if (std::ssize(parts.lineage.parent) > give_up_above) return std::nullopt;
   begin("carry");
   Carried carried = carry(from.mesh, from.association, parts);
   MeshedModel next{std::move(carried.mesh), from.model, std::move(carried.association)};
@@ -276,6 +276,10 @@ void State::smooth_and_close() {
     std::vector<Index> smoothed;
     Report report;
   };
+  if (bounds_of_all || std::holds_alternative<Layers>(request.how)) {
+    smooth_band();
+    return close();
+  }
   MeshedModel& refined = result_.refined;
   const auto kept = [&] {
     stages.close();
@@ -296,9 +300,10 @@ void State::smooth_and_close() {
   const double least = least_new_corner();
   // Where corners stay low, from places that are lifted first, as they would be without smoothing: it lowers none.
   constexpr double low_corner = 0.3;
-  if (least >= low_corner || bounds_of_all || std::holds_alternative<Layers>(request.how)) return;
+  if (least >= low_corner) return;
   Shaped smoothed = kept();
   put_back(std::move(before));
+  begin("improve");
   if (lift(hexes_below(mesh(), lift_below, n_kept(mesh()))) && least_new_corner() > least) {
     smooth_band();
     close();

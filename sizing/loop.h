@@ -63,7 +63,7 @@ class State {
 
   /// There is a good result already: pieces of transitions that come out inverted are not worth repairing.
   bool is_second_try = false;
-  /// Nor is more than so many hexes then (in all parts of the mesh).
+  /// What gets more hexes than this is given up.
   std::int64_t give_up_above = std::numeric_limits<std::int64_t>::max();
 
   /// Passes until the technique is done. Where there was nothing to cut, the input is the result. False: a second try

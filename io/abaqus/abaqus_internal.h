@@ -15,6 +15,9 @@ inline constexpr std::array<int, 6> abaqus_face = {
     face_of_file_corners({1, 2, 3, 4}), face_of_file_corners({5, 8, 7, 6}), face_of_file_corners({1, 5, 6, 2}),
     face_of_file_corners({2, 6, 7, 3}), face_of_file_corners({3, 7, 8, 4}), face_of_file_corners({4, 8, 5, 1})};
 
+/// CalculiX reads 20 characters of a number and takes the rest for blanks; Abaqus as many.
+inline constexpr std::size_t abaqus_number_width = 20;
+
 /// What a type is to us. Names: C3D8R, AC3D20, S4R, T3D2, MASS, ...
 struct AbaqusElement {
   enum Kind {

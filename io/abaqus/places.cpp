@@ -1,20 +1,10 @@
 // Systems of coordinates (Abaqus Keywords Guide, *ORIENTATION and *TRANSFORM) of parts, which stand where their
 // instances do.
-#include <cstdio>
-
 #include "hextwist/io/abaqus/abaqus_internal.h"
+#include "hextwist/io/file.h"
 
 namespace hextwist::io {
 namespace {
-
-/// In as many characters as Abaqus and CalculiX read of a number.
-std::string fitted(double value) {
-  constexpr int width = 20;
-  std::array<char, 40> text{};
-  for (int digits = 17; digits > 0; --digits)
-    if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= width) break;
-  return text.data();
-}
 
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
   std::vector<double> result;
@@ -51,7 +41,8 @@ void turn_system(const AbaqusPlaced& placed, AbaqusRawCard& card) {
     for (double& each : at)
       if (std::abs(each) <= noise) each = 0;
     if (has_axis) at += placed.shift;
-    for (const double each : at) line += (line.empty() ? "" : ", ") + fitted(each);
+    for (const double each : at)
+      line += (line.empty() ? "" : ", ") + std::string(NumberText(each, abaqus_number_width).text());
   }
   card.text.replace(begin, end - begin, line);
 }

@@ -42,8 +42,6 @@ class Labels {
 /// By Reference::Kind.
 using AllLabels = std::array<Labels, 3>;
 
-/// CalculiX reads 20 characters of a number and takes the rest for blanks; Abaqus as many.
-constexpr std::size_t number_width = 20;
 /// The highest id that Abaqus takes; CalculiX reads ten characters of one into 32 bits.
 constexpr std::int64_t highest_id = 999'999'999;
 
@@ -271,7 +269,7 @@ void write_abaqus(Output& out, const Mesh& mesh, const Association&, const Write
   for (Index n = 0; n < mesh.n_nodes(); ++n) {
     const Vec3& p = mesh.points[n];
     out << id_of(node_ids, n);
-    for (const double x : p) (out << ", ").number(x, number_width);
+    for (const double x : p) (out << ", ").number(x, abaqus_number_width);
     out << '\n';
   }
   for (const auto& [named, hexes] : hexes_by_type(mesh, extras, notices)) {

@@ -243,8 +243,7 @@ class GmshAssembly {
       std::array<std::int64_t, 4> ids{};
       for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = node_id(file_.mesh, cycles[i][k]);
       const Quad outward = face_node_cycle(file_.mesh.hexes[sides[i].hex], sides[i].face);
-      const auto at = std::ranges::find(outward, cycles[i][0]) - outward.begin();
-      if (cycles[i][1] != outward[(at + 1) % 4] &&
+      if (!turn_the_same_way(cycles[i], outward) &&
           std::ranges::binary_search(in_.slice->whole.inner_quads, nodes_key(ids)))
         sides[i] = {};
     }

@@ -124,8 +124,7 @@ class DynaReader {
     while (cards_.next(card, dyna_element)) {
       const char* const at = card.at;
       const std::int64_t element = cards_.integer(card, 0, "an element id");
-      const int own_part = cards_.id(card, 1, "a part");
-      highest_part_ = std::max(highest_part_, own_part);
+      const int own_part = part_id(card, 1);
       std::array<std::int64_t, 20> nodes{};
       std::size_t n = 0;
       const auto take = [&](std::size_t from, std::size_t most) {
@@ -176,8 +175,7 @@ class DynaReader {
     while (cards_.next(card, dyna_element)) {
       const char* const at = card.at;
       const std::int64_t element = cards_.integer(card, 0, "an element id");
-      const int own_part = cards_.id(card, 1, "a part");
-      highest_part_ = std::max(highest_part_, own_part);
+      const int own_part = part_id(card, 1);
       std::array<std::int64_t, 4> nodes{};
       for (std::size_t i = 0; i < 4; ++i) nodes[i] = cards_.integer(card, 2 + i, "a node");
       if (nodes[3] == 0 || nodes[3] == nodes[2])
@@ -190,13 +188,18 @@ class DynaReader {
     }
   }
 
+  int part_id(const DynaCard& card, std::size_t field) {
+    const int id = cards_.id(card, field, "a part");
+    highest_part_ = std::max(highest_part_, id);
+    return id;
+  }
+
   void part(const std::string& name) {
     std::string title;
     DynaCard card;
     while (cards_.next_title(title) && cards_.next(card, dyna_set)) {
-      const int number = cards_.id(card, 0, "a part");
+      const int number = part_id(card, 0);
       listing_.name_part(number, title);
-      highest_part_ = std::max(highest_part_, number);
       if ((card.any(1, 1) && card[1] != "1") || (card.any(2, 2) && card[2] != "1") || card.any(3, 7) || name != "PART")
         made_of_.add(number);
       if (name != "PART") return;  // of others, cards follow that belong to it

@@ -59,6 +59,12 @@ std::int64_t distances(const SizeReport& sizes) {
   return sum;
 }
 
+/// Part of the hexes in two reports that are within a factor sqrt(3) of their size.
+double part_met(const SizeReport& one, const SizeReport& other = {}) {
+  const auto n = static_cast<double>(one.ratio.size() + other.ratio.size());
+  return n == 0 ? 1 : 1 - (one.n_coarser + one.n_finer + other.n_coarser + other.n_finer) / n;
+}
+
 /// By this part's own hexes and those of all others.
 void judge_among(Candidate& candidate, const State& state) {
   AmongParts& among = *state.among;
@@ -94,7 +100,7 @@ void judge(Candidate& candidate, const State& state) {
   const SizeReport none, &here = *candidate.report.sizes, &outside = state.part ? state.part->outside : none;
   const auto n = static_cast<double>(here.ratio.size() + outside.ratio.size());
   candidate.distance = n == 0 ? 0 : distance_unit * static_cast<double>(distances(here) + distances(outside)) / n;
-  candidate.met = n == 0 ? 1 : 1 - (here.n_coarser + here.n_finer + outside.n_coarser + outside.n_finer) / n;
+  candidate.met = part_met(here, outside);
   const Mesh& mesh = candidate.result.refined.mesh;
   candidate.n_hexes = mesh.n_hexes() + n_outside(state);
   candidate.worst_shape = summarize(quality(Metric::shape, mesh)).min;
@@ -103,28 +109,26 @@ void judge(Candidate& candidate, const State& state) {
       candidate.report.off_nodes.empty() && candidate.report.sizes->unmet.empty() && inverted_hexes(mesh).empty();
 }
 
-/// So that what comes out inverted elsewhere need not be repaired.
-bool is_good(const Candidate& candidate, double least_shape) {
-  return candidate.sound && candidate.worst_shape >= least_shape;
-}
-/// So that nothing nearer needs to be looked for.
-bool is_well_met(const Candidate& candidate, double least_shape) {
-  return is_good(candidate, least_shape) && candidate.met >= well_met;
-}
-
-/// What a good result has: no shape is poor, nor much worse than what was there.
-double least_good_shape(const State& state) {
+/// The worst shape before, of the whole mesh.
+double worst_shape_before(const State& state) {
   const Mesh& mesh = state.input.mesh;
-  double worst = 0;
   if (state.among) {
     const std::vector<Index> own = indices_where(mesh.n_hexes(), [&](Index h) { return state.among->own[h] != 0; });
-    worst = state.among->all({{}, own.empty() ? PartNumbers().least : summarize(quality(Metric::shape, mesh, own)).min})
-                .least;
-  } else {
-    worst = summarize(quality(Metric::shape, mesh)).min;
-    if (state.part) worst = std::min(worst, state.part->worst_shape_outside);
+    return state.among->all({{}, own.empty() ? PartNumbers().least : summarize(quality(Metric::shape, mesh, own)).min})
+        .least;
   }
-  return std::min(poor_shape, worst / 2);
+  const double worst = summarize(quality(Metric::shape, mesh)).min;
+  return state.part ? std::min(worst, state.part->worst_shape_outside) : worst;
+}
+
+/// No shape is poor, or much worse than what was there. So that what comes out inverted elsewhere need not be repaired.
+bool is_good(const Candidate& candidate, const State& state) {
+  return candidate.sound &&
+         (candidate.worst_shape >= poor_shape || candidate.worst_shape >= worst_shape_before(state) / 2);
+}
+/// So that nothing nearer needs to be looked for.
+bool is_well_met(const Candidate& candidate, const State& state) {
+  return candidate.met >= well_met && is_good(candidate, state);
 }
 
 /// give_up_above: there is a good result already, and this is a second try; 0: there is none. Nothing: given up.
@@ -160,6 +164,7 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
     if (by_whole.empty()) by_whole = candidate.report.has_smoothed ? smoothed_together : candidate.report.by_whole;
   }
   candidate.straight = state.take_straight();
+  judge(candidate, from);
   return candidate;
 }
 
@@ -169,14 +174,13 @@ struct SecondTry {
   std::optional<Candidate> made;
   bool is_too_large = false;
 };
-SecondTry second_try(const State& from, const Report& start, Approach approach, Candidate& there, double least_shape) {
+SecondTry second_try(const State& from, const Report& start, Approach approach, Candidate& there) {
   SecondTry result;
   const auto begin = std::chrono::steady_clock::now();
   const std::int64_t most = std::int64_t{most_times_more} * there.n_hexes;
-  const bool may_give_up = is_good(there, least_shape);
+  const bool may_give_up = is_good(there, from);
   try {
     result.made = attempt(from, start, approach, may_give_up ? std::max<std::int64_t>(most - n_outside(from), 1) : 0);
-    if (result.made) judge(*result.made, from);
     if (may_give_up && result.made && result.made->n_hexes > most) {  // parts find that out at the end
       result.made.reset();
       result.is_too_large = true;
@@ -265,17 +269,17 @@ bool are_uneven(const State& state, const SizeWish& wish, int by) {
 
 /// What is too long in some directions only may be cut in these first: where hexes are that uneven, and sizes and
 /// shapes come out better, or directions do and sizes well.
-Candidate or_by_directions(Candidate taken, const State& state, const Report& start, double least_shape) {
+Candidate or_by_directions(Candidate taken, const State& state, const Report& start) {
   if (state.request.method != Method::automatic || !is_regular(state.request)) return taken;
   const std::shared_ptr<const SizeWish> wish = size_wish(state);
-  if (!are_uneven(state, *wish, is_well_met(taken, least_shape) ? 2 : 1)) return taken;
-  SecondTry tried = second_try(state, start, Approach::size_by_directions, taken, least_shape);
+  if (!are_uneven(state, *wish, is_well_met(taken, state) ? 2 : 1)) return taken;
+  SecondTry tried = second_try(state, start, Approach::size_by_directions, taken);
   if (!tried.made) return taken;
   Candidate& directions = *tried.made;
   if (directions.n_hexes > std::int64_t{most_times_more} * taken.n_hexes) return taken;
   const bool are_nearer =
       part_of_directions(directions, state, *wish) > part_of_directions(taken, state, *wish) + near_tie;
-  if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions, least_shape))) return taken;
+  if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions, state))) return taken;
   return preferred(std::move(directions), taken, "directions that are too long by themselves first, then whole hexes",
                    start);
 }
@@ -286,12 +290,11 @@ bool is_same(const Candidate& levels, const Candidate& nested, const State& stat
 }
 
 /// By threes: by levels, nested, or whichever is better.
-Candidate by_threes(const State& state, const Report& start, double least_shape) {
+Candidate by_threes(const State& state, const Report& start) {
   if (!is_regular(state.request)) return *attempt(state, start, Approach::size_by_threes);
   Candidate levels = *attempt(state, start, Approach::size_by_levels);
-  judge(levels, state);
-  if (is_well_met(levels, least_shape)) return levels;
-  SecondTry nested = second_try(state, start, Approach::size_by_threes, levels, least_shape);
+  if (is_well_met(levels, state)) return levels;
+  SecondTry nested = second_try(state, start, Approach::size_by_threes, levels);
   if (!nested.made) {
     if (!nested.is_too_large)
       levels.report.notices.push_back(
@@ -311,14 +314,9 @@ std::int64_t n_hexes_before(const State& state) {
 /// Edges at the target are held to the wish one by one, hexes by their volume: these may all have been near it.
 void tell_of_sizes_before(State& state, Candidate& taken) {
   if (state.among) return;
-  const auto met = [](const SizeReport& sizes) {
-    return sizes.ratio.empty()
-               ? 0.0
-               : 1 - static_cast<double>(sizes.n_coarser + sizes.n_finer) / static_cast<double>(sizes.ratio.size());
-  };
-  const double before = state.part ? met(state.part->all.report(state.part->all.region)) : [&] {
+  const double before = state.part ? part_met(state.part->all.report(state.part->all.region)) : [&] {
     const SizesOfAll all(state.input, state.request);
-    return met(all.report(all.region));
+    return part_met(all.report(all.region));
   }();
   if (before > taken.met + near_tie)
     taken.report.notices.push_back(
@@ -336,14 +334,11 @@ void run_nearest_size(State& state) {
   const bool may_mix = may_halve(request) || (request.method != Method::single && may_combine(request.target, sizes));
   state.stages.close();  // those of the candidates count
   const Report start = state.report;
-  const double least_shape = least_good_shape(state);
-  Candidate taken = by_threes(state, start, least_shape);
-  judge(taken, state);
+  Candidate taken = by_threes(state, start);
   const bool cuts_anything = taken.n_hexes > n_hexes_before(state);
   SecondTry mixed;
   if (may_mix && cuts_anything)
-    mixed =
-        second_try(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, taken, least_shape);
+    mixed = second_try(state, start, varies ? Approach::size_by_combination : Approach::size_by_halves, taken);
   if (mixed.made && mixed.made->has_done)
     taken = better_of(std::move(*mixed.made), std::move(taken),
                       varies ? "the combination for the last passes at the target, else whole hexes"
@@ -351,7 +346,7 @@ void run_nearest_size(State& state) {
                       varies ? "whole hexes alone, not the combination at the target as well"
                              : "one into 27 alone, not one into eight as well",
                       start);
-  if (cuts_anything) taken = or_by_directions(std::move(taken), state, start, least_shape);
+  if (cuts_anything) taken = or_by_directions(std::move(taken), state, start);
   if (cuts_anything && taken.met < well_met) tell_of_sizes_before(state, taken);
   if (state.among) state.among->taken = taken.number;
   state.report = std::move(taken.report);
