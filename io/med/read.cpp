@@ -1,4 +1,6 @@
 // MED (SALOME, code_aster) through its library: groups by families, nodal and element fields of the last step.
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 #include <utility>
@@ -23,6 +25,43 @@ constexpr GeoType refused[] = {{310, 10, "tetrahedron of 10 nodes"},
 constexpr GeoType dropped[] = {{103, 3, "SEG3"}, {104, 4, "SEG4"}, {206, 6, "TRIA6"}, {207, 7, "TRIA7"}};
 constexpr GeoType hexes[] = {{MED_HEXA8, 8, ""}, {MED_HEXA20, 20, ""}, {MED_HEXA27, 27, ""}};
 constexpr GeoType quads[] = {{MED_QUAD4, 4, ""}, {MED_QUAD8, 8, ""}, {MED_QUAD9, 9, ""}};
+
+/// Values as a file has them, as doubles. get: fills an array of n of them; what it can't is none.
+using MedGet = std::function<bool(unsigned char*)>;
+template <class Number>
+std::vector<double> med_values(std::size_t n, const MedGet& get, std::int64_t& n_rounded) {
+  std::vector<Number> values(n);
+  if (!get(reinterpret_cast<unsigned char*>(values.data()))) return {};
+  n_rounded += std::ranges::count_if(values, [](Number x) { return !is_exact_double(x); });
+  return {values.begin(), values.end()};
+}
+
+/// How values of a type are read; nothing: of no type that is known.
+struct MedNumbers {
+  std::vector<double> (*read)(std::size_t n, const MedGet& get, std::int64_t& n_rounded) = nullptr;
+  bool integer = false;
+};
+MedNumbers numbers_of(med_field_type type) {
+  switch (type) {
+    case MED_FLOAT64:
+      return {med_values<double>};
+    case MED_FLOAT32:
+      return {med_values<float>};
+    case MED_INT32:
+      return {med_values<std::int32_t>, true};
+    case MED_INT64:
+      return {med_values<std::int64_t>, true};
+    case MED_INT:
+      return {med_values<med_int>, true};
+    default:
+      return {};
+  }
+}
+
+/// Whether names or units of components say more than our writer's numbers do.
+bool says_something(std::string_view of_components) {
+  return std::ranges::any_of(of_components, [](char c) { return c != '\0' && c != ' ' && (c < '0' || c > '9'); });
+}
 
 class MedReader {
  public:
@@ -219,6 +258,7 @@ class MedReader {
 
   void fields(MeshFile& out) {
     const med_int n = MEDnField(file_.id());
+    std::vector<std::string> named;
     for (int f = 1; f <= n; ++f) {
       const med_int n_components = MEDfieldnComponent(file_.id(), f);
       if (n_components < 1 || n_components > 1000) continue;
@@ -232,43 +272,51 @@ class MedReader {
                        time.data(), &n_steps) < 0)
         fail("field " + std::to_string(f) + " cannot be read (damaged file)");
       if (mesh_ != mesh.data() || n_steps < 1) continue;
-      if (type != MED_FLOAT64) {
-        out.notices.push_back("field '" + std::string(field.data()) + "' is not of double numbers: left out");
+      const MedNumbers numbers = numbers_of(type);
+      if (!numbers.read) {
+        out.notices.push_back("field '" + std::string(field.data()) + "' is of numbers of an unknown kind: left out");
         continue;
       }
+      if (says_something(components) || says_something(units)) named.push_back("'" + std::string(field.data()) + "'");
       if (n_steps > 1)
         out.notices.push_back("field '" + std::string(field.data()) + "' has " + std::to_string(n_steps) +
                               " steps: the last is read");
       med_int step = MED_NO_DT, iteration = MED_NO_IT;
       med_float at = 0;
       MEDfieldComputingStepInfo(file_.id(), field.data(), static_cast<int>(n_steps), &step, &iteration, &at);
+      std::int64_t n_rounded = 0;
       const auto read = [&](med_entity_type entity, med_geometry_type geo, std::size_t n_items) {
-        std::vector<double> values;
         if (MEDfieldnValue(file_.id(), field.data(), step, iteration, entity, geo) != static_cast<med_int>(n_items))
-          return values;
-        values.resize(n_items * static_cast<std::size_t>(n_components));
-        if (MEDfieldValueRd(file_.id(), field.data(), step, iteration, entity, geo, MED_FULL_INTERLACE,
-                            MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data())) < 0)
-          values.clear();
-        return values;
+          return std::vector<double>();
+        return numbers.read(
+            n_items * static_cast<std::size_t>(n_components),
+            [&](unsigned char* values) {
+              return MEDfieldValueRd(file_.id(), field.data(), step, iteration, entity, geo, MED_FULL_INTERLACE,
+                                     MED_ALL_CONSTITUENT, values) >= 0;
+            },
+            n_rounded);
       };
       const auto width = static_cast<std::size_t>(n_components);
       const auto put = [&](Field::On on, std::span<const std::int64_t> ids, const std::vector<double>& values) {
         if (values.empty()) return false;
         const std::size_t n_items = on == Field::On::node ? out.mesh.points.size() : out.mesh.hexes.size();
-        Field result{field.data(), on, static_cast<int>(n_components), {}};
-        result.values.assign(n_items * width, std::numeric_limits<double>::quiet_NaN());
+        std::vector<Field>& fields = out.mesh.fields;
+        if (fields.empty() || fields.back().name != field.data() || fields.back().on != on) {
+          fields.push_back({field.data(), on, static_cast<int>(n_components), {}, numbers.integer});
+          fields.back().values.assign(n_items * width, std::numeric_limits<double>::quiet_NaN());
+        }
+        Field& result = fields.back();  // of all kinds of hexes
         for (std::size_t i = 0; i < ids.size(); ++i) {
           const Index item = on == Field::On::node ? find_node(out.mesh, ids[i]) : find_hex(out.mesh, ids[i]);
           if (item < 0) continue;  // a middle node
           for (std::size_t c = 0; c < width; ++c) result.values[item * width + c] = values[i * width + c];
         }
-        out.mesh.fields.push_back(std::move(result));
         return true;
       };
       const std::vector<std::int64_t> node_ids(node_ids_.begin(), node_ids_.end());
       bool any = put(Field::On::node, node_ids, read(MED_NODE, MED_NONE, node_ids.size()));
       for (const auto& [geo, ids] : hex_ids_) any |= put(Field::On::hex, ids, read(MED_CELL, geo, ids.size()));
+      say_rounded(field.data(), n_rounded, out.notices);
       std::int64_t n_lost = 0;
       const auto lose = [&](med_entity_type entity, med_geometry_type geo) {
         n_lost += std::max<std::int64_t>(0, MEDfieldnValue(file_.id(), field.data(), step, iteration, entity, geo));
@@ -284,6 +332,11 @@ class MedReader {
       if (!any)
         out.notices.push_back("field '" + std::string(field.data()) + "' has no value per node or hex: left out");
     }
+    for (Field& field : out.mesh.fields)  // no whole number says that there is none
+      field.integer = field.integer && std::ranges::none_of(field.values, [](double x) { return std::isnan(x); });
+    if (!named.empty())
+      out.notices.push_back("names and units of the components of " + counted(std::ssize(named), "field") +
+                            " are left out: " + joined(named, ", "));
   }
 
   const std::string name_;

@@ -1,5 +1,9 @@
 // MED through its library: blocks and side sets are groups of elements, node sets groups of nodes; who is in the same
 // groups is a family.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
 #include "hextwist/base/replacement.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/io/field_names.h"
@@ -248,7 +252,6 @@ class MedWriter {
 
   void fields() {
     say_values_of_others(mesh_, "MED", notices_);
-    say_whole_numbers(mesh_, "MED", notices_);
     std::set<std::string> taken;
     for (const Field& field : mesh_.fields) {
       const std::string name = distinct_field_name(
@@ -261,14 +264,27 @@ class MedWriter {
         components += text;
         units += std::string(MED_SNAME_SIZE, ' ');
       }
-      check(MEDfieldCr(file_.id(), name.c_str(), MED_FLOAT64, field.components, components.c_str(), units.c_str(),
-                       med_text("", MED_SNAME_SIZE + 1).c_str(), mesh_name));
-      const bool node = field.on == Field::On::node;
-      check(MEDfieldValueWr(file_.id(), name.c_str(), MED_NO_DT, MED_NO_IT, 0, node ? MED_NODE : MED_CELL,
-                            node ? med_geometry_type{MED_NONE} : type_, MED_FULL_INTERLACE, MED_ALL_CONSTITUENT,
-                            static_cast<med_int>(node ? mesh_.points.size() : mesh_.hexes.size()),
-                            reinterpret_cast<const unsigned char*>(field.values.data())));
+      const auto put = [&](med_field_type type, const auto& values) {
+        check(MEDfieldCr(file_.id(), name.c_str(), type, field.components, components.c_str(), units.c_str(),
+                         med_text("", MED_SNAME_SIZE + 1).c_str(), mesh_name));
+        const bool node = field.on == Field::On::node;
+        check(MEDfieldValueWr(file_.id(), name.c_str(), MED_NO_DT, MED_NO_IT, 0, node ? MED_NODE : MED_CELL,
+                              node ? med_geometry_type{MED_NONE} : type_, MED_FULL_INTERLACE, MED_ALL_CONSTITUENT,
+                              static_cast<med_int>(node ? mesh_.points.size() : mesh_.hexes.size()),
+                              reinterpret_cast<const unsigned char*>(values.data())));
+      };
+      if (!is_whole(field))
+        put(MED_FLOAT64, field.values);
+      else if (std::ranges::all_of(field.values, fits_in_32_bits))
+        put(MED_INT32, std::vector<std::int32_t>(field.values.begin(), field.values.end()));
+      else
+        put(MED_INT64, std::vector<std::int64_t>(field.values.begin(), field.values.end()));
     }
+  }
+
+  static bool fits_in_32_bits(double value) {
+    return value == std::clamp<double>(value, std::numeric_limits<std::int32_t>::min(),
+                                       std::numeric_limits<std::int32_t>::max());
   }
 
   const Replacement& replacement_;

@@ -318,10 +318,16 @@ class NekReader {
       for (double& x : numbers) x = real("a number of a condition");
       const std::string kind = code();
       if (kind.empty() || kind == "E") continue;  // none, or between elements
-      if (kind == "P" || kind == "p") periodic_ = true;
+      const bool is_pair = kind == "P" || kind == "p";
+      periodic_ = periodic_ || is_pair;
       const double number = numbers[4];
-      const bool numbered = number >= 1 && number <= std::numeric_limits<int>::max() && number == std::floor(number) &&
-                            kind != "P" && kind != "p";
+      const bool numbered =
+          number >= 1 && number <= std::numeric_limits<int>::max() && number == std::floor(number) && !is_pair;
+      const auto n_values = numbers.begin() + (numbered ? 4 : 5);
+      constexpr std::string_view no_values = " W A SYM I O MSH EXO CGN ";  // some programs leave numbers there
+      if (!is_pair && no_values.find(" " + kind + " ") == std::string_view::npos &&
+          std::any_of(numbers.begin(), n_values, [](double x) { return x != 0; }))
+        ++valued_[kind];
       const int id = numbered ? static_cast<int>(number) : 0;
       sides_[{id, kind, numbered ? 1 : field}].push_back({element, nek_sides[side]});
     }
@@ -341,6 +347,9 @@ class NekReader {
         if (field > 1) set.name += " field " + std::to_string(field);
         set.sides = std::move(sides);
       }
+    for (const auto& [kind, count] : valued_)
+      out_.notices.push_back("values of " + counted(count, "condition") + " '" + kind + "' are left out: sides here " +
+                             "have a code and a number");
     if (periodic_) out_.notices.emplace_back("which sides are periodic pairs is left out; they are the side sets 'P'");
   }
 
@@ -351,6 +360,7 @@ class NekReader {
   std::vector<Vec3> corners_;  // of all elements
   std::vector<int> groups_;
   std::map<std::tuple<int, std::string, int>, std::vector<Side>> sides_;  // by number, code, list
+  std::map<std::string, std::int64_t> valued_;                            // conditions with values, by code
 };
 
 }  // namespace

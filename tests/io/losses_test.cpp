@@ -180,6 +180,34 @@ TEST(losses, values_of_med_on_quads_are_told) {
   EXPECT_TRUE(test::told(read.notices, "field 'T': 2 values left out, which are not of a node or hex"));
 }
 
+TEST(losses, whole_numbers_of_med_stay_whole) {
+  if (!test::has_format(".med") || std::system("/usr/bin/python3 -c 'import h5py' > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "built without MED, or no python3 with h5py";
+  const auto folder = test::output_folder();
+  Mesh mesh = test::grid(2, 1, 1);
+  mesh.fields = {{"part", Field::On::hex, 1, {7, -3}, true},
+                 {"large", Field::On::hex, 2, {0x1p40, 1, 2, 3}, true},
+                 {"T", Field::On::node, 1, std::vector<double>(mesh.points.size(), 0.5)}};
+  EXPECT_TRUE(write_mesh(folder / "a.med", mesh, nullptr).empty());
+  MeshFile read = read_mesh(folder / "a.med");
+  std::ranges::sort(read.mesh.fields, std::ranges::greater{}, &Field::name);
+  std::ranges::sort(mesh.fields, std::ranges::greater{}, &Field::name);
+  EXPECT_EQ(read.mesh.fields, mesh.fields);
+  EXPECT_TRUE(read.notices.empty());
+  // Another hand: what is there is integers in HDF5, and components have names.
+  const auto script = test::write_text(
+      folder / "script.py",
+      "import h5py\nimport numpy\nfile = h5py.File('" + (folder / "a.med").string() +
+          "', 'a')\nfor name, size in (('part', 4), ('large', 8)):\n  for step in file['CHA/' + name].values():\n    "
+          "values = [x for x in step['MAI.HE8'].values()][0]['CO']\n    assert values.dtype.kind == 'i', "
+          "values.dtype\n    "
+          "assert values.dtype.itemsize == size\nfile['CHA/T'].attrs['NOM'] = numpy.bytes_('TEMP            "
+          "')\nfile.close()\n");
+  ASSERT_EQ(std::system(("/usr/bin/python3 '" + script.string() + "'").c_str()), 0);
+  EXPECT_TRUE(test::told(read_mesh(folder / "a.med").notices,
+                         "names and units of the components of 1 field are left out: 'T'"));
+}
+
 TEST(losses, normals_and_tangents_of_medit_are_told) {
   const auto folder = test::output_folder();
   const auto read = read_mesh(

@@ -42,12 +42,13 @@ std::string nek_cubes(int version, bool swapped, int n_fluid = 2, const std::str
   entry(1, 1, {0.5, -0.1, 0, 0, 0}, "m");
   entry(2, 12, {1.5, 1.25, 0.5, 0, 0}, "m");
   entry(2, 1, {3, 0, 0, 0, 0}, "C");
-  file += word(5, true);
+  file += word(6, true);
   entry(1, 4, {0, 0, 0, 0, 7}, "MSH");
   entry(2, 2, {0, 0, 0, 0, 0}, "O");
   entry(1, 2, {2, 4, 0, 0, 0}, "E");
   entry(1, 5, {0, 0, 0, 0, 0}, "W");
   entry(2, 5, {1, 5, 0, 0, 0}, "W");
+  entry(2, 6, {0, 0, 2.5, 0, 0}, "V");
   return file + tail;
 }
 
@@ -61,7 +62,8 @@ TEST(nek_files, of_all_versions_and_byte_orders_are_understood) {
       EXPECT_NEAR(volume(read.mesh), 2, 1e-5);
       EXPECT_EQ(read.mesh.blocks, (std::vector<Block>{{4, "", {1}}}));
       EXPECT_EQ(read.mesh.side_sets,
-                (std::vector<SideSet>{{7, "", {{0, 0}}}, {8, "O", {{1, 1}}}, {9, "W", {{0, 4}, {1, 4}}}}));
+                (std::vector<SideSet>{
+                    {7, "", {{0, 0}}}, {8, "O", {{1, 1}}}, {9, "V", {{1, 5}}}, {10, "W", {{0, 4}, {1, 4}}}}));
       EXPECT_EQ(read.middles.nodes_per_hex, 20);
       ASSERT_EQ(read.middles.edges.size(), 2U);
       EXPECT_NEAR((read.middles.edge_points[0] - Vec3(0.5, -0.1, 0)).norm(), 0, 1e-7);
@@ -71,6 +73,8 @@ TEST(nek_files, of_all_versions_and_byte_orders_are_understood) {
       EXPECT_NEAR((read.mesh.points[a] + read.mesh.points[b] - Vec3(2, 2, 1)).norm(), 0, 1e-5);
       EXPECT_TRUE(test::told(read.notices, "corners of elements were merged by their places: 16 to 12 nodes"));
       EXPECT_TRUE(test::told(read.notices, "1 curved side of kind 'C' left out: it is straight here"));
+      EXPECT_TRUE(test::told(read.notices, "values of 1 condition 'V' are left out"));
+      EXPECT_FALSE(test::told(read.notices, "'W' are left out"));
     }
 }
 
@@ -85,7 +89,9 @@ TEST(nek_files, solid_elements_come_last_and_back) {
   const Mesh back = read_mesh(folder / "b.re2").mesh;
   EXPECT_EQ(back.blocks, (std::vector<Block>{{4, "", {0}}, {5, "fluid", {0}}, {6, "solid", {1}}}));
   EXPECT_EQ(volume(back, 0), volume(mesh, 1));
-  EXPECT_EQ(back.side_sets, (std::vector<SideSet>{{7, "", {{1, 0}}}, {8, "O", {{0, 1}}}, {9, "W", {{0, 4}, {1, 4}}}}));
+  EXPECT_EQ(
+      back.side_sets,
+      (std::vector<SideSet>{{7, "", {{1, 0}}}, {8, "O", {{0, 1}}}, {9, "V", {{0, 5}}}, {10, "W", {{0, 4}, {1, 4}}}}));
 }
 
 /// A crack along a face, closed or nearly: readers know nodes by their places.
@@ -147,7 +153,7 @@ TEST(nek_files, what_is_wrong_is_said_with_its_byte) {
   says(with(curves + 16, number(13)), ", byte 500: edge 13 is not between 1 and 12");
   const std::size_t conditions = curves + 8 + 3 * 64;
   says(with(conditions + 16, number(7)), ", byte 700: side 7 is not between 1 and 6");
-  says(good.substr(0, good.size() - 8), ", byte 692: the file is too short for 5 the number of conditions");
+  says(good.substr(0, good.size() - 8), ", byte 692: the file is too short for 6 the number of conditions");
   std::string flat = good;
   for (std::size_t c = 0; c < 8; ++c) flat.replace(92 + 64 + 8 * c, 8, number(0));
   says(flat, ": element 1 is a tetrahedron (a hex with repeated nodes); only hexes of 8, 20 or 27 nodes are accepted");
