@@ -79,10 +79,10 @@ std::string run(const Options& options, Session& session, Console& console) {
     attempt_step(once([&] { session.export_mesh(options.output); }));
     return error;
   }
-  if (options.safe) attempt_step([&] { return session.run("set safe on"); });
+  if (options.safe && !attempt_step([&] { return session.run("set safe on"); })) return error;
   session.set_keep_going(options.keep_going);
   for (const Step& step : options.steps) {
-    if (session.finished() || ending_signal()) break;
+    if (ending_signal()) break;
     const bool ok = attempt_step([&] { return step.is_file ? session.playback(step.text) : session.run(step.text); });
     if (!ok && !options.keep_going) return error;
   }

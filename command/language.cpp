@@ -359,7 +359,7 @@ const std::vector<CommandSpec> table = {
     {"sideset",
      "sideset <id> {{face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
      "|add {face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}] [name <text>]"
-     "|remove {face|surface|group} <range> ...|name <text>}",
+     "|remove {face|surface|group} <range> ... [wrt {volume|block|hex} <which>] [{forward|reverse|both}]|name <text>}",
      "define a side set",
      "Adds the sides of hexes at the faces, or takes them out of the set. A face between two hexes has two sides: "
      "'forward' (the default) is that of the volume with the lower id (within a volume, of the hex with the lower id), "

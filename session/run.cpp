@@ -84,6 +84,8 @@ class Script {
           throw error_at(statements_[i], statements_[i].tokens[0],
                          "this is not known here: say it with {if(...)}, {elseif(...)}, {else} and {endif}");
       }
+      if (core_.state.finished && i + 1 < to && core_.callbacks.notice)
+        core_.callbacks.notice("what stands behind '" + text_of(statements_[i]) + "' is left out");
     }
   }
 

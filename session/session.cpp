@@ -40,6 +40,7 @@ bool Session::finished() const {
 }
 
 int Session::run(std::string_view text, std::string_view source_name, int first_line) {
+  if (finished()) throw Error("this session has ended: 'quit' was run in it");
   return run_text(*core_, text, source_name, first_line);
 }
 void Session::import_cad(const std::filesystem::path& file) {

@@ -8,13 +8,14 @@
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/lift.h"
+#include "hextwist/mesh/smooth/lift_together.h"
 
 namespace hextwist {
 namespace {
 
-/// Which new nodes may move, for hexes below which scaled Jacobian: the smallest freedom first, and the worst hexes
-/// first, as nodes that went for the sake of fair ones are in their way. By trying on all shipped models and on boxes
-/// (docs/design.md).
+/// Which new nodes may move one by one, for hexes below which scaled Jacobian: the smallest freedom first, and the
+/// worst hexes first, as nodes that went for the sake of fair ones are in their way. By trying on all shipped models
+/// and on boxes (docs/design.md).
 struct Freedom {
   double wanted;
   bool on_cad;
@@ -40,7 +41,8 @@ constexpr double perfect = 0.9999;
 }  // namespace
 
 std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
-                                  std::span<const Index> of_boxes, const BoundsOfAll& of_all) {
+                                  std::span<const Index> cell, std::span<const Index> of_boxes,
+                                  const BoundsOfAll& of_all) {
   Mesh& mesh = refined.mesh;
   std::vector<std::uint8_t> is_new(mesh.points.size(), 0);
   for (const Index n : new_nodes) is_new[n] = 1;
@@ -52,10 +54,6 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   if (intersection(low_now, of_boxes).empty() && hexes_below(mesh, lift_others_below, low_now).empty()) return {};
   const std::vector<Index> near = intersection(with_layers(mesh, low_now, 1), hexes);
   const std::vector<Index> near_of_boxes = intersection(near, of_boxes);
-  const auto low_ones = [&](const Freedom& freedom) {
-    return hexes_below(mesh, freedom.wanted, freedom.of_boxes ? near_of_boxes : near);
-  };
-
   if (!refined.association.empty())  // along curves they stay as even as they are
     std::erase_if(new_nodes, [&](Index n) { return refined.association.node_owner[n].dim == 1; });
   const std::vector<Index> around = intersection(with_layers(mesh, near, 1), hexes);
@@ -70,7 +68,7 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   const std::vector<Vec3> before = mesh.points;
   for (int f = 0; f < n_freedoms; ++f) {
     const Freedom& freedom = freedoms[f];
-    std::vector<Index> low = low_ones(freedom);
+    std::vector<Index> low = hexes_below(mesh, freedom.wanted, freedom.of_boxes ? near_of_boxes : near);
     if (low.empty()) continue;
     options.fix_boundary = !freedom.on_cad;
     options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
@@ -78,6 +76,12 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
     if (of_all) bounds = [&](std::span<const Index> of) { return of_all(f, of, freedom.wanted); };
     lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps,
                           bounds);
+  }
+  // What is low still is held by its neighbours.
+  if (std::vector<Index> low = hexes_below(mesh, lift_others_below, near); !low.empty()) {
+    options.fix_boundary = true;
+    options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), 1)));
+    lift_together(mesh, refined.association, refined.model.get(), options, cell, lift_others_below, before);
   }
   return indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });
 }

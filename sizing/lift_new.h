@@ -19,9 +19,11 @@ using BoundsOfAll = std::function<Bounds(int freedom, std::span<const Index> hex
 inline constexpr int n_freedoms = 10;
 
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
-/// nodes on curves and those of cubes stay. of_boxes: hexes, ascending, that came of boxes, which are lifted further.
+/// nodes on curves and those of cubes stay. cell: per hex what it was cut out of; nodes of
+/// one move together. of_boxes: hexes, ascending, that came of boxes, which are lifted further.
 /// In the end, once: passes to come cut hexes as the templates made them. Returns the nodes that moved, ascending.
 std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_nodes, const Finish& finish,
-                                  std::span<const Index> of_boxes = {}, const BoundsOfAll& of_all = {});
+                                  std::span<const Index> cell, std::span<const Index> of_boxes = {},
+                                  const BoundsOfAll& of_all = {});
 
 }  // namespace hextwist

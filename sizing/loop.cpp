@@ -260,7 +260,8 @@ bool State::lift(std::span<const Index> low) {
     of_all = [&](int freedom, std::span<const Index> hexes, double wanted) {
       return bounds_of_all(freedom, mesh(), hexes, result_.origin, wanted);
     };
-  const std::vector<Index> moved = lift_new_hexes(result_.refined, std::move(nodes), finish, of_boxes(low), of_all);
+  const std::vector<Index> moved =
+      lift_new_hexes(result_.refined, std::move(nodes), finish, result_.origin, of_boxes(low), of_all);
   result_.smoothed = union_of(result_.smoothed, moved);
   return !moved.empty();
 }

@@ -112,6 +112,24 @@ void LiveSession::work(const std::stop_token& stop) {
   }
 }
 
+void LiveSession::begin() {
+  std::exception_ptr problem;
+  try {
+    begin_(session_);
+  } catch (...) {
+    problem = std::current_exception();
+  }
+  // Whatever has become of the rest, also where it was cancelled or took too long.
+  {
+    const std::lock_guard lock(mutex_);
+    began_ = Clock::now();
+    cancelled_ = false;
+  }
+  session_.run("set safe on");
+  is_safe_ = true;
+  if (problem) std::rethrow_exception(problem);
+}
+
 void LiveSession::carry_out(const std::string& text) {
   bool is_changed = text.empty();
   std::string error;
@@ -126,9 +144,11 @@ void LiveSession::carry_out(const std::string& text) {
     before_.reset();
     try {
       if (text.empty())
-        begin_(session_);
-      else
+        begin();
+      else if (is_safe_)
         session_.run(text);
+      else
+        error = "this session could not be made safe: nothing is run in it";
     } catch (const std::bad_alloc&) {
       error = "out of memory";
     } catch (const std::exception& problem) {
@@ -143,6 +163,7 @@ void LiveSession::carry_out(const std::string& text) {
   }
   if (!error.empty()) tell(text_of({{"kind", "error"}, {"text", "error: " + error}}));
   const std::lock_guard lock(mutex_);
+  has_quit_ = session_.finished();
   if (is_changed) ++version_;
   running_ = false;
   changed_.notify_all();

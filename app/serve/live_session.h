@@ -55,6 +55,8 @@ class LiveSession {
   bool has_written(const std::string& file);
 
   std::chrono::steady_clock::time_point last_seen();
+  /// A command has ended it.
+  bool has_quit() const { return has_quit_; }
   /// Its page was closed, or is being loaded anew.
   void leave();
   /// It is there again.
@@ -65,6 +67,7 @@ class LiveSession {
  private:
   using Clock = std::chrono::steady_clock;
   void work(const std::stop_token& stop);
+  void begin();
   void carry_out(const std::string& text);
   void tell(std::string event);
   void note_files(std::size_t first_record);
@@ -91,6 +94,8 @@ class LiveSession {
   std::vector<std::string> written_;
   Clock::time_point seen_ = Clock::now(), began_ = Clock::now();
   std::atomic<bool> cancelled_ = false, too_long_ = false;
+  bool is_safe_ = false;  // of the worker
+  std::atomic<bool> has_quit_ = false;
 
   std::jthread worker_;  // the last one: it uses all the others
 };

@@ -96,13 +96,16 @@ class Server {
     for (const std::string& name :
          {is_ip6 ? "[" + options_.address + "]" : options_.address, std::string("localhost"), std::string("127.0.0.1")})
       hosts_.push_back(name + ":" + std::to_string(port));
+    if (constexpr int usual_port = 80; port == usual_port)  // which browsers leave out
+      for (std::size_t i = 0; i < 3; ++i) hosts_.push_back(hosts_[i].substr(0, hosts_[i].rfind(':')));
+    std::jthread listener([this] { http_.listen_after_bind(); });
+    while (!http_.is_running()) std::this_thread::sleep_for(1ms);  // before that, it could not be stopped
     std::printf("http://%s/?token=%s\nOpen it in a browser on this machine; Ctrl-C ends.\n", hosts_.front().c_str(),
                 token_.c_str());
     if (options_.address != "127.0.0.1" && options_.address != "localhost" && options_.address != "::1")
       std::printf("note: everybody who reaches %s and knows the token may run commands here\n",
                   options_.address.c_str());
     std::fflush(stdout);
-    std::jthread listener([this] { http_.listen_after_bind(); });
     while (!take_interrupt() && !ending_signal()) {
       std::this_thread::sleep_for(100ms);
       end_sessions_unseen_for(idle_time);
@@ -165,10 +168,10 @@ class Server {
     return std::make_shared<LiveSession>(
         stem.empty() ? "hextwist" : stem.string(),
         [this](Session& session) {
+          if (options_.threads > 0) session.run("set threads " + std::to_string(options_.threads));
           if (!options_.cad.empty()) session.import_cad(options_.cad);
           if (!options_.mesh.empty()) session.import_mesh(options_.mesh);
           for (const Step& step : options_.steps) step.is_file ? session.playback(step.text) : session.run(step.text);
-          session.run("set safe on");
         },
         options_.most_seconds);
   }
@@ -178,7 +181,7 @@ class Server {
     if (!body.is_object()) return refuse(response, 400, "this is not a JSON object");
     std::string id = body.contains("id") && body["id"].is_string() ? body["id"].get<std::string>() : "";
     const std::shared_ptr<LiveSession> before = id.empty() ? nullptr : session(id);
-    const bool is_known = before != nullptr;
+    const bool is_known = before && !before->has_quit();
     if (is_known) before->come_back();
     if (!is_known) {
       if (n_sessions() >= most_sessions) end_sessions_unseen_for(left_time, true);

@@ -228,10 +228,14 @@ class CriterionReader {
   }
 
   Criterion comparison() {
-    Criterion left = sum();
+    // `x_coord -1 to 1` is no difference.
+    const bool is_span = reader_.peek().kind == Token::Kind::word && reader_.ahead().kind == Token::Kind::number &&
+                         reader_.ahead(2).kind == Token::Kind::word && same_word(reader_.ahead(2).text, "to");
+    Criterion left = is_span ? factor() : sum();
     const Token token = reader_.peek();
-    if (left.op == Op::attribute && !is_condition(left) && token.kind == Token::Kind::number)
-      return between(std::move(left), token);
+    const bool is_number =
+        token.kind == Token::Kind::number || (token.kind == Token::Kind::symbol && token.text == "(");
+    if (left.op == Op::attribute && !is_condition(left) && is_number) return between(std::move(left), token);
     const Op op = accept_sign(comparisons);
     if (op == Op::truth) {
       if (!is_condition(left)) reader_.expect("a comparison");

@@ -398,12 +398,19 @@ class RangeReader {
     return true;
   }
 
+  /// Only before these is a shortened word a kind: `hex in g with id < 9` is about what is called g.
+  bool ids_follow() const {
+    const Token& next = reader_.ahead();
+    return next.kind == Token::Kind::number || next.kind == Token::Kind::string || is_word(next, "all") ||
+           next.text == "(";
+  }
+
   bool accept_parenthesis(std::vector<RangeTerm>& terms, int nesting) {
     if (!reader_.at_symbol("(")) return false;
     reader_.take();
     bool first = true;
     do {
-      const auto kind = accept_kind(reader_, first);
+      const auto kind = accept_kind(reader_, first && ids_follow());
       first = false;
       if (kind)
         terms.push_back({*kind, false, range(*kind, Within::whole, nesting + 1)});
@@ -420,7 +427,7 @@ class RangeReader {
     // Further kinds must be written out, so that they can't be mistaken for shortened options.
     while (true) {
       if (accept_parenthesis(result, nesting)) continue;
-      const auto kind = accept_kind(reader_, result.empty());
+      const auto kind = accept_kind(reader_, result.empty() && ids_follow());
       if (kind)
         result.push_back({*kind, false, range(*kind, Within::term, nesting)});
       else if (!result.empty() || !accept_name(result))

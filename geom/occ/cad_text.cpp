@@ -59,12 +59,12 @@ std::string step_defect(std::string_view text) {
 }
 
 // The last section lists the shapes, each starting with a line of its two-letter kind; after them stands one line with
-// the reference of the root: "+1 0".
+// the reference of the root: "+1 0", or "-1 0" of a shape turned round.
 std::string brep_defect(std::string_view text) {
   const std::size_t section = text.rfind("\nTShapes ");
-  const std::size_t star = text.rfind('*'), plus = text.rfind('+'), end = text.find_last_not_of(blanks);
-  if (section == std::string_view::npos || star == std::string_view::npos || plus == std::string_view::npos ||
-      plus < star || end < plus + 3) {
+  const std::size_t star = text.rfind('*'), end = text.find_last_not_of(blanks);
+  const std::size_t root = star == std::string_view::npos ? star : text.find_first_of("+-", star);
+  if (section == std::string_view::npos || root == std::string_view::npos || end < root + 3) {
     return truncated(CadFormat::brep);
   }
   long announced = 0;

@@ -1,6 +1,7 @@
 #include "hextwist/geom/occ/heal_internal.h"
 
 #include <BOPAlgo_Builder.hxx>
+#include <BOPAlgo_MakerVolume.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -63,6 +64,35 @@ void rename(ShapeNames& names, const TopoDS_Shape& from, const TopoDS_Shape& to)
   if (found != names.end()) names.emplace(to.TShape().get(), std::string(found->second));
 }
 
+/// Does no edge join more than two faces? One at a seam has its face twice.
+bool is_manifold(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edge);
+  for (int i = 1; i <= faces_of_edge.Extent(); ++i)
+    if (faces_of_edge(i).Extent() > 2 && !BRep_Tool::Degenerated(TopoDS::Edge(faces_of_edge.FindKey(i)))) return false;
+  return true;
+}
+
+/// Faces of solids that touch, sewn: every region that they enclose is a solid. How many there are; with none the part
+/// stays as it is.
+int make_touching_solids(Part& part, const TopoDS_Shape& sewed) {
+  BOPAlgo_MakerVolume maker;
+  maker.SetNonDestructive(true);
+  maker.SetRunParallel(false);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(sewed, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) maker.AddArgument(faces(i));
+  maker.SetIntersect(true);
+  maker.Perform();
+  if (maker.HasErrors()) return 0;
+  const int n_solids = count_solids(maker.Shape());
+  if (n_solids == 0) return 0;
+  for (int i = 1; i <= faces.Extent(); ++i)
+    for (const TopoDS_Shape& to : maker.Modified(faces(i))) rename(part.names, faces(i), to);
+  part.shape = maker.Shape();
+  return n_solids;
+}
+
 }  // namespace
 
 int count_solids(const TopoDS_Shape& shape) {
@@ -74,6 +104,7 @@ void make_solids(Part& part) {
   if (n_faces == 0) return;
   const double tolerance = std::max(1e-6, 1e-6 * size_of(part.shape));
   BRepBuilderAPI_Sewing sewing(tolerance);
+  sewing.SetNonManifoldMode(true);  // else faces of solids that touch are paired as they come
   sewing.Add(part.shape);
   sewing.Perform();
   const TopoDS_Shape sewed = sewing.SewedShape();
@@ -81,9 +112,26 @@ void make_solids(Part& part) {
   for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
     if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
   }
+  if (!is_manifold(sewed)) {
+    const int n_solids = make_touching_solids(part, sewed);
+    if (n_solids == 0) {
+      part.notices.push_back("sewed " + std::to_string(n_faces) +
+                             " faces, of which more than two meet at some edges, and which bound no solid");
+      return;
+    }
+    part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + counted(n_solids, "solid") +
+                           ", which touch (tolerance " + short_number(tolerance, 3) + ")");
+    return;
+  }
   std::vector<TopoDS_Solid> solids;
   for (TopExp_Explorer shells(sewed, TopAbs_SHELL); shells.More(); shells.Next()) {
     if (BRep_Tool::IsClosed(shells.Current())) solids.push_back(solid_from(shells.Current()));
+  }
+  if (sewed.ShapeType() == TopAbs_FACE) {  // of one face: a sphere, a torus
+    TopoDS_Shell shell;
+    BRep_Builder().MakeShell(shell);
+    BRep_Builder().Add(shell, sewed);
+    if (BRep_Tool::IsClosed(shell)) solids.push_back(solid_from(shell));
   }
   if (solids.empty()) {
     part.notices.push_back("sewed " + std::to_string(n_faces) + " faces, but they do not close: " +

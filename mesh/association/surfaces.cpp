@@ -202,7 +202,17 @@ SurfaceMatch match_surfaces(const ModelFacts& facts, const Skin& skin, std::span
   }
   const auto open = [&](Index q) { return match.quad_surface[q] == 0; };
   const Hits near = hits(facts, skin, near_surfaces(facts, skin, open));
-  const std::vector<SurfaceCandidate> candidates = common_surfaces(skin, near, open);
+  std::vector<SurfaceCandidate> candidates = common_surfaces(skin, near, open);
+  // A datum plane or a sheet that was left over, of no volume, has only what no other surface has.
+  const auto bounds_volume = [&](const SurfaceCandidate& candidate) {
+    return !facts.surface_volumes[candidate.surface - 1].empty();
+  };
+  std::vector<std::uint8_t> has_better(skin.quads.size(), 0);
+  for (const SurfaceCandidate& candidate : candidates)
+    if (bounds_volume(candidate)) has_better[candidate.quad] = 1;
+  std::erase_if(candidates, [&](const SurfaceCandidate& candidate) {
+    return has_better[candidate.quad] && !bounds_volume(candidate);
+  });
   // Most quads have one candidate and need no score.
   std::vector<SurfaceCandidate> several;
   for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {

@@ -176,24 +176,32 @@ std::vector<std::uint8_t> levels_of(const Forest& forest) {
   return level;
 }
 
-std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> asked) {
+std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> asked, int n_levels) {
   const HandedHexes& hexes = forest.grown->hexes;
-  // The cell that the piece's own was cut out of.
-  const auto parent = [&](std::size_t piece) {
-    const LevelPieces::Leaf leaf = hexes.leaf_of_piece(piece);
-    return leaf.level == 0 ? LevelPieces::Leaf{-1, leaf.cell}
-                           : LevelPieces::Leaf{leaf.level - 1, cell_parent(leaf.cell)};
+  using Leaf = LevelPieces::Leaf;
+  // The cell that a cell was cut out of; level -1: one of the base.
+  const auto parent = [](const Leaf& leaf) {
+    return leaf.level == 0 ? Leaf{-1, leaf.cell} : Leaf{leaf.level - 1, cell_parent(leaf.cell)};
   };
   std::vector<Index> result;
-  std::vector<LevelPieces::Leaf> cells;
-  for (const Index h : asked)
-    if (h < hexes.n_whole())
+  std::vector<Leaf> cells;
+  for (const Index h : asked) {
+    if (h < hexes.n_whole()) {
       result.push_back(h);
-    else
-      cells.push_back(parent(static_cast<std::size_t>(h - hexes.n_whole())));
+      continue;
+    }
+    Leaf cell = hexes.leaf_of_piece(static_cast<std::size_t>(h - hexes.n_whole()));
+    for (int i = 0; i < n_levels && cell.level >= 0; ++i) cell = parent(cell);
+    cells.push_back(cell);
+  }
   sort_unique(cells);
   for (std::size_t i = 0; i < hexes.cell.size(); ++i)
-    if (std::ranges::binary_search(cells, parent(i))) result.push_back(hexes.n_whole() + static_cast<Index>(i));
+    for (Leaf cell = hexes.leaf_of_piece(i); cell.level >= 0;) {
+      cell = parent(cell);
+      if (!std::ranges::binary_search(cells, cell)) continue;
+      result.push_back(hexes.n_whole() + static_cast<Index>(i));
+      break;
+    }
   return result;
 }
 

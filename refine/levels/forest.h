@@ -72,8 +72,8 @@ LevelMarks wishes(const Forest& forest, std::span<const Index> hexes, int change
 /// The level that each hex is to have instead, whatever was wished before: the result depends on these alone.
 LevelMarks wishes_of_levels(const Forest& forest, std::span<const std::uint8_t> levels);
 
-/// The hexes (ascending) and all others in the cells of which theirs were cut out.
-std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> hexes);
+/// The hexes (ascending) and all others in the cells that theirs are cut out of, so many levels up.
+std::vector<Index> with_siblings(const Forest& forest, std::span<const Index> hexes, int n_levels);
 /// With all cells in which these lie.
 LevelMarks closed(LevelMarks marks);
 /// Values per hex of the mesh handed out, in the order level by level. Throws Error when there is not one per hex.

@@ -1,8 +1,10 @@
 // From what hexes are asked to become to wished cells.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "hextwist/base/memory.h"
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/refine/levels/forest.h"
@@ -121,6 +123,11 @@ namespace {
 /// The cells that must be cut for these leaves to have the levels asked for: where they are that fine already, if
 /// `all`.
 LevelMarks needed(const std::vector<Asked>& leaves, Index n_base_hexes, bool all) {
+  double n_hexes = 0;  // at least, of which each has about a node
+  for (std::size_t k = 0; k < leaves.size(); ++k)
+    for (const int wanted : leaves[k].level)
+      if (wanted > static_cast<int>(k)) n_hexes += std::pow(27, wanted - static_cast<int>(k));
+  check_memory(n_hexes, n_hexes, "at least ");
   LevelMarks marks;
   for (std::size_t k = 0; k < leaves.size(); ++k)
     for (std::size_t i = 0; i < leaves[k].cell.size(); ++i) {

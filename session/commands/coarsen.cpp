@@ -25,10 +25,11 @@ void do_coarsen(Execution& run) {
 
   Levelling levelling = *run.state.levelling;
   levelling.forest = grown(std::move(levelling.forest));
-  if (range.kind != EntityKind::hex) hexes = with_siblings(levelling.forest, hexes);
   const Item* levels = command.find("levels");
+  const int n_levels = levels ? static_cast<int>(levels->number) : 1;
+  if (range.kind != EntityKind::hex) hexes = with_siblings(levelling.forest, hexes, n_levels);
   LevelChanges changes{std::vector<std::int8_t>(mesh.hexes.size(), 0)};
-  for (const Index h : hexes) changes.by[h] = static_cast<std::int8_t>(levels ? -levels->number : -1);
+  for (const Index h : hexes) changes.by[h] = static_cast<std::int8_t>(-n_levels);
   Request request{.how = std::move(changes), .levelling = std::make_shared<const Levelling>(std::move(levelling))};
   if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
   for (const Item& item : command.items)

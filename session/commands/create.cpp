@@ -1,3 +1,4 @@
+#include "hextwist/base/memory.h"
 #include "hextwist/geom/primitives.h"
 #include "hextwist/mesh/primitives.h"
 #include "hextwist/session/commands/commands.h"
@@ -28,6 +29,7 @@ Solid brick(const Command& command) {
   if (command.find("n")) intervals = brick_intervals(whole_number_of(command, "n", 0));
   intervals.depth = whole_number_of(command, "n_y", intervals.depth);
   intervals.height = whole_number_of(command, "n_z", intervals.height);
+  check_hexes(static_cast<double>(intervals.width) * intervals.depth * intervals.height);
   return {cad_brick(shape), mesh_brick(shape, intervals)};
 }
 
@@ -57,6 +59,7 @@ void do_create(Execution& run) {
   Solid solid = what.name == "brick"      ? brick(run.command)
                 : what.name == "cylinder" ? cylinder(run.command)
                                           : sphere(run.command);
+  check_hexes(static_cast<double>(solid.mesh.n_hexes()));
   for (const std::string& line : solid.cad.notices) run.note(line);
   state.has_cad = true;
   state.glued = false;

@@ -43,8 +43,10 @@ void play(Execution& run, const Item& file, std::string_view endings) {
     explicit Nested(int& nesting) : level(++nesting) {}
     ~Nested() { --level; }
   } const nested(run.core.nesting);
-  if (const int n_failed = run_text(run.core, text, file.text))
-    throw Error(file.text + ": " + counted(n_failed, "command") + " failed");
+  const int n_failed = run_text(run.core, text, file.text);
+  // 'exit', with which journals of other programs end, ends the journal and not who plays it.
+  run.core.state.finished = run.state.finished = false;
+  if (n_failed) throw Error(file.text + ": " + counted(n_failed, "command") + " failed");
 }
 
 void do_playback(Execution& run) {

@@ -250,18 +250,25 @@ Refining refining_of(Execution& run, const Request& request) {
 
 Target target_of(const Execution& run) {
   const Command& command = run.command;
-  if (command.find("x")) return hexes_near_point(run);
-  const Item& range = *command.find("range");
-  Target target{.kind = range.kind, .ids = run.chosen(range)};
-  if (is_cad(range.kind))
-    for (Index& id : target.ids) ++id;
+  const bool is_near_point = command.find("x") != nullptr;
+  const Item* layers = command.find("layers");
+  if (is_near_point && layers) throw error_at(command.statement, layers->token, "give a depth or a radius, not both");
+  Target target;
+  if (is_near_point) {
+    target = hexes_near_point(run);
+  } else {
+    const Item& range = *command.find("range");
+    target = {.kind = range.kind, .ids = run.chosen(range)};
+    if (is_cad(range.kind))
+      for (Index& id : target.ids) ++id;
+  }
   narrow(run, target);
   if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
     if (!is_whole_model(*run.meshed, target))
       throw error_at(command.statement, splits->token,
                      "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
-  if (const Item* layers = command.find("layers")) target.depth = static_cast<int>(layers->number);
-  if (const Item* radius = command.find("radius")) target.radius = radius->number;
+  if (layers) target.depth = static_cast<int>(layers->number);
+  if (const Item* radius = command.find("radius"); radius && !is_near_point) target.radius = radius->number;
   return target;
 }
 

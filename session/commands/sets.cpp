@@ -42,15 +42,17 @@ std::vector<Side> sides_of(const Execution& run, const std::vector<Index>& chose
     wanted.assign(selector.meshed.mesh.hexes.size(), 0);
     for (const Index hex : related(selector, which->kind, run.chosen(*which), EntityKind::hex)) wanted[hex] = 1;
   }
-  const bool both = command.has("both") || command.has("remove"), reverse = command.has("reverse");
+  const bool reverse = command.has("reverse");
+  const bool both = command.has("both") || (command.has("remove") && !which && !reverse && !command.has("forward"));
   std::vector<Side> result;
   for (const Index face : chosen_faces) {
     const std::array<Side, 2>& sides = faces.sides[face];
+    const auto is_there = [&](int i) { return sides[i].hex >= 0; };
+    const auto is_wanted = [&](int i) { return is_there(i) && wanted[sides[i].hex] != 0; };
+    if (which && !is_wanted(0) && !is_wanted(1)) continue;
     const int forward = forward_side(selector.meshed.association, sides);
-    for (int i = 0; i < 2; ++i) {
-      if (sides[i].hex < 0 || (which && !wanted[sides[i].hex])) continue;
-      if (which || both || (i == forward) != reverse) result.push_back(sides[i]);
-    }
+    for (int i = 0; i < 2; ++i)
+      if (is_there(i) && (both || (which ? is_wanted(i) : i == forward) != reverse)) result.push_back(sides[i]);
   }
   std::ranges::sort(result);
   return result;

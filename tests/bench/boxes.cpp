@@ -95,7 +95,7 @@ void show(double ratio, bool is_flat, int n_rounds) {
     std::vector<Index> nodes(templates.points.size() - mesh.points.size()), hexes(templates.hexes.size());
     std::iota(nodes.begin(), nodes.end(), mesh.n_nodes());
     std::iota(hexes.begin(), hexes.end(), 0);
-    lift_new_hexes(refined, nodes, {}, hexes);
+    lift_new_hexes(refined, nodes, {}, parts.lineage.parent, hexes);
     const double is = worst(refined.mesh);
     double could = is;
     if (n_rounds > 0)

@@ -1,16 +1,24 @@
 // New hexes of real models are good without asking: low ones are lifted in the end.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include <optional>
 #include <random>
 
 #include "hextwist/mesh/association/association.h"
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/mesh/quality/validity.h"
+#include "hextwist/mesh/smooth/lift_together.h"
 #include "hextwist/patch/patch_refine.h"
+#include "hextwist/refine/carry.h"
+#include "hextwist/refine/marks.h"
+#include "hextwist/refine/templates/trisect.h"
 #include "hextwist/sizing/lift_new.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
 #include "support/grids.h"
 #include "support/meshed.h"
+#include "support/seed.h"
 
 namespace hextwist {
 namespace {
@@ -66,8 +74,8 @@ TEST(LiftNew, nine_tenths_of_refinements_of_shipped_models_have_good_corners) {
 TEST(LiftNew, of_long_and_flat_boxes) {
   const struct {
     double ratio, inside, least;
-  } rows[] = {{1, 0.405, 0.405}, {1.25, 0.4, 0.35}, {1.5, 0.37, 0.33},
-              {2, 0.32, 0.28},   {3, 0.23, 0.13},   {4, 0.15, 0.065}};
+  } rows[] = {{1, 0.405, 0.405}, {1.25, 0.4, 0.35}, {1.5, 0.37, 0.33}, {2, 0.32, 0.28},
+              {3, 0.29, 0.13},   {4, 0.28, 0.065},  {6, 0.15, 0.01},   {10, 0.1, 0.009}};
   for (const auto& [r, inside, least] : rows)
     for (const Vec3& size : {Vec3(1, 1, r), Vec3(1, r, r)}) {
       MeshedModel input{test::grid(3, 3, 3, size), nullptr, {}};
@@ -81,6 +89,44 @@ TEST(LiftNew, of_long_and_flat_boxes) {
     }
 }
 
+/// Some nodes of long, flat or skew boxes are marked, and the templates' hexes lifted, with some nodes fixed.
+TEST(LiftTogether, keeps_its_guarantees) {
+  const unsigned seed = test::random_seed();
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-0.15, 0.15), ratio(1.5, 6);
+  int n_lifted = 0;
+  for (int turn = 0; turn < 30; ++turn) {
+    SCOPED_TRACE(testing::Message() << "HEXTWIST_SEED=" << seed << " turn " << turn);
+    const double r = ratio(random);
+    Mesh mesh = test::grid(4, 4, 3, random() % 2 ? Vec3(1, 1, r) : Vec3(1, r, r));
+    for (Vec3& p : mesh.points) p += Vec3(shift(random), shift(random), shift(random));
+    std::vector<std::uint8_t> marked(mesh.points.size());
+    for (std::uint8_t& mark : marked) mark = random() % 5 == 0;
+    Split parts = split(mesh.hexes, mesh.n_nodes(), trisect_table(), trisect_codes(mesh.hexes, marked));
+    const Mesh made = carry(mesh, {}, parts).mesh;
+    if (!inverted_hexes(made).empty()) continue;
+    SmoothOptions options;
+    options.nodes.emplace();
+    for (Index n = mesh.n_nodes(); n < made.n_nodes(); ++n)
+      (random() % 20 ? *options.nodes : options.fixed).push_back(n);
+    std::optional<Mesh> first;
+    for (const std::size_t threads : {1U, 2U, 8U}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      Mesh lifted = made;
+      lift_together(lifted, {}, nullptr, options, parts.lineage.parent, 0.3, made.points);
+      if (!first) first = lifted;
+      EXPECT_EQ(lifted.points, first->points);
+    }
+    EXPECT_GE(worst(*first), worst(made));
+    EXPECT_GE(summarize(quality(Metric::shape, *first)).min, 0.85 * summarize(quality(Metric::shape, made)).min);
+    EXPECT_TRUE(test::uninverted(*first));
+    n_lifted += worst(*first) > 1.2 * worst(made);
+    for (Index n = 0; n < mesh.n_nodes(); ++n) EXPECT_EQ(first->points[n], made.points[n]);
+    for (const Index n : options.fixed) EXPECT_EQ(first->points[n], made.points[n]);
+  }
+  EXPECT_GE(n_lifted, 5);
+}
+
 TEST(LiftNew, leaves_what_is_fixed) {
   const MeshedModel input = test::shipped("cylinder");
   Request request{.target = {.kind = EntityKind::curve, .ids = {1}, .depth = 1}};
@@ -91,7 +137,7 @@ TEST(LiftNew, leaves_what_is_fixed) {
   MeshedModel refined = free.refined;
   Finish finish;
   for (Index n = 0; n < refined.mesh.n_nodes(); ++n) finish.fixed.push_back(n);
-  EXPECT_TRUE(lift_new_hexes(refined, finish.fixed, finish).empty());
+  EXPECT_TRUE(lift_new_hexes(refined, finish.fixed, finish, free.origin).empty());
 }
 
 }  // namespace
