@@ -398,11 +398,10 @@ class RangeReader {
     return true;
   }
 
-  /// Only before these is a shortened word a kind: `hex in g with id < 9` is about what is called g.
-  bool ids_follow() const {
+  /// Before another word a shortened one is no kind: `hex in g with id < 9` is about what is called g.
+  bool may_be_short() const {
     const Token& next = reader_.ahead();
-    return next.kind == Token::Kind::number || next.kind == Token::Kind::string || is_word(next, "all") ||
-           next.text == "(";
+    return next.kind != Token::Kind::word || is_word(next, "all");
   }
 
   bool accept_parenthesis(std::vector<RangeTerm>& terms, int nesting) {
@@ -410,7 +409,7 @@ class RangeReader {
     reader_.take();
     bool first = true;
     do {
-      const auto kind = accept_kind(reader_, first && ids_follow());
+      const auto kind = accept_kind(reader_, first && may_be_short());
       first = false;
       if (kind)
         terms.push_back({*kind, false, range(*kind, Within::whole, nesting + 1)});
@@ -427,7 +426,7 @@ class RangeReader {
     // Further kinds must be written out, so that they can't be mistaken for shortened options.
     while (true) {
       if (accept_parenthesis(result, nesting)) continue;
-      const auto kind = accept_kind(reader_, result.empty() && ids_follow());
+      const auto kind = accept_kind(reader_, result.empty() && may_be_short());
       if (kind)
         result.push_back({*kind, false, range(*kind, Within::term, nesting)});
       else if (!result.empty() || !accept_name(result))

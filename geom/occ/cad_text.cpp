@@ -63,8 +63,9 @@ std::string step_defect(std::string_view text) {
 std::string brep_defect(std::string_view text) {
   const std::size_t section = text.rfind("\nTShapes ");
   const std::size_t star = text.rfind('*'), end = text.find_last_not_of(blanks);
-  const std::size_t root = star == std::string_view::npos ? star : text.find_first_of("+-", star);
-  if (section == std::string_view::npos || root == std::string_view::npos || end < root + 3) {
+  const std::size_t root = star == std::string_view::npos ? star : text.find_first_not_of(blanks, star + 1);
+  if (section == std::string_view::npos || root == std::string_view::npos || end < root + 3 ||
+      (text[root] != '+' && text[root] != '-')) {
     return truncated(CadFormat::brep);
   }
   long announced = 0;

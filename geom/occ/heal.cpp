@@ -73,9 +73,25 @@ bool is_manifold(const TopoDS_Shape& shape) {
   return true;
 }
 
-/// Faces of solids that touch, sewn: every region that they enclose is a solid. How many there are; with none the part
-/// stays as it is.
-int make_touching_solids(Part& part, const TopoDS_Shape& sewed) {
+TopoDS_Shape sewn(const Part& part, BRepBuilderAPI_Sewing& sewing) {
+  sewing.Add(part.shape);
+  sewing.Perform();
+  return sewing.SewedShape();
+}
+
+void rename(Part& part, const BRepBuilderAPI_Sewing& sewing) {
+  for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
+  }
+}
+
+/// Where more than two faces meet at an edge they are those of solids that touch, which sewing would pair as they come:
+/// every region that they enclose is a solid. How many there are; with none the part stays as it is.
+int make_touching_solids(Part& part, double tolerance) {
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  sewing.SetNonManifoldMode(true);
+  const TopoDS_Shape sewed = sewn(part, sewing);
+  if (sewed.IsNull() || is_manifold(sewed)) return 0;
   BOPAlgo_MakerVolume maker;
   maker.SetNonDestructive(true);
   maker.SetRunParallel(false);
@@ -87,6 +103,7 @@ int make_touching_solids(Part& part, const TopoDS_Shape& sewed) {
   if (maker.HasErrors()) return 0;
   const int n_solids = count_solids(maker.Shape());
   if (n_solids == 0) return 0;
+  rename(part, sewing);
   for (int i = 1; i <= faces.Extent(); ++i)
     for (const TopoDS_Shape& to : maker.Modified(faces(i))) rename(part.names, faces(i), to);
   part.shape = maker.Shape();
@@ -103,26 +120,15 @@ void make_solids(Part& part) {
   const int n_faces = count_kind(part.shape, TopAbs_FACE);
   if (n_faces == 0) return;
   const double tolerance = std::max(1e-6, 1e-6 * size_of(part.shape));
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  sewing.SetNonManifoldMode(true);  // else faces of solids that touch are paired as they come
-  sewing.Add(part.shape);
-  sewing.Perform();
-  const TopoDS_Shape sewed = sewing.SewedShape();
-  if (sewed.IsNull()) return;
-  for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
-  }
-  if (!is_manifold(sewed)) {
-    const int n_solids = make_touching_solids(part, sewed);
-    if (n_solids == 0) {
-      part.notices.push_back("sewed " + std::to_string(n_faces) +
-                             " faces, of which more than two meet at some edges, and which bound no solid");
-      return;
-    }
+  if (const int n_solids = make_touching_solids(part, tolerance)) {
     part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + counted(n_solids, "solid") +
                            ", which touch (tolerance " + short_number(tolerance, 3) + ")");
     return;
   }
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  const TopoDS_Shape sewed = sewn(part, sewing);
+  if (sewed.IsNull()) return;
+  rename(part, sewing);
   std::vector<TopoDS_Solid> solids;
   for (TopExp_Explorer shells(sewed, TopAbs_SHELL); shells.More(); shells.Next()) {
     if (BRep_Tool::IsClosed(shells.Current())) solids.push_back(solid_from(shells.Current()));

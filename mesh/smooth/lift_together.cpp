@@ -51,7 +51,8 @@ HEXTWIST_LANES Lanes<N> powered(Lanes<N> x, int m) {
 }
 
 template <int N>
-HEXTWIST_LANES void add(LaneVec<N>& to, const Lanes<N>& a, const LaneVec<N>& x, const Lanes<N>& b, const LaneVec<N>& y) {
+HEXTWIST_LANES void add(LaneVec<N>& to, const Lanes<N>& a, const LaneVec<N>& x, const Lanes<N>& b,
+                        const LaneVec<N>& y) {
   to.x += a * x.x + b * y.x;
   to.y += a * x.y + b * y.y;
   to.z += a * x.z + b * y.z;
@@ -103,7 +104,8 @@ HEXTWIST_LANES LaneEnergy<N> energy_of(const LaneHex<N>& hex, const Energy& ener
   for (LaneVec<N>& at : result.gradient) at = zero;
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 0; k < 4; ++k) {
-      LaneVec<N>&low = result.gradient[edge_corner(4 * axis + k, 0)], &high = result.gradient[edge_corner(4 * axis + k, 1)];
+      LaneVec<N>&low = result.gradient[edge_corner(4 * axis + k, 0)],
+      &high = result.gradient[edge_corner(4 * axis + k, 1)];
       low = low - along[axis][k];
       high = high + along[axis][k];
     }
@@ -195,8 +197,8 @@ class MovingBlock {
     double shortest = std::numeric_limits<double>::infinity();
     for (const Hex& hex : local_.hexes)
       for (int e = 0; e < 12; ++e)
-        shortest = std::min(
-            shortest, (local_.points[hex[edge_corner(e, 1)]] - local_.points[hex[edge_corner(e, 0)]]).norm());
+        shortest =
+            std::min(shortest, (local_.points[hex[edge_corner(e, 1)]] - local_.points[hex[edge_corner(e, 0)]]).norm());
     return shortest;
   }
 

@@ -185,6 +185,8 @@ TEST(occ_files, bad_files_are_refused_in_one_clear_line) {
   EXPECT_EQ(refusal(write_text(folder / "prose", "What is this?\n")), "not a STEP, BREP or IGES file");
   EXPECT_EQ(refusal(write_text(folder / "prose.xyz", "What is this?\n")), "not a STEP, BREP or IGES file");
 
+  OccShape::brick(1, 2, 3).reversed().write(folder / "reversed.brep");
+  EXPECT_EQ(read_cad(folder / "reversed.brep", {}).model->count(3), 1);
   OccShape::open_shell().write(folder / "open.brep");
   EXPECT_EQ(refusal(folder / "open.brep"),
             "no solid (sewed 5 faces, but they do not close: 4 edges bound one face only)");

@@ -343,6 +343,18 @@ TEST(occ_model, loose_faces_are_sewed_into_a_solid_with_its_cavity) {
   }
 }
 
+TEST(occ_model, loose_faces_of_solids_that_touch_are_these_solids) {
+  for (const bool turned : {false, true}) {
+    const CadImport part = OccShape::loose_faces_that_touch(turned).import();
+    ASSERT_EQ(part.model->count(3), 2);
+    EXPECT_EQ(part.model->count(2), 11);
+    EXPECT_EQ(part.model->count(1), 20);
+    for (const int v : {1, 2}) EXPECT_NEAR(part.model->measure({3, v}), 8, 1e-9);
+    ASSERT_EQ(part.notices.size(), 1U);
+    EXPECT_EQ(part.notices[0].substr(0, 54), "no solids: sewed 12 faces into 2 solids, which touch (");
+  }
+}
+
 TEST(occ_model, an_open_shell_and_an_unknown_entity_are_errors) {
   const auto message = [](const auto& f) -> std::string {
     try {

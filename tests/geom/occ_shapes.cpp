@@ -239,6 +239,16 @@ OccShape OccShape::open_shell() {
   return OccShape(std::make_shared<Impl>(compound(faces)));
 }
 
+OccShape OccShape::loose_faces_that_touch(bool turned) {
+  std::vector<TopoDS_Shape> faces;
+  for (const TopoDS_Shape& box : {BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(4, 2, 1)).Shape(),
+                                  BRepPrimAPI_MakeBox(gp_Pnt(4, 0, 0), gp_Pnt(8, 2, 1)).Shape()})
+    for (TopExp_Explorer it(box, TopAbs_FACE); it.More(); it.Next())
+      faces.push_back(BRepBuilderAPI_Transform(it.Current(), gp_Trsf(), true).Shape());
+  if (turned) std::ranges::reverse(faces);
+  return OccShape(std::make_shared<Impl>(compound(faces)));
+}
+
 OccShape OccShape::brep(const std::filesystem::path& file) {
   TopoDS_Shape shape;
   BRepTools::Read(shape, file.c_str(), BRep_Builder());

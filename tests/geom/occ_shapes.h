@@ -50,6 +50,8 @@ class OccShape {
   /// The faces of a brick and of a smaller one inside it, each on its own.
   static OccShape loose_faces_with_cavity();
   static OccShape open_shell();
+  /// The faces of two bricks that touch, each on its own, those of the second one first if `turned`.
+  static OccShape loose_faces_that_touch(bool turned);
   static OccShape brep(const std::filesystem::path& file);
 
   /// The same solid with every curve and surface a NURBS.

@@ -170,6 +170,43 @@ TEST(Session, quit_ends_it) {
   f.session.run("create brick x 1 interval 2; quit; refine hex 1");
   EXPECT_TRUE(f.session.finished());
   EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8);
+  EXPECT_EQ(f.notices, (std::vector<std::string>{"what stands behind 'quit' is left out"}));
+  EXPECT_THROW(f.session.run("refine hex 1"), Error);
+}
+
+/// Those of other programs end in one.
+TEST(Session, exit_ends_a_journal_and_not_who_plays_it) {
+  Fixture f;
+  const auto journal = written("exit.jou", "create brick x 1 interval 2\nexit\nrefine hex 1\n");
+  f.session.playback(journal);
+  f.session.run("playback '" + journal.string() + "'; refine hex 1");
+  EXPECT_FALSE(f.session.finished());
+  EXPECT_EQ(f.session.meshed().mesh.n_hexes(), 8 - 8 + 82);
+  EXPECT_EQ(f.notices.size(), 2 + 1U);  // and that the brick took the place of another
+}
+
+TEST(Session, a_shortened_kind_is_no_name_and_a_name_no_kind) {
+  Fixture f;
+  f.session.run("create brick x 6 interval 6; group g add hex 1 to 10; group other add hex 50 to 60");
+  f.session.run("group found add hex in g with id < 100; group few add hex in gro 1 with id < 3");
+  f.session.run("group middle add node with x_coord -1 to 1; group right add node with x_coord (1) to (2)");
+  const auto members = [&](const char* name) {
+    f.output.clear();
+    f.session.run(std::string("list group '") + name + "'");
+    return f.all_output();
+  };
+  EXPECT_NE(members("found").find("10 hexes"), std::string::npos) << members("found");
+  EXPECT_NE(members("few").find("2 hexes"), std::string::npos) << members("few");
+  EXPECT_NE(members("middle").find("147 nodes"), std::string::npos) << members("middle");
+  EXPECT_NE(members("right").find("98 nodes"), std::string::npos) << members("right");
+}
+
+TEST(Session, a_place_is_narrowed_as_other_targets_are) {
+  Fixture f;
+  f.session.run("create brick x 6 interval 6");
+  EXPECT_EQ(f.error("refine location 0 0 0 radius 1 using surface 1"), "none of the 8 hexes lies there");
+  EXPECT_EQ(f.error("refine location 0 0 0 radius 1 depth 2"), "give a depth or a radius, not both");
+  f.session.run("refine location 2.5 2.5 2.5 radius 1.1 using surface 1 to 6; undo; refine location 0 0 0 radius 1");
 }
 
 TEST(Session, journals_are_played_back_and_errors_name_their_line) {

@@ -175,8 +175,15 @@ TEST(Sets, a_face_between_volumes_has_two_sides) {
   EXPECT_EQ(volumes(2).size(), 8u);
   EXPECT_EQ(sets[3].sides, sets[1].sides);
   EXPECT_EQ(sets[4].sides, sets[0].sides);
+  f.session.run("sideset 6 " + surface + " wrt volume 2 reverse; sideset 7 " + surface + " wrt volume 2 both");
+  EXPECT_EQ(sets[5].sides, sets[0].sides);
+  EXPECT_EQ(sets[6].sides, sets[2].sides);
+  f.session.run("sideset 7 remove " + surface + " reverse; sideset 6 add " + surface + " both; sideset 6 remove " +
+                surface + " wrt volume 2");
+  EXPECT_EQ(sets[5].sides, sets[0].sides);
+  EXPECT_EQ(sets[6].sides, sets[0].sides);
   f.session.run("sideset 3 remove " + surface);
-  EXPECT_EQ(sets.size(), 4u);
+  EXPECT_EQ(std::ranges::count(sets, 3, &SideSet::id), 0);
 }
 
 TEST(Sets, are_refined_with_the_mesh_and_written_in_every_format) {
