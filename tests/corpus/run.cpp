@@ -7,6 +7,7 @@
 #include "corpus/requests.h"
 #include "corpus/same.h"
 #include "hextwist/io/io.h"
+#include "hextwist/mesh/corners.h"
 #include "hextwist/session/session.h"
 #include "support/association_checkers.h"
 #include "support/checkers.h"
@@ -51,6 +52,14 @@ class Runs {
     first_ = record.after.scaled_jacobian.min;
     // A mesh may lie as far off a loose CAD as this allows.
     tolerance_ = std::max(1e-7, 2 * record.off_cad.max_relative);
+    // As far as its faces leave their surfaces, hexes of a coarse mesh reach out of the model, and what is cut out of
+    // them.
+    for (std::size_t i = 0; i < association.surface_faces.size(); ++i) {
+      Vec3 middle = Vec3::Zero();
+      for (const Index n : face_nodes(mesh.hexes[association.surface_faces[i].hex], association.surface_faces[i].face))
+        middle += mesh.points[n] / 4;
+      bulge_ = std::max(bulge_, model->project({2, association.face_surface[i]}, middle).distance);
+    }
     unused_ = test::conformal(mesh) ? test::UnusedNodes::refused : test::UnusedNodes::allowed;
     hanging_ = has_doubled_nodes(mesh) ? test::HangingNodes::allowed : test::HangingNodes::refused;
     return true;
@@ -150,7 +159,7 @@ class Runs {
     if (auto result = test::uninverted(mesh); !result) return result;
     if (auto result = test::sets_valid(mesh); !result) return result;
     if (auto result = test::complete(mesh, association, *model); !result) return result;
-    return test::on_model(mesh, association, *model, tolerance_);
+    return test::on_model(mesh, association, *model, tolerance_, bulge_);
   }
 
   /// In one format after the other, from run to run.
@@ -203,7 +212,7 @@ class Runs {
   Clock::time_point deadline_;
   std::optional<MeshedModel> start_;
   std::mt19937 random_;
-  double tolerance_ = 1e-7, first_ = 0;
+  double tolerance_ = 1e-7, bulge_ = 0, first_ = 0;
   test::UnusedNodes unused_ = test::UnusedNodes::refused;
   test::HangingNodes hanging_ = test::HangingNodes::refused;
   int run_ = 0, request_ = -1, n_done_ = 0;

@@ -1,6 +1,7 @@
 #include "support/association_checkers.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -23,7 +24,7 @@ bool bounds(const Model& model, Owner small, Owner large) {
 }  // namespace
 
 testing::AssertionResult on_model(const Mesh& mesh, const Association& association, const Model& model,
-                                  double relative_tolerance) {
+                                  double relative_tolerance, double outside) {
   if (association.node_owner.size() != mesh.points.size()) return no("owners are missing");
   const double allowed = relative_tolerance * model.box().diagonal();
   std::set<Index> used;
@@ -33,7 +34,11 @@ testing::AssertionResult on_model(const Mesh& mesh, const Association& associati
     const std::string name = "node " + std::to_string(n) + " of " + to_string(owner);
     if (owner.dim < 0 || owner.id < 1 || owner.id > model.count(owner.dim)) return no(name + " has no real owner");
     if (owner.dim == 3) {
-      if (!model.contains(owner.id, mesh.points[n])) return no(name + " is outside");
+      if (model.contains(owner.id, mesh.points[n])) continue;
+      double distance = std::numeric_limits<double>::infinity();
+      for (int s = 1; s <= model.count(2) && outside > 0; ++s)
+        if (bounds(model, {2, s}, owner)) distance = std::min(distance, model.project({2, s}, mesh.points[n]).distance);
+      if (!(distance <= outside)) return no(name + " is outside");
       continue;
     }
     const double distance = model.project(owner, mesh.points[n]).distance;
@@ -58,13 +63,19 @@ testing::AssertionResult complete(const Mesh& mesh, const Association& associati
   std::map<Side, int> wanted;  // surface of each side that must have one
   for (const auto& [key, sides] : quads)
     if (sides.size() == 1 || volume[sides[0].hex] != volume[sides[1].hex]) wanted[sides[0]] = 0;
-  if (association.surface_faces.size() != wanted.size()) return no("as many surface faces as boundary faces");
+  // Surfaces inside a volume have faces between its hexes.
+  std::set<Side> between;
+  for (const auto& [key, sides] : quads)
+    if (sides.size() == 2 && volume[sides[0].hex] == volume[sides[1].hex]) between.insert(sides[0]);
+  const auto n_between = std::ranges::count_if(association.surface_faces, [&](Side s) { return between.contains(s); });
+  if (std::ssize(association.surface_faces) != std::ssize(wanted) + n_between)
+    return no("as many surface faces as boundary faces");
   std::map<Edge, std::set<int>> surfaces_at_edge;
   std::set<Index> boundary_nodes;
   for (std::size_t i = 0; i < association.surface_faces.size(); ++i) {
     const Side side = association.surface_faces[i];
-    if (!wanted.contains(side)) return no("a surface face is not on the boundary");
-    wanted[side] = association.face_surface[i];
+    if (!wanted.contains(side) && !between.contains(side)) return no("a surface face is not on the boundary");
+    if (wanted.contains(side)) wanted[side] = association.face_surface[i];
     const Owner surface{2, association.face_surface[i]};
     if (!bounds(model, surface, {3, volume[side.hex]})) return no(to_string(surface) + " does not bound the hex at it");
     const auto cycle = face_node_cycle(mesh.hexes[side.hex], side.face);
