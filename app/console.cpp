@@ -39,6 +39,7 @@ void catch_interrupts() {
     sigaction(signal, &action, nullptr);
   }
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further cannot be written, which is told
 }
 
 void open_standard_streams() {

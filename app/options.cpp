@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include <arpa/inet.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -11,6 +13,20 @@
 
 namespace hextwist::app {
 namespace {
+
+/// Would who listens there be reached at all addresses of this machine, however that is written?
+bool is_every_address(const std::string& address) {
+  if (address.empty() || address == "*") return true;
+  in_addr v4{};
+  if (inet_aton(address.c_str(), &v4) != 0) return v4.s_addr == INADDR_ANY;
+  in6_addr v6{};
+  if (inet_pton(AF_INET6, address.c_str(), &v6) != 1) return false;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&v6);
+  const bool is_mapped = bytes[10] == 0xff && bytes[11] == 0xff;
+  return std::all_of(bytes, bytes + 10, [](unsigned char b) { return b == 0; }) &&
+         (is_mapped || (bytes[10] == 0 && bytes[11] == 0)) &&
+         std::all_of(bytes + 12, bytes + 16, [](unsigned char b) { return b == 0; });
+}
 
 constexpr const char* description =
     "Local, conforming refinement of all-hex meshes on CAD.\n\n"
@@ -161,7 +177,7 @@ int read_serve(int argc, char** argv, Options& options) {
   options.serve = true;
   if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;
   // Pages are answered at one address, so that no name of another site can be given to it.
-  if (options.address == "0.0.0.0" || options.address == "::")
+  if (is_every_address(options.address))
     return wrong("--address " + options.address + ": name the address of this machine that it is to be reached at");
   for (const std::string& file : files) {
     if (is_journal(file))

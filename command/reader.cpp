@@ -1,6 +1,7 @@
 #include "hextwist/command/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace hextwist {
@@ -62,7 +63,10 @@ std::vector<std::string> nearest_words(std::string_view word, std::span<const st
 Reader::Reader(const Statement& statement) : statement_(statement), tokens_(statement.tokens) {
   // Bodies of other programs are volumes here.
   for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
-    const bool goes_on = tokens_[i + 1].kind == Token::Kind::number || same_word(tokens_[i + 1].text, "all");
+    const Token& next = tokens_[i + 1];
+    const bool goes_on = next.kind == Token::Kind::number || next.kind == Token::Kind::string || next.text == "(" ||
+                         std::ranges::any_of(std::array{"all", "in", "with", "except"},
+                                             [&](const char* word) { return same_word(next.text, word); });
     if (tokens_[i].kind == Token::Kind::word && same_word(tokens_[i].text, "body") && goes_on)
       tokens_[i].text = "volume";
   }

@@ -366,9 +366,9 @@ void forget_members(ModelState& state, bool also_cad) {
   state.groups = std::make_shared<const std::vector<Group>>(std::move(groups));
 }
 
-void note_replaced(Transaction& run) {
-  if (const Index n = run.meshed->mesh.n_hexes())
-    run.note("this takes the place of the mesh of " + counted(n, EntityKind::hex) + " that was here");
+void note_replaced(Transaction& run, Index n_before) {
+  if (n_before > 0)
+    run.note("this takes the place of the mesh of " + counted(n_before, EntityKind::hex) + " that was here");
 }
 
 void say_mesh(const Transaction& run, const std::string& what) {

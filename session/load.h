@@ -45,7 +45,7 @@ void take_fixed(Transaction& run, std::vector<Index> still);
 void forget_members(ModelState& state, bool also_cad);
 
 /// Notes that a mesh which is read or made takes the place of the one that is there, if one is.
-void note_replaced(Transaction& run);
+void note_replaced(Transaction& run, Index n_before);
 /// The line that tells of a mesh that came in.
 void say_mesh(const Transaction& run, const std::string& what);
 

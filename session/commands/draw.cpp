@@ -133,6 +133,7 @@ void draw_picture(Execution& run, io::Output& out, const SceneSource& source, co
   } else {
     out << png(render(picture, w, h), w, h);
   }
+  out.commit();
   run.say(file + ": " +
           (start.shows_cad ? counted(run.meshed->model->count(2), EntityKind::surface)
                            : counted(static_cast<std::int64_t>(picture.facets.size()), EntityKind::face)) +
@@ -152,6 +153,7 @@ void draw_page(Execution& run, io::Output& out, SceneSource source, const SceneS
   for (const std::string& name : made.left_out)
     run.note(name + " is left out of " + file + ", which would be too large");
   const bool has_mesh = run.meshed->mesh.n_hexes() > 0;
+  out.commit();
   run.say(file + ": " +
           (has_mesh ? counted(run.meshed->mesh.n_hexes(), EntityKind::hex)
                     : counted(run.meshed->model->count(2), EntityKind::surface)));
@@ -186,7 +188,6 @@ void do_draw(Execution& run) {
     draw_page(run, out, source, start, before);
   else
     draw_picture(run, out, source, start);
-  out.commit();
 }
 
 }  // namespace hextwist

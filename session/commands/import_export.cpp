@@ -94,11 +94,12 @@ void import_mesh(Execution& run, const std::filesystem::path& file, std::string_
   run.stage("read mesh");
   MeshFile read = read_mesh(file, format_of(word), fence_of(run));
   for (const std::string& line : read.notices) run.note(line);
-  note_replaced(run);
+  const Index n_before = run.meshed->mesh.n_hexes();
   if (const Item* factor = run.command.find("factor")) scale(read.mesh, factor->number);
   if (const std::string steps = steps_text(read.mesh); !steps.empty()) run.note(file.string() + ": " + steps);
   load_mesh(run, std::move(read.mesh), run.state.has_cad ? run.meshed->model : nullptr, &read.tags, file.string(),
             &read.middles);
+  note_replaced(run, n_before);
   run.state.tags = std::make_shared<const Association>(std::move(read.tags));
   run.state.extras = read.extras.empty() ? nullptr : std::make_shared<const FileExtras>(std::move(read.extras));
   if (run.state.extras) take_periodic(run, *run.state.extras);
