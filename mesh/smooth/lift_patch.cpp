@@ -6,8 +6,6 @@
 namespace hextwist {
 namespace {
 
-constexpr double fair_shape = 0.3;
-
 /// h from the sum of the squared lengths and the determinant.
 [[gnu::always_inline]] inline Four distortions(const Four& sum, const Four& determinant) {
   const Four third = sum / 3, ratio = third / determinant;

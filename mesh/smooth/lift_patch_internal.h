@@ -8,6 +8,9 @@
 
 namespace hextwist {
 
+/// Lifted corners cost no more shape than this, unless that is worse already.
+inline constexpr double fair_shape = 0.3;
+
 struct LiftRule {
   double wanted = 1;       ///< scaled Jacobian above which a corner hardly counts
   double least_shape = 0;  ///< no corner may get a smaller shape

@@ -10,6 +10,7 @@
 #include "hextwist/mesh/hex_lanes.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/mesh/quality/validity.h"
+#include "hextwist/mesh/smooth/lift_patch_internal.h"
 #include "hextwist/mesh/smooth/problem_internal.h"
 
 namespace hextwist {
@@ -30,7 +31,6 @@ constexpr int n_remembered = 8;
 constexpr double least_gain = 3e-4;
 /// The first step of a round, as a part of the shortest edge.
 constexpr double first_step = 0.05;
-constexpr double fair_shape = 0.3;
 /// Shapes come down a little for corners that come up by a multiple: no hex below this part of the worst.
 constexpr double shape_kept = 0.85;
 /// Blocks have a second turn where corners are below this part of what is wanted, as their neighbours moved.
