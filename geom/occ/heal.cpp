@@ -64,34 +64,26 @@ void rename(ShapeNames& names, const TopoDS_Shape& from, const TopoDS_Shape& to)
   if (found != names.end()) names.emplace(to.TShape().get(), std::string(found->second));
 }
 
-/// Does no edge join more than two faces? One at a seam has its face twice.
-bool is_manifold(const TopoDS_Shape& shape) {
+/// Edges by the number of faces at them, of which one at a seam has its own twice.
+struct FacesAtEdges {
+  int n_free = 0;       ///< edges of one face only
+  int n_branching = 0;  ///< of more than two
+};
+FacesAtEdges faces_at_edges(const TopoDS_Shape& shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edge);
-  for (int i = 1; i <= faces_of_edge.Extent(); ++i)
-    if (faces_of_edge(i).Extent() > 2 && !BRep_Tool::Degenerated(TopoDS::Edge(faces_of_edge.FindKey(i)))) return false;
-  return true;
-}
-
-TopoDS_Shape sewn(const Part& part, BRepBuilderAPI_Sewing& sewing) {
-  sewing.Add(part.shape);
-  sewing.Perform();
-  return sewing.SewedShape();
-}
-
-void rename(Part& part, const BRepBuilderAPI_Sewing& sewing) {
-  for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
+  FacesAtEdges count;
+  for (int i = 1; i <= faces_of_edge.Extent(); ++i) {
+    if (BRep_Tool::Degenerated(TopoDS::Edge(faces_of_edge.FindKey(i)))) continue;
+    count.n_free += faces_of_edge(i).Extent() == 1;
+    count.n_branching += faces_of_edge(i).Extent() > 2;
   }
+  return count;
 }
 
-/// Where more than two faces meet at an edge they are those of solids that touch, which sewing would pair as they come:
-/// every region that they enclose is a solid. How many there are; with none the part stays as it is.
-int make_touching_solids(Part& part, double tolerance) {
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  sewing.SetNonManifoldMode(true);
-  const TopoDS_Shape sewed = sewn(part, sewing);
-  if (sewed.IsNull() || is_manifold(sewed)) return 0;
+/// Sewn faces of solids that touch: every region that they enclose is a solid. How many there are; with none the part
+/// stays as it is.
+int make_touching_solids(Part& part, const TopoDS_Shape& sewed) {
   BOPAlgo_MakerVolume maker;
   maker.SetNonDestructive(true);
   maker.SetRunParallel(false);
@@ -103,7 +95,6 @@ int make_touching_solids(Part& part, double tolerance) {
   if (maker.HasErrors()) return 0;
   const int n_solids = count_solids(maker.Shape());
   if (n_solids == 0) return 0;
-  rename(part, sewing);
   for (int i = 1; i <= faces.Extent(); ++i)
     for (const TopoDS_Shape& to : maker.Modified(faces(i))) rename(part.names, faces(i), to);
   part.shape = maker.Shape();
@@ -120,15 +111,24 @@ void make_solids(Part& part) {
   const int n_faces = count_kind(part.shape, TopAbs_FACE);
   if (n_faces == 0) return;
   const double tolerance = std::max(1e-6, 1e-6 * size_of(part.shape));
-  if (const int n_solids = make_touching_solids(part, tolerance)) {
-    part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " + counted(n_solids, "solid") +
-                           ", which touch (tolerance " + short_number(tolerance, 3) + ")");
-    return;
-  }
   BRepBuilderAPI_Sewing sewing(tolerance);
-  const TopoDS_Shape sewed = sewn(part, sewing);
+  sewing.SetNonManifoldMode(true);  // else faces of solids that touch are paired as they come
+  sewing.Add(part.shape);
+  sewing.Perform();
+  const TopoDS_Shape sewed = sewing.SewedShape();
   if (sewed.IsNull()) return;
-  rename(part, sewing);
+  for (TopExp_Explorer faces(part.shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    if (sewing.IsModified(faces.Current())) rename(part.names, faces.Current(), sewing.Modified(faces.Current()));
+  }
+  const FacesAtEdges at_edges = faces_at_edges(sewed);
+  if (at_edges.n_branching > 0) {
+    if (const int n_solids = make_touching_solids(part, sewed)) {
+      part.notices.push_back("no solids: sewed " + std::to_string(n_faces) + " faces into " +
+                             counted(n_solids, "solid") + ", which touch (tolerance " + short_number(tolerance, 3) +
+                             ")");
+      return;
+    }
+  }
   std::vector<TopoDS_Solid> solids;
   for (TopExp_Explorer shells(sewed, TopAbs_SHELL); shells.More(); shells.Next()) {
     if (BRep_Tool::IsClosed(shells.Current())) solids.push_back(solid_from(shells.Current()));
@@ -141,7 +141,7 @@ void make_solids(Part& part) {
   }
   if (solids.empty()) {
     part.notices.push_back("sewed " + std::to_string(n_faces) + " faces, but they do not close: " +
-                           std::to_string(sewing.NbFreeEdges()) + " edges bound one face only");
+                           std::to_string(at_edges.n_free) + " edges bound one face only");
     return;
   }
   // A shell inside an odd number of others is a cavity of the innermost of them.
