@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <string_view>
 
@@ -21,11 +22,8 @@ bool is_every_address(const std::string& address) {
   if (inet_aton(address.c_str(), &v4) != 0) return v4.s_addr == INADDR_ANY;
   in6_addr v6{};
   if (inet_pton(AF_INET6, address.c_str(), &v6) != 1) return false;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(&v6);
-  const bool is_mapped = bytes[10] == 0xff && bytes[11] == 0xff;
-  return std::all_of(bytes, bytes + 10, [](unsigned char b) { return b == 0; }) &&
-         (is_mapped || (bytes[10] == 0 && bytes[11] == 0)) &&
-         std::all_of(bytes + 12, bytes + 16, [](unsigned char b) { return b == 0; });
+  const bool is_mapped = IN6_IS_ADDR_V4MAPPED(&v6) && std::all_of(v6.s6_addr + 12, v6.s6_addr + 16, std::logical_not());
+  return IN6_IS_ADDR_UNSPECIFIED(&v6) || is_mapped;
 }
 
 constexpr const char* description =

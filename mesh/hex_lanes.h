@@ -137,11 +137,19 @@ struct LaneVec {
 };
 
 template <int N>
-HEXTWIST_LANES Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
-  Lanes<N> sum = a.x * (b.y * c.z - b.z * c.y);
-  sum += a.y * (b.z * c.x - b.x * c.z);
-  sum += a.z * (b.x * c.y - b.y * c.x);
+HEXTWIST_LANES Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
+  Lanes<N> sum = a.x * b.x;
+  sum += a.y * b.y;
+  sum += a.z * b.z;
   return sum;
+}
+template <int N>
+HEXTWIST_LANES LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <int N>
+HEXTWIST_LANES Lanes<N> determinant(const LaneVec<N>& a, const LaneVec<N>& b, const LaneVec<N>& c) {
+  return dot(a, cross(b, c));
 }
 
 template <int N>
@@ -188,6 +196,15 @@ struct LaneEdges {
   /// The edge of an axis at a corner.
   const LaneVec<N>& at(int axis, int c) const { return along[axis][gather_bits(axis, c)]; }
 };
+
+/// Squared lengths of the edges.
+template <int N>
+HEXTWIST_LANES std::array<std::array<Lanes<N>, 4>, 3> squares(const LaneEdges<N>& edges) {
+  std::array<std::array<Lanes<N>, 4>, 3> result;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < 4; ++k) result[axis][k] = edges.along[axis][k].squared();
+  return result;
+}
 
 /// How many lanes every machine has.
 inline constexpr int n_lanes = 2;

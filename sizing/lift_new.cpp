@@ -66,12 +66,15 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   options.fixed = finish.fixed;
   options.keep_jumps = finish.keep_jumps;
   const std::vector<Vec3> before = mesh.points;
+  const auto new_nodes_at = [&](std::vector<Index> low, int layers) {
+    return intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), layers)));
+  };
   for (int f = 0; f < n_freedoms; ++f) {
     const Freedom& freedom = freedoms[f];
     std::vector<Index> low = hexes_below(mesh, freedom.wanted, freedom.of_boxes ? near_of_boxes : near);
     if (low.empty()) continue;
     options.fix_boundary = !freedom.on_cad;
-    options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), freedom.layers)));
+    options.nodes = new_nodes_at(std::move(low), freedom.layers);
     BoundsOf bounds;
     if (of_all) bounds = [&](std::span<const Index> of) { return of_all(f, of, freedom.wanted); };
     lift_scaled_jacobians(mesh, refined.association, refined.model.get(), options, freedom.wanted, freedom.sweeps,
@@ -80,7 +83,7 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   // What is low still is held by its neighbours.
   if (std::vector<Index> low = hexes_below(mesh, lift_others_below, near); !low.empty()) {
     options.fix_boundary = true;
-    options.nodes = intersection(new_nodes, nodes_of_hexes(mesh, with_layers(mesh, std::move(low), 1)));
+    options.nodes = new_nodes_at(std::move(low), 1);
     lift_together(mesh, refined.association, refined.model.get(), options, cell, lift_others_below, before);
   }
   return indices_where(mesh.n_nodes(), [&](Index n) { return before[n] != mesh.points[n]; });

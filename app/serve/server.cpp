@@ -93,11 +93,12 @@ class Server {
       throw Error(options_.address + (options_.port ? ":" + std::to_string(options_.port) : "") +
                   " cannot be listened on: it is taken, or is not an address of this machine");
     const bool is_ip6 = options_.address.find(':') != std::string::npos;
-    for (const std::string& name :
-         {is_ip6 ? "[" + options_.address + "]" : options_.address, std::string("localhost"), std::string("127.0.0.1")})
+    constexpr int usual_port = 80;  // which browsers leave out
+    for (const std::string& name : {is_ip6 ? "[" + options_.address + "]" : options_.address, std::string("localhost"),
+                                    std::string("127.0.0.1")}) {
       hosts_.push_back(name + ":" + std::to_string(port));
-    if (constexpr int usual_port = 80; port == usual_port)  // which browsers leave out
-      for (std::size_t i = 0; i < 3; ++i) hosts_.push_back(hosts_[i].substr(0, hosts_[i].rfind(':')));
+      if (port == usual_port) hosts_.push_back(name);
+    }
     std::jthread listener([this] { http_.listen_after_bind(); });
     while (!http_.is_running()) std::this_thread::sleep_for(1ms);  // before that, it could not be stopped
     std::printf("http://%s/?token=%s\nOpen it in a browser on this machine; Ctrl-C ends.\n", hosts_.front().c_str(),

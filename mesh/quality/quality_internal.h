@@ -25,29 +25,10 @@ extern const Kernel volume_kernel, relative_size_kernel, dimension_kernel, disto
 inline constexpr double unbounded = 1e30;
 
 template <int N>
-HEXTWIST_LANES Lanes<N> dot(const LaneVec<N>& a, const LaneVec<N>& b) {
-  Lanes<N> sum = a.x * b.x;
-  sum += a.y * b.y;
-  sum += a.z * b.z;
-  return sum;
-}
-template <int N>
-HEXTWIST_LANES LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <int N>
 HEXTWIST_LANES LaneVec<N> scaled(double factor, const LaneVec<N>& a) {
   return {factor * a.x, factor * a.y, factor * a.z};
 }
 
-/// Squared lengths of the edges.
-template <int N>
-HEXTWIST_LANES std::array<std::array<Lanes<N>, 4>, 3> squares(const LaneEdges<N>& edges) {
-  std::array<std::array<Lanes<N>, 4>, 3> result;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) result[axis][k] = edges.along[axis][k].squared();
-  return result;
-}
 template <int N>
 HEXTWIST_LANES Lanes<N> determinant_at(const LaneEdges<N>& edges, int c) {
   return determinant(edges.at(0, c), edges.at(1, c), edges.at(2, c));

@@ -57,10 +57,6 @@ HEXTWIST_LANES void add(LaneVec<N>& to, const Lanes<N>& a, const LaneVec<N>& x, 
   to.y += a * x.y + b * y.y;
   to.z += a * x.z + b * y.z;
 }
-template <int N>
-HEXTWIST_LANES LaneVec<N> cross(const LaneVec<N>& a, const LaneVec<N>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Of N hexes the sums of (f / f0)^m + (h / h0)^m over their corners, the largest of these without the power, and the
 /// gradient of the sums in the corners' places, divided by m.
@@ -74,21 +70,15 @@ HEXTWIST_LANES LaneEnergy<N> energy_of(const LaneHex<N>& hex, const Energy& ener
   LaneEnergy<N> result;
   const LaneVec<N> zero{Lanes<N>::Zero(), Lanes<N>::Zero(), Lanes<N>::Zero()};
   const LaneEdges<N> edges(hex);
-  std::array<std::array<Lanes<N>, 4>, 3> square;
+  const std::array<std::array<Lanes<N>, 4>, 3> square = squares(edges);
   std::array<std::array<LaneVec<N>, 4>, 3> along;  // gradients in the edges
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) {
-      square[axis][k] = edges.along[axis][k].squared();
-      along[axis][k] = zero;
-    }
+  for (std::array<LaneVec<N>, 4>& of_axis : along) of_axis.fill(zero);
   const double f_scale = 1 / energy.f0, h_scale = 1 / (27 * energy.h0);
   for (int c = 0; c < 8; ++c) {
     const int i = gather_bits(0, c), j = gather_bits(1, c), k = gather_bits(2, c);
     const LaneVec<N>&a = edges.along[0][i], &b = edges.along[1][j], &d = edges.along[2][k];
     const LaneVec<N> bd = cross(b, d), da = cross(d, a), ab = cross(a, b);
-    Lanes<N> volume = a.x * bd.x;
-    volume += a.y * bd.y;
-    volume += a.z * bd.z;
+    const Lanes<N> volume = dot(a, bd);
     const Lanes<N>&aa = square[0][i], &bb = square[1][j], &dd = square[2][k];
     const Lanes<N> sum = aa + bb + dd, inverse = Lanes<N>::Ones() / volume, inverse_2 = inverse * inverse;
     const Lanes<N> f = f_scale * (aa * bb * dd * inverse_2), h = h_scale * (sum * sum * sum * inverse_2);
@@ -101,7 +91,7 @@ HEXTWIST_LANES LaneEnergy<N> energy_of(const LaneHex<N>& hex, const Energy& ener
     add<N>(along[1][j], twice / bb + of_sum, b, of_volume, da);
     add<N>(along[2][k], twice / dd + of_sum, d, of_volume, ab);
   }
-  for (LaneVec<N>& at : result.gradient) at = zero;
+  result.gradient.fill(zero);
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 0; k < 4; ++k) {
       LaneVec<N>&low = result.gradient[edge_corner(4 * axis + k, 0)],
@@ -180,11 +170,7 @@ class MovingBlock {
   }
 
  private:
-  double least(Metric metric) const {
-    double result = 1;
-    for (const double q : quality(metric, local_)) result = std::min(result, q);
-    return result;
-  }
+  double least(Metric metric) const { return summarize(quality(metric, local_)).min; }
   Eigen::VectorXd places() const {
     Eigen::VectorXd x(3 * n_free_);
     for (Index i = 0; i < n_free_; ++i) x.segment<3>(3 * i) = local_.points[i];

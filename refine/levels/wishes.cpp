@@ -123,10 +123,16 @@ namespace {
 /// The cells that must be cut for these leaves to have the levels asked for: where they are that fine already, if
 /// `all`.
 LevelMarks needed(const std::vector<Asked>& leaves, Index n_base_hexes, bool all) {
-  double n_hexes = 0;  // at least, of which each has about a node
+  std::vector<std::int64_t> n_cut;  // by how often
   for (std::size_t k = 0; k < leaves.size(); ++k)
     for (const int wanted : leaves[k].level)
-      if (wanted > static_cast<int>(k)) n_hexes += std::pow(27, wanted - static_cast<int>(k));
+      if (const int times = wanted - static_cast<int>(k); times > 0) {
+        if (std::ssize(n_cut) <= times) n_cut.resize(static_cast<std::size_t>(times) + 1);
+        ++n_cut[times];
+      }
+  double n_hexes = 0;  // at least, of which each has about a node
+  for (std::size_t times = 0; times < n_cut.size(); ++times)
+    n_hexes += static_cast<double>(n_cut[times]) * std::pow(27, times);
   check_memory(n_hexes, n_hexes, "at least ");
   LevelMarks marks;
   for (std::size_t k = 0; k < leaves.size(); ++k)

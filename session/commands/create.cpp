@@ -52,7 +52,6 @@ Solid sphere(const Command& command) {
 void do_create(Execution& run) {
   const Item& what = run.command.items.at(run.command.has("create") ? 1 : 0);
   if (what.name == "group" || what.name == "block") return do_create_empty(run);
-  const Index n_before = run.meshed->mesh.n_hexes();
   forget_members(run.state, true);
   SessionState& state = run.state;
   run.stage("create");
@@ -66,7 +65,7 @@ void do_create(Execution& run) {
   state.cad_file.clear();
   state.tags = nullptr;
   state.extras = nullptr;
-  note_replaced(run, n_before);
+  note_replaced(run, run.meshed->mesh.n_hexes());
   load_mesh(run, std::move(solid.mesh), std::move(solid.cad.model), nullptr, what.name);
   say_mesh(run, what.name);
 }

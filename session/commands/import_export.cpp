@@ -62,8 +62,7 @@ void check_extension(const Execution& run, const Item& word, const Item& file, b
   if (known.empty()) return;
   const std::string padded = std::string(known) + " ";
   if (!extension.empty() && padded.find(extension + " ") != std::string::npos) return;
-  const std::string all =
-      writable_extensions() + " " + readable_extensions() + " .step .stp .brep .iges .igs ";  // .vtk is read alone
+  const std::string all = readable_extensions() + " .step .stp .brep .iges .igs ";  // what is written is read, too
   if (!is_cad_word(word.name) && all.find(extension + " ") == std::string::npos) return;
   throw error_at(run.command.statement, file.token,
                  word.name + " files end in " + std::string(known) + " here, not in '" + printable(extension) + "'");

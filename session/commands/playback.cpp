@@ -45,7 +45,7 @@ void play(Execution& run, const Item& file, std::string_view endings) {
   } const nested(run.core.nesting);
   const int n_failed = run_text(run.core, text, file.text);
   // 'exit', with which journals of other programs end, ends the journal and not who plays it.
-  run.core.state.finished = run.state.finished = false;
+  run.state.finished = false;
   if (n_failed) throw Error(file.text + ": " + counted(n_failed, "command") + " failed");
 }
 

@@ -187,6 +187,8 @@ Target hexes_near_point(const Execution& run) {
   const auto number = [&](std::string_view name) { return command.find(name)->number; };
   const Vec3 point(number("x"), number("y"), number("z"));
   const Item* radius = command.find("radius");
+  if (const Item* layers = command.find("layers"))
+    throw error_at(command.statement, layers->token, "give a depth or a radius, not both");
   if (!radius)
     throw error_at(command.statement, command.find("z")->token, "say how far around the point, such as 'radius 2'");
   const std::vector<Vec3> middle = centroids(mesh);
@@ -202,6 +204,16 @@ Target hexes_near_point(const Execution& run) {
                    "no hex has its middle within " + short_number(radius->number) + " of there; hex " +
                        std::to_string(hex_id(mesh, nearest)) + " comes nearest with " +
                        short_number((middle[nearest] - point).norm()));
+  return target;
+}
+
+Target named_target(const Execution& run) {
+  const Item& range = *run.command.find("range");
+  Target target{.kind = range.kind, .ids = run.chosen(range)};
+  if (is_cad(range.kind))
+    for (Index& id : target.ids) ++id;
+  if (const Item* layers = run.command.find("layers")) target.depth = static_cast<int>(layers->number);
+  if (const Item* radius = run.command.find("radius")) target.radius = radius->number;
   return target;
 }
 
@@ -250,25 +262,12 @@ Refining refining_of(Execution& run, const Request& request) {
 
 Target target_of(const Execution& run) {
   const Command& command = run.command;
-  const bool is_near_point = command.find("x") != nullptr;
-  const Item* layers = command.find("layers");
-  if (is_near_point && layers) throw error_at(command.statement, layers->token, "give a depth or a radius, not both");
-  Target target;
-  if (is_near_point) {
-    target = hexes_near_point(run);
-  } else {
-    const Item& range = *command.find("range");
-    target = {.kind = range.kind, .ids = run.chosen(range)};
-    if (is_cad(range.kind))
-      for (Index& id : target.ids) ++id;
-  }
+  Target target = command.find("x") ? hexes_near_point(run) : named_target(run);
   narrow(run, target);
   if (const Item* splits = command.find("splits"); splits && splits->number > max_numsplit)
     if (!is_whole_model(*run.meshed, target))
       throw error_at(command.statement, splits->token,
                      "numsplit must be at most " + std::to_string(max_numsplit) + " unless all volumes are refined");
-  if (layers) target.depth = static_cast<int>(layers->number);
-  if (const Item* radius = command.find("radius"); radius && !is_near_point) target.radius = radius->number;
   return target;
 }
 

@@ -184,6 +184,7 @@ TEST(Sets, a_face_between_volumes_has_two_sides) {
   EXPECT_EQ(sets[6].sides, sets[0].sides);
   f.session.run("sideset 3 remove " + surface);
   EXPECT_EQ(std::ranges::count(sets, 3, &SideSet::id), 0);
+  EXPECT_EQ(sets.size(), 6u);
 }
 
 TEST(Sets, are_refined_with_the_mesh_and_written_in_every_format) {
