@@ -42,6 +42,39 @@ int n_pieces(const Model& model) {
   return static_cast<int>(roots.size());
 }
 
+/// Curves and surfaces of the model have other ids now.
+void take_other_ids(Transaction& run) {
+  if (!run.state.groups) return;
+  run.state.groups = nullptr;
+  run.note("groups are empty now: curves and surfaces have other ids");
+}
+
+/// The model with its solids glued where the mesh joins more of them than the CAD does. Gaps count as touching up to
+/// the tolerance within which the mesh has to lie on it, by the smallest that does it.
+std::shared_ptr<const Model> glued_as_mesh(Transaction& run, const Mesh& mesh, std::shared_ptr<const Model> model) {
+  SessionState& state = run.state;
+  const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
+  if (in_mesh >= in_model) return model;
+  run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" + counted(in_mesh, "piece") +
+           " of mesh, " + std::to_string(in_model) + " of CAD): its touching solids are glued");
+  run.stage("glue CAD");
+  CadImport best = glued(*model);
+  int least = n_pieces(*best.model);
+  for (double gap = 1e-7; least > in_mesh && gap <= state.tolerance * (1 + 1e-9); gap *= 10) {
+    CadImport joined = glued(*model, gap * model->box().diagonal());
+    const int pieces = n_pieces(*joined.model);
+    if (pieces >= least || joined.model->count(3) != model->count(3)) continue;
+    joined.notices.push_back("gaps up to " + short_number(gap * model->box().diagonal()) +
+                             " between solids are closed");
+    best = std::move(joined);
+    least = pieces;
+  }
+  for (const std::string& line : best.notices) run.note(line);
+  state.glued = true;
+  take_other_ids(run);
+  return std::move(best.model);
+}
+
 /// Puts nodes that the file has rounded on their vertices, curves and surfaces, but for those whose hexes that would
 /// turn inside out. The parameters are those of the places already.
 void snap(const Transaction& run, Mesh& mesh, const Association& association, const Model& model) {
@@ -113,8 +146,44 @@ AssociateResult associated_within(const Mesh& mesh, const Model& model, const As
   }
 }
 
+/// On the model as it is or, where the mesh does not follow curves and surfaces that are smaller than its tolerance, on
+/// what that becomes without them.
+AssociateResult associated_on(Transaction& run, const Mesh& mesh, std::shared_ptr<const Model>& model,
+                              const Association* tags, const Faces* faces) {
+  const double length = run.state.tolerance * model->box().diagonal();
+  const auto is_short = [&](int id) {
+    const double own = model->measure({1, id});
+    return own > 0 && own <= length;
+  };
+  std::string why;
+  try {
+    return associated_within(mesh, *model, tags, run.state.tolerance, faces);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    why = error.what();
+  }
+  bool any = false;
+  for (int id = 1; id <= model->count(1) && !any; ++id) any = is_short(id);
+  if (!any || !run.state.has_cad || run.state.cad_file.empty()) throw Error(why);
+  run.stage("mend CAD");
+  CadImport mended = without_slivers(*model, length);
+  if (mended.notices.empty()) throw Error(why);
+  try {
+    AssociateResult result = associated_within(mesh, *mended.model, nullptr, run.state.tolerance, faces);
+    for (const std::string& line : mended.notices) run.note(line + ", as the mesh does not have them");
+    take_other_ids(run);
+    model = std::move(mended.model);
+    return result;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    throw Error(why);
+  }
+}
+
 /// On the model, or on its own skin where that is null.
-MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
+MeshedModel associated(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, const Association* tags,
                        const MiddleNodes* middles, const Faces* faces) {
   const Interruptible interruptible = interruptible_as(run, "associate");
   if (!model) {
@@ -122,7 +191,7 @@ MeshedModel associated(const Transaction& run, Mesh mesh, std::shared_ptr<const 
         associate_with_own_skin(mesh, {.feature_angle = run.state.feature_angle, .middles = middles, .faces = faces});
     return {std::move(mesh), std::move(result.model), std::move(result.association)};
   }
-  AssociateResult result = associated_within(mesh, *model, tags, run.state.tolerance, faces);
+  AssociateResult result = associated_on(run, mesh, model, tags, faces);
   for (const std::string& line : result.notices) run.note(line);
   if (run.state.snap) snap(run, mesh, result.association, *model);
   return {std::move(mesh), std::move(model), std::move(result.association)};
@@ -210,18 +279,8 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
     run.note(what +
              ": the hex field 'level' is how often hexes were cut: levels made from here on count from this mesh");
 
-  if (model && !state.glued && state.glue == Glue::automatic && !state.cad_file.empty() && model->count(3) > 1) {
-    const int in_mesh = n_pieces(mesh), in_model = n_pieces(*model);
-    if (in_mesh < in_model) {
-      run.note("the mesh joins solids that are apart in " + state.cad_file.string() + " (" + counted(in_mesh, "piece") +
-               " of mesh, " + std::to_string(in_model) + " of CAD): its touching solids are glued");
-      run.stage("glue CAD");
-      CadImport joined = glued(*model);
-      for (const std::string& line : joined.notices) run.note(line);
-      model = std::move(joined.model);
-      state.glued = true;
-    }
-  }
+  if (model && !state.glued && state.glue == Glue::automatic && !state.cad_file.empty() && model->count(3) > 1)
+    model = glued_as_mesh(run, mesh, std::move(model));
   run.stage("associate");
   const bool on_cad = model != nullptr;
   MeshedModel result;
@@ -234,7 +293,7 @@ void load_mesh(Transaction& run, Mesh mesh, std::shared_ptr<const Model> model, 
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
-    if (!tangled) throw;
+    if (!tangled) throw Error(what + ": " + error.what());
     throw Error(what + ": " + wrong + "; untangling did not help (" + error.what() + ")");
   }
   faces = {};

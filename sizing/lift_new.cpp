@@ -82,7 +82,7 @@ std::vector<Index> lift_new_hexes(MeshedModel& refined, std::vector<Index> new_n
   }
   // What is low still is held by its neighbours.
   if (std::vector<Index> low = hexes_below(mesh, lift_others_below, near); !low.empty()) {
-    options.fix_boundary = true;
+    options.fix_boundary = false;
     options.nodes = new_nodes_at(std::move(low), 1);
     lift_together(mesh, refined.association, refined.model.get(), options, cell, lift_others_below, before);
   }

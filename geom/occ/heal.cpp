@@ -5,6 +5,7 @@
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
@@ -12,6 +13,9 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_FixSmallFace.hxx>
+#include <ShapeFix_Wireframe.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -31,10 +35,15 @@ int count_kind(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   return map.Extent();
 }
 
+/// Of the solids: what is beside them has none.
 double volume_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  return std::abs(properties.Mass());
+  double sum = 0;
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(solids.Current(), properties);
+    sum += std::abs(properties.Mass());
+  }
+  return sum;
 }
 
 double size_of(const TopoDS_Shape& shape) {
@@ -214,6 +223,11 @@ void glue_solids(Part& part, double tolerance) {
     }
   }
   const double before = volume_of(part.shape), after = volume_of(result);
+  // What bounds no solid (datum planes, lines to refine along) stays beside them as it is.
+  for (TopExp_Explorer it(part.shape, TopAbs_FACE, TopAbs_SOLID); it.More(); it.Next())
+    builder.Add(result, it.Current());
+  for (TopExp_Explorer it(part.shape, TopAbs_EDGE, TopAbs_FACE); it.More(); it.Next())
+    builder.Add(result, it.Current());
   for (const TopAbs_ShapeEnum kind : kinds) {
     TopTools_IndexedMapOfShape pieces;
     TopExp::MapShapes(part.shape, kind, pieces);
@@ -229,6 +243,7 @@ void glue_solids(Part& part, double tolerance) {
   // Faces may be cut as well: how many there are does not tell.
   int n_uses = 0;
   for (TopExp_Explorer it(result, TopAbs_SOLID); it.More(); it.Next()) n_uses += count_kind(it.Current(), TopAbs_FACE);
+  for (TopExp_Explorer it(result, TopAbs_FACE, TopAbs_SOLID); it.More(); it.Next()) ++n_uses;
   if (n_uses == count_kind(result, TopAbs_FACE)) notice += "; no two solids share a face";
   part.shape = result;
   part.notices.push_back(notice);
@@ -237,6 +252,42 @@ void glue_solids(Part& part, double tolerance) {
     part.notices.push_back("gluing changed the volume from " + short_number(before, 3) + " to " +
                            short_number(after, 3));
   }
+}
+
+void merge_slivers(Part& part, double length) {
+  const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+  const auto prepare = [&](ShapeFix_Root& fix) {
+    fix.SetContext(changes);
+    fix.SetPrecision(length);
+    fix.SetMaxTolerance(length);
+  };
+  const Handle(ShapeFix_FixSmallFace) faces = new ShapeFix_FixSmallFace;
+  prepare(*faces);
+  faces->Init(part.shape);
+  faces->Perform();
+  const Handle(ShapeFix_Wireframe) edges = new ShapeFix_Wireframe(faces->FixShape());
+  prepare(*edges);
+  edges->ModeDropSmallEdges() = true;
+  edges->FixSmallEdges();
+  edges->FixWireGaps();
+  const TopoDS_Shape result = edges->Shape();
+  const int n_edges = count_kind(part.shape, TopAbs_EDGE), n_now = count_kind(result, TopAbs_EDGE);
+  const double before = volume_of(part.shape), after = volume_of(result);
+  if (n_now >= n_edges || count_solids(result) != count_solids(part.shape) || !BRepCheck_Analyzer(result).IsValid() ||
+      std::abs(before - after) > length * size_of(part.shape) * size_of(part.shape))
+    return;
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX}) {
+    TopTools_IndexedMapOfShape old;
+    TopExp::MapShapes(part.shape, kind, old);
+    for (int i = 1; i <= old.Extent(); ++i)
+      if (const TopoDS_Shape now = changes->Apply(old(i)); !now.IsNull() && now.ShapeType() == kind)
+        rename(part.names, old(i), now);
+  }
+  const int n_faces = count_kind(part.shape, TopAbs_FACE) - count_kind(result, TopAbs_FACE);
+  part.notices.push_back(counted(n_edges - n_now, "edge") + (n_faces > 0 ? " and " + counted(n_faces, "face") : "") +
+                         " of the CAD that are at most " + short_number(length) +
+                         (n_faces > 0 ? " long or wide" : " long") + " are merged into those beside them");
+  part.shape = result;
 }
 
 }  // namespace hextwist::occ

@@ -27,4 +27,8 @@ void make_solids(Part& part);
 /// Makes touching solids share faces, edges and vertices. tolerance 0: that of the shape. Solids keep their order.
 void glue_solids(Part& part, double tolerance);
 
+/// Merges edges shorter than that into those beside them, and takes out faces narrower than that. Leaves the shape as
+/// it is where solids would go, change by more, or be broken.
+void merge_slivers(Part& part, double length);
+
 }  // namespace hextwist::occ

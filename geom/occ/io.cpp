@@ -33,6 +33,7 @@
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "hextwist/base/replacement.h"
@@ -290,10 +291,13 @@ const OccModel* shape_behind(const Model& model, occ::Names& names) {
 
 }  // namespace
 
-CadImport glued(const Model& model, double tolerance) {
+namespace {
+
+/// The model of the shape behind this one after `change`, with its names.
+CadImport changed(const Model& model, const std::string& task, const std::function<void(Part&)>& change) {
   occ::Names names;
   const OccModel* const occ_model = shape_behind(model, names);
-  if (!occ_model) throw Error("this model has no CAD shape to glue");
+  if (!occ_model) throw Error("this model has no CAD shape to " + task);
   return guarded("shape", [&] {
     const std::lock_guard lock(occ_files());
     const Silence silence;
@@ -304,8 +308,19 @@ CadImport glued(const Model& model, double tolerance) {
       for (std::size_t id = 1; id < names[dim].size(); ++id)
         if (const std::string& name = names[dim][id]; !name.empty())
           part.names.emplace(maps[dim](static_cast<int>(id)).TShape().get(), name);
-    return finish(std::move(part), {.glue = true, .glue_tolerance = tolerance}, "shape");
+    change(part);
+    return finish(std::move(part), {}, "shape");
   });
+}
+
+}  // namespace
+
+CadImport glued(const Model& model, double tolerance) {
+  return changed(model, "glue", [&](Part& part) { occ::glue_solids(part, tolerance); });
+}
+
+CadImport without_slivers(const Model& model, double length) {
+  return changed(model, "mend", [&](Part& part) { occ::merge_slivers(part, length); });
 }
 
 namespace {

@@ -47,6 +47,11 @@ CadImport cad_from_shape(const TopoDS_Shape& shape, const CadOptions& options = 
 /// Throws Error if it did not come from OpenCASCADE.
 CadImport glued(const Model& model, double tolerance = 0);
 
+/// The same model without curves shorter than `length` and surfaces narrower than that, which are merged into those
+/// beside them; ids may be others. Without a notice nothing was, as there are none or solids would not stay sound.
+/// Throws Error if it did not come from OpenCASCADE.
+CadImport without_slivers(const Model& model, double length);
+
 /// Writes the shape behind a model made by the functions above; format by extension (.step, .brep, .iges).
 /// Throws Error if the model did not come from OpenCASCADE or the file can't be written.
 void write_cad(const std::filesystem::path& file, const Model& model);

@@ -91,7 +91,8 @@ std::string match_volumes(const ModelFacts& facts, const Mesh& mesh, const Faces
                            std::to_string(quad_surface[first]) + " of " + volume_names(volumes) + " and surface " +
                            std::to_string(quad_surface[q]) + " of " + volume_names(here);
         return text + (shared ? ": the mesh does not follow the surfaces between the volumes"
-                              : ", which share no surface: import the CAD with glue");
+                              : ", which share no surface: glue them, by 'set glue on' before the CAD is read, or "
+                                "'merge all tolerance' before the mesh is, where there are gaps");
       }
       volumes = std::move(common);
     }

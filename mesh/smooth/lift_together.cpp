@@ -102,11 +102,28 @@ HEXTWIST_LANES LaneEnergy<N> energy_of(const LaneHex<N>& hex, const Energy& ener
   return result;
 }
 
+/// A node that stays on a surface: it moves in the plane at its place, then goes back onto it.
+struct OnSurface {
+  Index node;  ///< of the block
+  Owner owner;
+  Parameters at;
+  Vec3 normal;  ///< 0: it stays
+};
+
 /// A mesh of its own of some hexes, whose first n_free nodes move.
 class MovingBlock {
  public:
-  MovingBlock(const Mesh& mesh, std::span<const Index> nodes, std::span<const Index> hexes) {
+  MovingBlock(const Mesh& mesh, std::span<const Index> nodes, std::span<const Index> hexes,
+              const Association& association, const Model* model)
+      : model_(model) {
     n_free_ = static_cast<Index>(nodes.size());
+    for (Index i = 0; i < n_free_ && model; ++i) {
+      const Owner owner = association.node_owner[nodes[i]];
+      if (owner.dim != 2) continue;
+      Parameters at = association.node_parameters[nodes[i]];
+      if (std::isnan(at.u)) at = model->project(owner, mesh.points[nodes[i]]).parameters;
+      on_surfaces_.push_back({i, owner, at, model->normal(owner.id, at)});
+    }
     all_.assign(nodes.begin(), nodes.end());
     std::vector<Index> corners;
     corners.reserve(8 * hexes.size());
@@ -147,6 +164,7 @@ class MovingBlock {
     if (!(worst > 0) || worst >= wanted) return false;
     const std::vector<Index> inverted = inverted_hexes(local_);
     Eigen::VectorXd best = places();
+    std::vector<OnSurface> best_on_surfaces = on_surfaces_;
     Energy energy;
     energy.h0 = std::pow(std::min(hold_shape * least_shape, fair_shape), -3);
     double reached = worst, now = worst;
@@ -154,19 +172,24 @@ class MovingBlock {
       const double goal = std::min(growth * now, beyond * beyond * wanted);
       energy.f0 = 1 / (goal * goal);
       energy.m = round < n_gentle_rounds ? gentle_power : hard_power;
+      const Eigen::VectorXd from = places();
       descend(energy);
+      if (!settle(from)) break;
       now = least(Metric::scaled_jacobian);
       n_vain = now < (1 + least_growth) * reached ? n_vain + 1 : 0;
       if (!(now > reached) || least(Metric::shape) < least_shape || inverted_hexes(local_) != inverted) continue;
       reached = now;
       best = places();
+      best_on_surfaces = on_surfaces_;
     }
     put(best);
+    on_surfaces_ = std::move(best_on_surfaces);
     return reached > worst;
   }
 
-  void put_into(Mesh& mesh) const {
+  void put_into(Mesh& mesh, Association& association) const {
     for (Index i = 0; i < n_free_; ++i) mesh.points[all_[i]] = local_.points[i];
+    for (const OnSurface& on : on_surfaces_) association.node_parameters[all_[on.node]] = on.at;
   }
 
  private:
@@ -178,6 +201,21 @@ class MovingBlock {
   }
   void put(const Eigen::VectorXd& x) {
     for (Index i = 0; i < n_free_; ++i) local_.points[i] = x.segment<3>(3 * i);
+  }
+  /// Back onto the surfaces; false where one leads elsewhere.
+  bool settle(const Eigen::VectorXd& from) {
+    for (OnSurface& on : on_surfaces_) {
+      Vec3& place = local_.points[on.node];
+      const Vec3 start = from.segment<3>(3 * on.node);
+      if (place == start) continue;
+      Projection foot;
+      model_->project(on.owner, {&place, 1}, {&on.at, 1}, {&foot, 1});
+      if ((foot.point - place).squaredNorm() > (place - start).squaredNorm()) return false;
+      place = foot.point;
+      on.at = foot.parameters;
+      on.normal = model_->normal(on.owner.id, on.at);
+    }
+    return true;
   }
   double shortest_edge() const {
     double shortest = std::numeric_limits<double>::infinity();
@@ -225,6 +263,13 @@ class MovingBlock {
       for (Index k = first_corner_[i]; k < first_corner_[i + 1]; ++k) sum += of_corner_[corner_[k]];
       gradient.segment<3>(3 * i) = sum / all.energy;
     });
+    for (const OnSurface& on : on_surfaces_) {
+      auto of_node = gradient.segment<3>(3 * on.node);
+      if (on.normal.squaredNorm() > 0.5)
+        of_node -= on.normal * on.normal.dot(of_node);
+      else
+        of_node.setZero();
+    }
     all.energy = std::log(all.energy) / energy.m;
     return all;
   }
@@ -289,7 +334,9 @@ class MovingBlock {
   Index n_free_ = 0;
   Mesh local_;
   std::vector<Index> first_corner_, corner_;  ///< per free node 8 * hex + corner
-  std::vector<Vec3> of_corner_;               ///< gradient of the sum in each corner's place
+  const Model* model_;
+  std::vector<OnSurface> on_surfaces_;
+  std::vector<Vec3> of_corner_;  ///< gradient of the sum in each corner's place
 };
 
 /// Blocks whose hexes are apart, so that they can move at the same time: by colour, then in their order.
@@ -322,8 +369,9 @@ std::vector<std::vector<Index>> by_colour(const std::vector<std::vector<Index>>&
 
 }  // namespace
 
-void lift_together(Mesh& mesh, const Association& association, const Model* model, const SmoothOptions& options,
+void lift_together(Mesh& mesh, Association& association, const Model* model, const SmoothOptions& options,
                    std::span<const Index> cell, double wanted, std::span<const Vec3> before) {
+  if (!association.empty()) association.node_parameters.resize(mesh.points.size());
   const SmoothProblem problem = make_smooth_problem(mesh, association, model, options);
   if (problem.n_nodes() == 0) return;
   // The nodes that move freely of hexes at a cell, and the hexes around them.
@@ -337,47 +385,56 @@ void lift_together(Mesh& mesh, const Association& association, const Model* mode
     sort_unique(hexes);
     return hexes;
   };
-  const auto moving = [&](std::span<const Index> hexes) {
+  const auto on_surface = [&](Index n) { return problem.owner[problem.slot[n]].dim == 2; };
+  const auto moving = [&](std::span<const Index> hexes, bool on_surfaces) {
     std::vector<Index> nodes;
     for (const Index h : hexes)
       for (const Index n : mesh.hexes[h])
-        if (const Index s = problem.slot[n]; s >= 0 && !problem.slides(s)) nodes.push_back(n);
+        if (const Index s = problem.slot[n];
+            s >= 0 && (!problem.slides(s) || (on_surfaces && on_surface(n) && !problem.hold_of(s))))
+          nodes.push_back(n);
     sort_unique(nodes);
     return nodes;
   };
-  const std::vector<Index> low = hexes_below(mesh, wanted, problem.hexes);
-  std::vector<Index> cells;
-  for (const Index h : low) cells.push_back(cell[h]);
-  sort_unique(cells);
-  std::vector<std::vector<Index>> of_cell(cells.size()), nodes_of(cells.size()), hexes_of(cells.size());
-  for (const Index h : problem.hexes)
-    if (const auto at = std::ranges::lower_bound(cells, cell[h]); at != cells.end() && *at == cell[h])
-      of_cell[at - cells.begin()].push_back(h);
-  parallel_each(
-      cells.size(),
-      [&](std::size_t c) {
-        nodes_of[c] = moving(around(moving(of_cell[c])));
-        hexes_of[c] = around(nodes_of[c]);
-      },
-      16);
-  const std::vector<std::vector<Index>> colours = by_colour(hexes_of, mesh.n_hexes());
-  for (const double below : {wanted, again_below * wanted})
-    for (const std::vector<Index>& blocks : colours)
-      parallel_each(
-          blocks.size(),
-          [&](std::size_t i) {
-            const std::vector<Index>&nodes = nodes_of[blocks[i]], &hexes = hexes_of[blocks[i]];
-            if (nodes.empty() || hexes_below(mesh, below, hexes).empty()) return;
-            double least_shape = 1;
-            for (const Index h : hexes) {
-              std::array<Vec3, 8> corners;
-              for (std::size_t c = 0; c < 8; ++c) corners[c] = before[mesh.hexes[h][c]];
-              least_shape = std::min(least_shape, quality(Metric::shape, corners));
-            }
-            MovingBlock block(mesh, nodes, hexes);
-            if (block.lift(wanted, shape_kept * least_shape)) block.put_into(mesh);
-          },
-          1);
+  const auto take_turns = [&](bool on_surfaces, std::initializer_list<double> below_each) {
+    const std::vector<Index> low = hexes_below(mesh, wanted, problem.hexes);
+    std::vector<Index> cells;
+    for (const Index h : low) cells.push_back(cell[h]);
+    sort_unique(cells);
+    std::vector<std::vector<Index>> of_cell(cells.size()), nodes_of(cells.size()), hexes_of(cells.size());
+    for (const Index h : problem.hexes)
+      if (const auto at = std::ranges::lower_bound(cells, cell[h]); at != cells.end() && *at == cell[h])
+        of_cell[at - cells.begin()].push_back(h);
+    parallel_each(
+        cells.size(),
+        [&](std::size_t c) {
+          nodes_of[c] = moving(around(moving(of_cell[c], on_surfaces)), on_surfaces);
+          if (on_surfaces && std::ranges::none_of(nodes_of[c], on_surface)) nodes_of[c].clear();
+          hexes_of[c] = around(nodes_of[c]);
+        },
+        16);
+    const std::vector<std::vector<Index>> colours = by_colour(hexes_of, mesh.n_hexes());
+    for (const double below : below_each)
+      for (const std::vector<Index>& blocks : colours)
+        parallel_each(
+            blocks.size(),
+            [&](std::size_t i) {
+              const std::vector<Index>&nodes = nodes_of[blocks[i]], &hexes = hexes_of[blocks[i]];
+              if (nodes.empty() || hexes_below(mesh, below, hexes).empty()) return;
+              double least_shape = 1;
+              for (const Index h : hexes) {
+                std::array<Vec3, 8> corners;
+                for (std::size_t c = 0; c < 8; ++c) corners[c] = before[mesh.hexes[h][c]];
+                least_shape = std::min(least_shape, quality(Metric::shape, corners));
+              }
+              MovingBlock block(mesh, nodes, hexes, association, model);
+              if (block.lift(wanted, shape_kept * least_shape)) block.put_into(mesh, association);
+            },
+            1);
+  };
+  take_turns(false, {wanted, again_below * wanted});
+  // Nodes on surfaces, which cost projections, where that was not enough.
+  if (model && !options.fix_boundary) take_turns(true, {wanted, wanted});
 }
 
 }  // namespace hextwist

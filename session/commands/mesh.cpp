@@ -26,8 +26,10 @@ std::shared_ptr<const Model> with_shared_surfaces(Execution& run) {
   CadImport joined = glued(*model);
   const auto n_uses = [](const Model& of) {
     std::size_t n = 0;
-    for (int surface = 1; surface <= of.count(2); ++surface) n += of.adjacent({2, surface}, 3).size();
-    return n - static_cast<std::size_t>(of.count(2));
+    for (int dim = 0; dim < 3; ++dim)
+      for (int id = 1; id <= of.count(dim); ++id)
+        if (const std::size_t volumes = of.adjacent({dim, id}, 3).size()) n += volumes - 1;
+    return n;
   };
   if (n_uses(*joined.model) == n_uses(*model)) return model;
   for (const std::string& line : joined.notices) run.note(line);

@@ -279,6 +279,10 @@ void do_refine(Execution& run) {
   Refining refining = refining_of(run, request);
   const Report& report = refining.report();
   const bool dry_run = refining.request.finish.dry_run;
+  if (request.target.kind == EntityKind::node && !report.sizes && report.hexes_after == report.hexes_before)
+    run.note(
+        "nothing is cut: around nodes that is edges of which one end is among them and the other is not; "
+        "'depth 1' cuts all hexes at them");
   const std::string line = tell(run, report, dry_run);
   if (dry_run) {
     if (const std::string wrong = record_violations(run.record(), refining.whole.refined.mesh, report.violations);

@@ -326,6 +326,15 @@ TEST(occ_model, glueing_merges_what_touches_and_says_how_much) {
   EXPECT_EQ(OccShape::brick(1, 1, 1).import(glue).notices[0], "nothing to glue: the model has one solid");
 }
 
+TEST(occ_model, glueing_keeps_faces_beside_the_solids) {
+  const OccShape both = OccShape::together({OccShape::two_bricks(), OccShape::open_shell().moved({10, 0, 0}, 0)});
+  const CadImport glued = both.import({.glue = true});
+  EXPECT_EQ(glued.model->count(3), 2);
+  EXPECT_EQ(glued.model->count(2), 11 + 5);
+  EXPECT_EQ(glued.model->count(1), 20 + 12);
+  for (const std::string& line : glued.notices) EXPECT_EQ(line.find("changed the volume"), std::string::npos) << line;
+}
+
 TEST(occ_model, loose_faces_are_sewed_into_a_solid_with_its_cavity) {
   const CadImport part = OccShape::loose_faces_with_cavity().import();
   ASSERT_EQ(part.model->count(3), 1);

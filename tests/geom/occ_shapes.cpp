@@ -129,6 +129,17 @@ OccShape OccShape::brick_with_face_inside(double x, double y, double z, double d
   return OccShape(std::make_shared<Impl>(TopExp_Explorer(builder.Shape(), TopAbs_SOLID).Current()));
 }
 
+OccShape OccShape::brick_with_vertex(double x, double y, double z, const Vec3& at) {
+  const TopoDS_Shape brick = BRepPrimAPI_MakeBox(x, y, z).Shape();
+  TopTools_ListOfShape both;
+  both.Append(brick);
+  both.Append(BRepBuilderAPI_MakeVertex(gp_Pnt(at.x(), at.y(), at.z())).Shape());
+  BRepAlgoAPI_BuilderAlgo builder;
+  builder.SetArguments(both);
+  builder.Build();
+  return OccShape(std::make_shared<Impl>(builder.Modified(brick).First()));
+}
+
 OccShape OccShape::brick_with_hole(double x, double y, double z, double r) {
   const gp_Ax2 axes(gp_Pnt(x / 2, y / 2, -1), gp_Dir(0, 0, 1));
   const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(axes, r, z + 2).Shape();

@@ -25,6 +25,8 @@ class OccShape {
   /// The inner part of a torus whose minor radius is the larger: pointed on the axis.
   static OccShape lemon(double major, double minor);
   static OccShape brick(double x, double y, double z);
+  /// Brick with a vertex more, on one of its edges.
+  static OccShape brick_with_vertex(double x, double y, double z, const Vec3& at);
   /// Brick with a cylindrical hole along z in its middle.
   static OccShape brick_with_hole(double x, double y, double z, double r);
   /// Brick with a face inside, across the middle of x and from y = 0 to depth, that bounds nothing.

@@ -122,7 +122,7 @@ TEST_P(association_on_cad, volumes_that_share_nothing_ask_for_glue) {
       FAIL() << "no error";
     } catch (const Error& error) {
       const std::string text = error.what();
-      EXPECT_NE(text.find("which share no surface: import the CAD with glue"), std::string::npos) << text;
+      EXPECT_NE(text.find("which share no surface: glue them"), std::string::npos) << text;
     }
   }
 }

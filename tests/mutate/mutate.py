@@ -120,8 +120,9 @@ def main():
     rows_file = pathlib.Path(options.rows)
     rows = [line.split("\t") for line in rows_file.read_text().splitlines()] if rows_file.exists() else []
     limits = {}
-    if judge(options.build, limits) != "survived":
-        sys.exit("the tests fail before anything is flipped")
+    verdict = judge(options.build, limits)
+    if verdict != "survived":
+        sys.exit(f"before anything is flipped: {verdict}")
     all_places = places(root)
     print(f"{len(all_places)} flips, seed {options.seed}")
     random.Random(options.seed).shuffle(all_places)

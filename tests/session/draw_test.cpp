@@ -201,6 +201,33 @@ TEST(Draw, sets_levels_fields_and_owners_give_colours) {
             "'quality' gives the colours as well: say one of them");
 }
 
+TEST(Draw, sheets_wished_sizes_and_vectors_give_colours) {
+  Fixture f;
+  f.session.run("create brick x 4 interval 4");
+  Mesh mesh = f.session.meshed().mesh;
+  Field flow;
+  flow.name = "flow", flow.components = 3, flow.on = Field::On::node;
+  for (const Vec3& p : mesh.points) flow.values.insert(flow.values.end(), {p.x(), 0, 2 * p.z()});
+  mesh.fields = {flow};
+  f.session.take_mesh(mesh);
+  f.session.run("list field");
+  EXPECT_NE(f.all_output().find("'flow'  nodes  3           -4        4"), std::string::npos) << f.all_output();
+  const auto said = [&](const std::string& colour) {
+    f.output.clear();
+    EXPECT_GT(drawn(f, "color '" + colour + "' pixels 200 150").n_drawn(), 5000) << colour;
+    return f.all_output();
+  };
+  EXPECT_NE(said("flow magnitude").find("flow magnitude: from 0 to 4.47"), std::string::npos) << f.all_output();
+  EXPECT_NE(said("flow x").find("flow x: from -2 to 2"), std::string::npos) << f.all_output();
+  EXPECT_NE(said("flow z").find("flow z: from -4 to 4"), std::string::npos) << f.all_output();
+  // Every hex is in three sheets of as many hexes: that with the lowest number gives the colour.
+  const std::string sheets = said("sheet");
+  EXPECT_EQ(std::ranges::count(sheets, '\n') > 3, true) << sheets;
+  EXPECT_NE(sheets.find("  sheet 1: "), std::string::npos) << sheets;
+  f.session.run("sizing function half constant 0.5; refine volume all sizing_function");
+  EXPECT_NE(said("actual / wished size").find("actual / wished size: from "), std::string::npos) << f.all_output();
+}
+
 TEST(Draw, a_picture_has_ids_a_title_and_a_legend) {
   Fixture f;
   f.session.run("create brick x 2 interval 2; reset block; block 1 hex 1 to 4 name 'under'; block 2 hex 5 to 8");
@@ -315,6 +342,22 @@ TEST(Draw, a_page_stands_by_itself) {
     EXPECT_NE(inside.find(array), std::string::npos) << array << "\n" << inside.substr(0, 300);
   EXPECT_NE(block_of(page, "c2").find("[\"value\",\"f32\",1,8]"), std::string::npos);
   EXPECT_NE(f.all_output().find("8 hexes"), std::string::npos);
+}
+
+TEST(Draw, a_page_holds_cad_alone_groups_and_a_cut) {
+  if (!has_page()) GTEST_SKIP() << "built without its page";
+  Fixture f;
+  const auto file = folder() / "a.html";
+  f.session.run("import geometry '" HEXTWIST_SOURCE_DIR "/models/bracket.brep'; draw to '" + file.string() + "'");
+  const MeshedModel& meshed = f.session.meshed();
+  const std::string cad = block_of(content(file), "cad");
+  EXPECT_NE(cad.find("[\"vertex\",\"f32\",3," + std::to_string(meshed.model->count(0)) + "]"), std::string::npos)
+      << cad.substr(0, 600);
+  f.session.run("import mesh '" HEXTWIST_SOURCE_DIR "/models/bracket.msh'");
+  f.session.run("group 'some' add hex 1 to 7 face 3 node 5 curve 2; draw clip x at 0 to '" + file.string() +
+                "' overwrite");
+  const std::string page = content(file);
+  EXPECT_NE(page.find("some"), std::string::npos);
 }
 
 TEST(Draw, a_drawing_has_an_area_for_each_face) {

@@ -31,6 +31,7 @@ const std::vector<Line> lines = {
     {"refine hex 1 22 43 64 numsplit 1 bias 1.0 depth 1", done, " hexes"},
     {"refine node 5 numsplit 1 bias 1.0 depth 0", done, " hexes"},
     {"refine node in surface 2 numsplit 1 bias 1.0 depth 2", done, " hexes"},
+    {"refine node all", done, "nothing is cut"},
     {"refine edge 7 numsplit 1", done, " hexes"},
     {"refine face in surface 1 numsplit 1 bias 1 depth 1", done, " hexes"},
     {"refine vertex 3 numsplit 2 radius 3", done, " hexes"},

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "geom/occ_shapes.h"
 #include "hextwist/mesh/merge.h"
@@ -179,6 +180,56 @@ TEST(Merge, of_cad_alone_glues_touching_solids) {
   EXPECT_NE(f.error("merge volume 1").find("'merge all'"), std::string::npos);
   f.session.run("reset");
   EXPECT_NE(f.error("merge all").find("no mesh"), std::string::npos) << f.error("merge all");
+}
+
+TEST(Merge, of_cad_closes_gaps_that_the_mesh_does_not_have) {
+  const auto cad = (test::folder() / "gap.step").string(), grid = (test::folder() / "grid.msh").string();
+  for (const auto& [gap, closes] : {std::pair(0.0, false), {1e-5, true}, {4e-4, true}}) {
+    using test::OccShape;
+    OccShape::together({OccShape::brick(2, 3, 4), OccShape::brick(3 - gap, 3, 4).moved({2 + gap, 0, 0}, 0)}).write(cad);
+    Fixture f;
+    f.session.run("create brick x 5 y 3 z 4 interval 5 3 4; move x 2.5 y 1.5 z 2; export mesh '" + grid +
+                  "' overwrite; reset");
+    f.session.run("set tolerance 1e-4; import step '" + cad + "'; import mesh '" + grid +
+                  "'; check; refine surface in volume 1 depth 1; check");
+    EXPECT_EQ(f.session.meshed().model->count(2), 11) << gap;
+    const std::vector<int>& volumes = f.session.meshed().association.hex_volume;
+    EXPECT_EQ(std::set<int>(volumes.begin(), volumes.end()), (std::set<int>{1, 2})) << gap;
+    EXPECT_EQ(f.all_notices().find("between solids are closed") != std::string::npos, closes) << gap << f.all_notices();
+    EXPECT_TRUE(test::conformal(f.session.meshed().mesh));
+  }
+}
+
+TEST(Slivers, of_cad_that_the_mesh_does_not_have_are_merged_into_what_lies_beside) {
+  using test::OccShape;
+  constexpr double e = 2e-5;
+  const auto prism = [](const std::vector<std::array<double, 2>>& polygon) {
+    return OccShape::extruded(polygon, {0, 0, 2});
+  };
+  const std::vector<std::pair<const char*, OccShape>> parts = {
+      {"a vertex beside a corner", OccShape::brick_with_vertex(4, 3, 2, {e, 0, 0})},
+      {"a narrow face in a side", prism({{0, 0}, {4, 0}, {4, 3 - e}, {4, 3}, {0, 3}})},
+      {"a narrow chamfer", prism({{0, 0}, {4, 0}, {4, 3 - e}, {4 - e, 3}, {0, 3}})},
+      {"solids that are shifted",
+       OccShape::together({OccShape::brick(2, 3, 2), OccShape::brick(2, 3, 2).moved({2, e, 0}, 0)})}};
+  const auto grid = (test::folder() / "grid.msh").string();
+  for (const auto& [name, part] : parts)
+    for (const char* format : {"brep", "step"}) {
+      SCOPED_TRACE(std::string(name) + " " + format);
+      const auto cad = (test::folder() / (std::string("part.") + format)).string();
+      part.write(cad);
+      Fixture f;
+      f.session.run("create brick x 4 y 3 z 2 interval 4 3 2; move x 2 y 1.5 z 1; export mesh '" + grid +
+                    "' overwrite; reset");
+      f.session.run("import " + std::string(format) + " '" + cad + "'; group 'some' add surface 1");
+      f.session.run("import mesh '" + grid + "'; check; refine surface 2 depth 1; check");
+      const MeshedModel& meshed = f.session.meshed();
+      EXPECT_EQ(meshed.model->count(2), meshed.model->count(3) == 1 ? 6 : 11);
+      EXPECT_NE(f.all_notices().find("as the mesh does not have them"), std::string::npos) << f.all_notices();
+      EXPECT_NE(f.all_notices().find("groups are empty now"), std::string::npos) << f.all_notices();
+      EXPECT_TRUE(test::conformal(meshed.mesh));
+      EXPECT_TRUE(test::on_model(meshed.mesh, meshed.association, *meshed.model, 2e-5));
+    }
 }
 
 }  // namespace

@@ -44,12 +44,16 @@ struct Fixture {
     }
     return "no error";
   }
-  std::string all_output() const {
+  std::string all_output() const { return together(output); }
+  std::string all_notices() const { return together(notices); }
+  const CommandRecord& last() const { return session.records().back(); }
+
+ private:
+  static std::string together(const std::vector<std::string>& lines) {
     std::string result;
-    for (const std::string& line : output) result += line + "\n";
+    for (const std::string& line : lines) result += line + "\n";
     return result;
   }
-  const CommandRecord& last() const { return session.records().back(); }
 };
 
 inline std::filesystem::path written(const std::string& name, const std::string& text) {
