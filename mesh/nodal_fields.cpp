@@ -139,11 +139,12 @@ bool has_nodal_fields(const Mesh& mesh) {
 
 std::vector<Index> hexes_to_begin_with(const Mesh& after, std::span<const Index> nodes, std::span<const Index> origin) {
   constexpr Index none = std::numeric_limits<Index>::max();
-  std::vector<Index> lowest(after.points.size(), -1);
-  for (const Index n : nodes) lowest[n] = none;
+  std::vector<Index> lowest(after.points.size(), none);
+  std::vector<std::uint8_t> is_asked(after.points.size(), 0);
+  for (const Index n : nodes) is_asked[n] = 1;
   parallel_each(after.hexes.size(), [&](std::size_t h) {
     for (const Index n : after.hexes[h])
-      if (lowest[n] >= 0) atomic_min(lowest[n], origin.empty() ? static_cast<Index>(h) : origin[h]);
+      if (is_asked[n]) atomic_min(lowest[n], origin.empty() ? static_cast<Index>(h) : origin[h]);
   });
   return items_at(lowest, nodes);
 }
