@@ -31,9 +31,7 @@ constexpr Freedom freedoms[n_freedoms] = {{0.01, false, 1, 6},
                                           {0.2, false, 0, 4},
                                           {lift_others_below, false, 0, 6},
                                           {lift_below, false, 0, 6, true},
-                                          {lift_others_below, true, 0, 6},
-                                          {0.25, true, 1, 10},
-                                          {0.2, true, 2, 10}};
+                                          {lift_others_below, true, 0, 6}};
 
 /// Shape of a cube, but for rounding.
 constexpr double perfect = 0.9999;

@@ -16,7 +16,7 @@ inline constexpr double lift_below = 0.4;
 /// What no hex may fall below, where these hexes are some of more. freedom: how far lifting has come, 0 .. n_freedoms -
 /// 1, each at most once and in this order.
 using BoundsOfAll = std::function<Bounds(int freedom, std::span<const Index> hexes, double wanted)>;
-inline constexpr int n_freedoms = 10;
+inline constexpr int n_freedoms = 8;
 
 /// Lifts low hexes (mesh/smooth/lift.h) by the nodes (ascending) that are new, or not where they were. Fixed nodes,
 /// nodes on curves and those of cubes stay. cell: per hex what it was cut out of; nodes of
