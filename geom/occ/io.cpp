@@ -289,10 +289,6 @@ const OccModel* shape_behind(const Model& model, occ::Names& names) {
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The model of the shape behind this one after `change`, with its names.
 CadImport changed(const Model& model, const std::string& task, const std::function<void(Part&)>& change) {
   occ::Names names;

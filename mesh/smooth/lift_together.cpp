@@ -35,6 +35,9 @@ constexpr double first_step = 0.05;
 constexpr double shape_kept = 0.85;
 /// Blocks have a second turn where corners are below this part of what is wanted, as their neighbours moved.
 constexpr double again_below = 0.7;
+/// Faces between nodes that are less even on a bent surface follow it worse: a block may gain or lose this part of its
+/// volume by that.
+constexpr double volume_given = 4e-3;
 /// The energy holds them a little above what they were, and aims a little beyond the wanted corner.
 constexpr double hold_shape = 1.1, beyond = 1.05;
 
@@ -163,6 +166,11 @@ class MovingBlock {
     const double worst = least(Metric::scaled_jacobian);
     if (!(worst > 0) || worst >= wanted) return false;
     const std::vector<Index> inverted = inverted_hexes(local_);
+    const double was = volume(local_);
+    const auto is_kept = [&] {
+      return least(Metric::shape) >= least_shape && inverted_hexes(local_) == inverted &&
+             std::abs(volume(local_) - was) <= volume_given * was;
+    };
     Eigen::VectorXd best = places();
     std::vector<OnSurface> best_on_surfaces = on_surfaces_;
     Energy energy;
@@ -177,7 +185,7 @@ class MovingBlock {
       if (!settle(from)) break;
       now = least(Metric::scaled_jacobian);
       n_vain = now < (1 + least_growth) * reached ? n_vain + 1 : 0;
-      if (!(now > reached) || least(Metric::shape) < least_shape || inverted_hexes(local_) != inverted) continue;
+      if (!(now > reached) || !is_kept()) continue;
       reached = now;
       best = places();
       best_on_surfaces = on_surfaces_;
