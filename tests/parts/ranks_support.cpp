@@ -19,10 +19,10 @@ Outcome run_program_in_ranks(int n, const std::string& program, const std::strin
                       (std::string("mpi.") + testing::UnitTest::GetInstance()->current_test_info()->name());
   std::filesystem::create_directories(folder);
   const std::string out = (folder / "stdout").string(), err = (folder / "stderr").string();
-  // What MPI's libraries keep until the end is not for the leak sanitizer to tell.
-  const std::string command = std::string("ASAN_OPTIONS=detect_leaks=0 '") + HEXTWIST_MPIEXEC +
-                              "' --oversubscribe --allow-run-as-root -n " + std::to_string(n) + " '" + program + "' " +
-                              arguments + " > '" + out + "' 2> '" + err + "'";
+  // What MPI's libraries keep until the end, and the order in which their sockets lock, is not for sanitizers to tell.
+  const std::string command = std::string("ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=detect_deadlocks=0 '") +
+                              HEXTWIST_MPIEXEC + "' --oversubscribe --allow-run-as-root -n " + std::to_string(n) +
+                              " '" + program + "' " + arguments + " > '" + out + "' 2> '" + err + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
 }
