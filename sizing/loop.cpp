@@ -266,10 +266,6 @@ bool State::lift(std::span<const Index> low) {
   return !moved.empty();
 }
 
-double State::least_new_corner() const {
-  return summarize(quality(Metric::scaled_jacobian, mesh(), new_hexes())).min;
-}
-
 void State::smooth_and_close() {
   struct Shaped {
     std::vector<Vec3> points;
@@ -298,19 +294,22 @@ void State::smooth_and_close() {
   Shaped before = kept();
   smooth_band();
   close();
-  const double least = least_new_corner();
-  // Where corners stay low, from places that are lifted first, as they would be without smoothing: it lowers none.
+  // Hexes beside the new ones give way too, and must not end with smaller corners than these would have.
+  const std::vector<Index> changed = union_of(new_hexes(), layers_around(mesh(), result_.smoothed, 1));
+  const auto least_corner = [&] { return summarize(quality(Metric::scaled_jacobian, mesh(), changed)).min; };
+  const double least = least_corner();
+  // Where corners stay low, from places as they would be without smoothing, and these themselves if it lowers any.
   constexpr double low_corner = 0.3;
   if (least >= low_corner) return;
   Shaped smoothed = kept();
   put_back(std::move(before));
-  begin("improve");
-  if (lift(hexes_below(mesh(), lift_below, n_kept(mesh()))) && least_new_corner() > least) {
-    smooth_band();
-    close();
-    if (least_new_corner() > least) return;
-  }
-  put_back(std::move(smoothed));
+  close();
+  const double least_without = least_corner();
+  if (!(least_without > least)) return put_back(std::move(smoothed));
+  Shaped without = kept();
+  smooth_band();
+  close();
+  if (least_corner() < std::min(least_without, low_corner)) put_back(std::move(without));
 }
 
 void State::close() {

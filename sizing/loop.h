@@ -106,7 +106,6 @@ class State {
   void smooth_between_passes();
   /// Are children of a pass inverted (in this part's own hexes, where it is one among others)?
   bool comes_out_inverted(const Mesh& mesh, const Split& parts) const;
-  double least_new_corner() const;  ///< smallest scaled Jacobian of the new hexes
   /// Moves new nodes for better corners of these new hexes (lift_new.h). Did any move?
   bool lift(std::span<const Index> low);
   /// Makes the input the result.
