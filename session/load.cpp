@@ -44,9 +44,8 @@ int n_pieces(const Model& model) {
 
 /// Curves and surfaces of the model have other ids now.
 void take_other_ids(Transaction& run) {
-  if (!run.state.groups) return;
-  run.state.groups = nullptr;
-  run.note("groups are empty now: curves and surfaces have other ids");
+  if (run.state.groups) run.note("groups are empty now: curves and surfaces have other ids");
+  forget_members(run.state, true);
 }
 
 /// The model with its solids glued where the mesh joins more of them than the CAD does. Gaps count as touching up to
@@ -60,12 +59,13 @@ std::shared_ptr<const Model> glued_as_mesh(Transaction& run, const Mesh& mesh, s
   run.stage("glue CAD");
   CadImport best = glued(*model);
   int least = n_pieces(*best.model);
-  for (double gap = 1e-7; least > in_mesh && gap <= state.tolerance * (1 + 1e-9); gap *= 10) {
-    CadImport joined = glued(*model, gap * model->box().diagonal());
+  const double size = model->box().diagonal();
+  for (double part = 1e-7; least > in_mesh && part <= state.tolerance * (1 + 1e-9); part *= 10) {
+    const double gap = part * size;
+    CadImport joined = glued(*model, gap);
     const int pieces = n_pieces(*joined.model);
     if (pieces >= least || joined.model->count(3) != model->count(3)) continue;
-    joined.notices.push_back("gaps up to " + short_number(gap * model->box().diagonal()) +
-                             " between solids are closed");
+    joined.notices.push_back("gaps up to " + short_number(gap) + " between solids are closed");
     best = std::move(joined);
     least = pieces;
   }
@@ -165,7 +165,7 @@ AssociateResult associated_on(Transaction& run, const Mesh& mesh, std::shared_pt
   }
   bool any = false;
   for (int id = 1; id <= model->count(1) && !any; ++id) any = is_short(id);
-  if (!any || !run.state.has_cad || run.state.cad_file.empty()) throw Error(why);
+  if (!any || run.state.cad_file.empty()) throw Error(why);
   run.stage("mend CAD");
   CadImport mended = without_slivers(*model, length);
   if (mended.notices.empty()) throw Error(why);

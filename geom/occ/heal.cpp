@@ -73,6 +73,15 @@ void rename(ShapeNames& names, const TopoDS_Shape& from, const TopoDS_Shape& to)
   if (found != names.end()) names.emplace(to.TShape().get(), std::string(found->second));
 }
 
+/// Names of all shapes of a kind go on to their images.
+template <class ImagesOf>
+void rename_all(Part& part, TopAbs_ShapeEnum kind, const ImagesOf& images_of) {
+  TopTools_IndexedMapOfShape shapes;
+  TopExp::MapShapes(part.shape, kind, shapes);
+  for (int i = 1; i <= shapes.Extent(); ++i)
+    for (const TopoDS_Shape& image : images_of(shapes(i))) rename(part.names, shapes(i), image);
+}
+
 /// Edges by the number of faces at them, of which one at a seam has its own twice.
 struct FacesAtEdges {
   int n_free = 0;       ///< edges of one face only
@@ -223,28 +232,23 @@ void glue_solids(Part& part, double tolerance) {
     }
   }
   const double before = volume_of(part.shape), after = volume_of(result);
+  // Faces may be cut as well: how many there are does not tell whether any is shared.
+  int n_uses = 0;
+  for (TopExp_Explorer it(result, TopAbs_SOLID); it.More(); it.Next()) n_uses += count_kind(it.Current(), TopAbs_FACE);
+  const bool any_shared = n_uses > count_kind(result, TopAbs_FACE);
   // What bounds no solid (datum planes, lines to refine along) stays beside them as it is.
   for (TopExp_Explorer it(part.shape, TopAbs_FACE, TopAbs_SOLID); it.More(); it.Next())
     builder.Add(result, it.Current());
   for (TopExp_Explorer it(part.shape, TopAbs_EDGE, TopAbs_FACE); it.More(); it.Next())
     builder.Add(result, it.Current());
-  for (const TopAbs_ShapeEnum kind : kinds) {
-    TopTools_IndexedMapOfShape pieces;
-    TopExp::MapShapes(part.shape, kind, pieces);
-    for (int i = 1; i <= pieces.Extent(); ++i) {
-      for (const TopoDS_Shape& image : fuse.Modified(pieces(i))) rename(part.names, pieces(i), image);
-    }
-  }
+  for (const TopAbs_ShapeEnum kind : kinds)
+    rename_all(part, kind, [&](const TopoDS_Shape& piece) { return fuse.Modified(piece); });
   std::string notice = "glued " + std::to_string(solids.Extent()) + " solids:";
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     notice += (k ? ", " : " ") + std::to_string(count_kind(part.shape, kinds[k])) + " -> " +
               std::to_string(count_kind(result, kinds[k])) + words[k];
   }
-  // Faces may be cut as well: how many there are does not tell.
-  int n_uses = 0;
-  for (TopExp_Explorer it(result, TopAbs_SOLID); it.More(); it.Next()) n_uses += count_kind(it.Current(), TopAbs_FACE);
-  for (TopExp_Explorer it(result, TopAbs_FACE, TopAbs_SOLID); it.More(); it.Next()) ++n_uses;
-  if (n_uses == count_kind(result, TopAbs_FACE)) notice += "; no two solids share a face";
+  if (!any_shared) notice += "; no two solids share a face";
   part.shape = result;
   part.notices.push_back(notice);
   if (!split.empty()) part.notices.push_back(split);
@@ -276,13 +280,12 @@ void merge_slivers(Part& part, double length) {
   if (n_now >= n_edges || count_solids(result) != count_solids(part.shape) || !BRepCheck_Analyzer(result).IsValid() ||
       std::abs(before - after) > length * size_of(part.shape) * size_of(part.shape))
     return;
-  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX}) {
-    TopTools_IndexedMapOfShape old;
-    TopExp::MapShapes(part.shape, kind, old);
-    for (int i = 1; i <= old.Extent(); ++i)
-      if (const TopoDS_Shape now = changes->Apply(old(i)); !now.IsNull() && now.ShapeType() == kind)
-        rename(part.names, old(i), now);
-  }
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX})
+    rename_all(part, kind, [&](const TopoDS_Shape& old) {
+      TopTools_ListOfShape images;
+      if (const TopoDS_Shape now = changes->Apply(old); !now.IsNull() && now.ShapeType() == kind) images.Append(now);
+      return images;
+    });
   const int n_faces = count_kind(part.shape, TopAbs_FACE) - count_kind(result, TopAbs_FACE);
   part.notices.push_back(counted(n_edges - n_now, "edge") + (n_faces > 0 ? " and " + counted(n_faces, "face") : "") +
                          " of the CAD that are at most " + short_number(length) +

@@ -406,6 +406,7 @@ void lift_together(Mesh& mesh, Association& association, const Model* model, con
   };
   const auto take_turns = [&](bool on_surfaces, std::initializer_list<double> below_each) {
     const std::vector<Index> low = hexes_below(mesh, wanted, problem.hexes);
+    if (low.empty()) return;
     std::vector<Index> cells;
     for (const Index h : low) cells.push_back(cell[h]);
     sort_unique(cells);

@@ -222,7 +222,7 @@ TEST(Draw, sheets_wished_sizes_and_vectors_give_colours) {
   EXPECT_NE(said("flow z").find("flow z: from -4 to 4"), std::string::npos) << f.all_output();
   // Every hex is in three sheets of as many hexes: that with the lowest number gives the colour.
   const std::string sheets = said("sheet");
-  EXPECT_EQ(std::ranges::count(sheets, '\n') > 3, true) << sheets;
+  EXPECT_GT(std::ranges::count(sheets, '\n'), 3) << sheets;
   EXPECT_NE(sheets.find("  sheet 1: "), std::string::npos) << sheets;
   f.session.run("sizing function half constant 0.5; refine volume all sizing_function");
   EXPECT_NE(said("actual / wished size").find("actual / wished size: from "), std::string::npos) << f.all_output();
@@ -354,10 +354,17 @@ TEST(Draw, a_page_holds_cad_alone_groups_and_a_cut) {
   EXPECT_NE(cad.find("[\"vertex\",\"f32\",3," + std::to_string(meshed.model->count(0)) + "]"), std::string::npos)
       << cad.substr(0, 600);
   f.session.run("import mesh '" HEXTWIST_SOURCE_DIR "/models/bracket.msh'");
-  f.session.run("group 'some' add hex 1 to 7 face 3 node 5 curve 2; draw clip x at 0 to '" + file.string() +
-                "' overwrite");
-  const std::string page = content(file);
-  EXPECT_NE(page.find("some"), std::string::npos);
+  const auto drawn_page = [&](const std::string& how) {
+    f.session.run("draw " + how + " to '" + file.string() + "' overwrite");
+    return content(file);
+  };
+  f.session.run("group 'some' add hex 1 to 7 face 3 node 5 curve 2");
+  const std::string page = drawn_page(""), cut = drawn_page("clip x at 0");
+  const std::string sets = block_of(page, "sets");
+  for (const char* array : {"[\"group 1 hexes\",\"u32\",1,7]", "[\"group 1 sides\",\"u32\",1,1]"})
+    EXPECT_NE(sets.find(array), std::string::npos) << array << "\n" << sets.substr(0, 600);
+  EXPECT_NE(block_of(cut, "skin"), block_of(page, "skin")) << "what is said of the start";
+  EXPECT_EQ(block_of(cut, "inside"), block_of(page, "inside"));
 }
 
 TEST(Draw, a_drawing_has_an_area_for_each_face) {
