@@ -267,9 +267,9 @@ const std::vector<CommandSpec> table = {
      "refine {{{node|edge|face|hex|vertex|curve|surface|volume} <range>|location <x> <y> <z>} "
      "[numsplit <splits>] [size <size>] [bias <growth>] [depth <layers>] [radius <radius>] [concave {template|fill}] "
      "[method {auto|single|parallel|combination}] [{smooth|no_smooth}] [dry_run] [allow off_cad] "
-     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded] [stop_at other] [using {curve|surface|volume|block|sideset|nodeset|group} <which>]"
+     "[sizing_function [<function>] [<expression>]] [direction {thickness|layers <n> [growth <ratio>]}] [transition {regular|nested}] [graded] [sum <field> ...] [stop_at other] [using {curve|surface|volume|block|sideset|nodeset|group} <which>]"
      "|sheet {edge <range>|node <first> <second>|intersect edge <range>} [{greater_than <length>|factor <multiple>}] "
-     "[concave {template|fill}] [{smooth|no_smooth}] [dry_run] [allow off_cad]}",
+     "[concave {template|fill}] [{smooth|no_smooth}] [dry_run] [allow off_cad] [sum <field> ...]}",
      "split hexes at entities of the mesh or the CAD, keeping the mesh conforming",
      "Each edge of the target is cut in three, 'numsplit' times over. With depth 0 exactly the target is refined, with 1 "
      "every hex that touches it, with 2 one layer more. The default is 0, which for a node, edge, face, vertex, curve or "
@@ -289,7 +289,8 @@ const std::vector<CommandSpec> table = {
      "sheets of the hexes around the edges), where the edges are longer than a length, or than a multiple of the sheets' "
      "shortest edge. 'transition regular' (the default) never cuts pieces of the transition around a refinement "
      "again: the cell that they are pieces of is cut instead, so that shapes do not depend on how often and in which order "
-     "is refined; 'nested' cuts them like all others. 'graded' also keeps the hex field \"level\".\n"
+     "is refined; 'nested' cuts them like all others. 'graded' also keeps the hex field \"level\". Children have the values of the hex that "
+     "they lie in; those of the fields after 'sum' are shared out by volume.\n"
      "Where the region is concave, 'concave template' uses templates made for that, 'concave fill' grows the region "
      "until it is convex. New nodes lie on the CAD. A result that would be inverted, or "
      "that has a node that can't be put on the CAD, is refused, and the mesh stays as it was; 'allow off_cad' accepts such nodes, with a note. "
@@ -312,7 +313,8 @@ const std::vector<CommandSpec> table = {
       {"first", Kind::integer, 1, 9e15, false, "id of a node"},
       {"second", Kind::integer, 1, 9e15, false, "id of the node at the other end of the edge"},
       {"length", Kind::number, 0, 1e100, false, "only edges longer than this"},
-      {"multiple", Kind::number, 0, 1e100, false, "only edges longer than this times the shortest"}},
+      {"multiple", Kind::number, 0, 1e100, false, "only edges longer than this times the shortest"},
+      {"field", Kind::string, 0, 0, false, "a field of hexes whose sum stays"}},
      {"refine curve 3", "refine curve 3 size 0.5 bias 1.5", "refine curve 3 size 0.5 depth 0", "refine vertex 2 radius 4 numsplit 2",
       "refine volume all sizing_function \"0.5 + 0.1*abs(x)\"", "refine surface 1 to 4 numsplit 2 depth 1", "refine hex in volume 2 concave fill", "refine curve 7 smooth",
       "refine volume all numsplit 1", "refine sheet edge 12 greater_than 0.5", "refine sheet node 1 2",

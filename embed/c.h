@@ -289,11 +289,16 @@ typedef struct hextwist_adapt_options {
   int32_t smooth;       /**< 1: smooth the new hexes and two layers around them */
   double bias;          /**< of sizes: growth from element to element, above 1; 1 or 0: not limited */
   int32_t method;       /**< of hextwist_adapt_flags(): a hextwist_method */
+  /** Names of fields of hexes whose sum stays, as of a mass: shared out by volume, and summed up where hexes become
+   * coarser. Others are copied and averaged. NULL: none has. */
+  const char* const* extensive;
+  int64_t n_extensive; /**< so many of these */
 } hextwist_adapt_options;
 
 /** Cuts the hexes with flags[h] != 0 into 27 each. n: the number of hexes of the session's mesh. If origin is not NULL,
  * *origin is set to one hex of the old mesh per hex of the new one (hextwist_n_hexes() of hextwist_mesh_of() now), in
- * which it lies, of several the first; it is yours, by hextwist_free_array(), and NULL after a call that fails. */
+ * which it lies, or the first of those that its cell was before; it is yours, by hextwist_free_array(), and NULL after
+ * a call that fails. */
 hextwist_status hextwist_adapt_flags(hextwist_session* session, const uint8_t* flags, int64_t n,
                                      const hextwist_adapt_options* options, int32_t** origin);
 /** By how many levels each hex becomes finer (> 0) or coarser (< 0); 27 become one again where none of them stays. Hex
@@ -301,7 +306,8 @@ hextwist_status hextwist_adapt_flags(hextwist_session* session, const uint8_t* f
  * the same hex (whose nodes may have been moved for better shapes), 1: it lies in a larger one that is gone, 2: the
  * cell that it is, or is a piece of, was several hexes. So kind has N items, first N + 1, hexes first[N]. Each of the
  * three may be NULL; they are yours, by hextwist_free_array(), and NULL after a call that fails. Fields of hexes are
- * copied down and averaged by volume upwards, those of nodes interpolated and injected. */
+ * copied down and averaged by volume upwards, but for those in options->extensive, those of nodes interpolated and
+ * injected. */
 hextwist_status hextwist_adapt_levels(hextwist_session* session, const int8_t* changes, int64_t n,
                                       const hextwist_adapt_options* options, int8_t** kind, int32_t** first,
                                       int32_t** hexes);

@@ -19,11 +19,19 @@ AdaptOptions options_of(const hextwist_adapt_options* given) {
   if (!given) return {};
   if (given->method < HEXTWIST_AUTOMATIC || given->method > HEXTWIST_PARALLEL)
     throw Error("there is no method " + std::to_string(given->method));
+  if (given->n_extensive < 0 || (given->n_extensive > 0 && !given->extensive))
+    throw Error("the array of names of extensive fields is missing");
+  std::vector<std::string> extensive;
+  for (std::int64_t i = 0; i < given->n_extensive; ++i) {
+    if (!given->extensive[i]) throw Error("the name of extensive field " + std::to_string(i) + " is missing");
+    extensive.emplace_back(given->extensive[i]);
+  }
   return {.keep_gradation = given->no_gradation == 0,
           .bias = given->bias == 0 ? 1 : given->bias,
           .method = static_cast<Method>(given->method),
           .concave = given->fill_concave ? Concave::fill : Concave::templates,
-          .smooth = given->smooth != 0};
+          .smooth = given->smooth != 0,
+          .extensive = std::move(extensive)};
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 // now is looked up when somebody asks, at their places in the mesh of the file.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,6 +79,20 @@ std::string extras_text(const FileResults& extras);
 /// What of it each part of a mesh keeps: what is of the whole, and the moment that the fields are of. lost: names the
 /// rest as extras_text() does.
 std::shared_ptr<const FileResults> results_of_parts(const FileResults& results, std::string& lost);
+
+/// Another mesh than the one with these results, `before`.
+struct ResultsTo {
+  const Mesh& before;
+  const Mesh& now;  ///< whose file_hexes are some hexes of the file nearby
+  /// Those before that a hex now is, lies in or is made of; valid for as long as this is.
+  std::function<std::span<const Index>(Index hex)> hexes_before;
+  /// Values of a name on the hexes now, from those on the hexes before.
+  std::function<std::vector<double>(const std::string& name, std::vector<double> values)> on_hexes;
+};
+/// What `before` has of its file, on the hexes, nodes and sets of `now`: as if `now` had been written and read again.
+/// For meshes whose hexes are not each in one of the file. Nodal values are those at the place of the node; a side of a
+/// coarser hex has the average by area of what was there.
+std::shared_ptr<const FileResults> results_on(const ResultsTo& to);
 
 /// Values now, of a mesh that has extras and knows the hexes of the file.
 class ExtrasNow {

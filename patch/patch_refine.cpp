@@ -9,6 +9,7 @@
 #include "hextwist/mesh/topology.h"
 #include "hextwist/patch/size_patch_internal.h"
 #include "hextwist/patch/verify_internal.h"
+#include "hextwist/refine/levels/transfer.h"
 #include "hextwist/sizing/levelling.h"
 #include "hextwist/sizing/stages.h"
 #include "hextwist/sizing/targets.h"
@@ -141,6 +142,8 @@ std::optional<PatchResult> refine_patch(const MeshedModel& input, const Measured
   if (request.finish.dry_run && is_by_places(request)) return std::nullopt;
   const Plan plan = hextwist::plan(input, request);
   if (mesh.n_hexes() < patch_rule.least_mesh || !is_complete(input, request)) return std::nullopt;
+  const Mesh* const base = request.levelling ? &request.levelling->forest.base->mesh : nullptr;
+  if (results_take_all(mesh, base, request.finish.extensive)) return std::nullopt;
   if (std::holds_alternative<Sizes>(request.how))
     return refine_sizes_patch(input, known, request, plan.approach, progress, rings_of);
   if (is_by_levels(request, plan)) return refine_levels_patch(input, known, request, progress, rings_of);

@@ -253,14 +253,29 @@ bool is_permutation(const std::vector<Index>& order, Index n) {
   return static_cast<Index>(order.size()) == n;
 }
 
-/// Throws Error unless both are the same mesh, but for rounded places.
-void check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
+/// Throws Error unless both are the same mesh, but for rounded places, and for ids where the file of `other` had none.
+/// Returns whether ids are the same.
+bool check_same(const PieceReader& in, const Mesh& mesh, const Mesh& other) {
   const double close = 1e-5 * box(mesh).diagonal();
-  bool same = mesh.n_nodes() == other.n_nodes() && mesh.hexes == other.hexes;
-  for (Index n = 0; same && n < mesh.n_nodes(); ++n)
-    same = node_id(mesh, n) == node_id(other, n) && (mesh.points[n] - other.points[n]).norm() <= close;
-  for (Index h = 0; same && h < mesh.n_hexes(); ++h) same = hex_id(mesh, h) == hex_id(other, h);
-  if (!same) in.fail("is of another mesh than the one that is there: ids, places or hexes differ");
+  const auto fail = [&](const std::string& what) { in.fail("is of another mesh than the one that is there: " + what); };
+  if (mesh.n_nodes() != other.n_nodes() || mesh.n_hexes() != other.n_hexes())
+    fail(counted(mesh.n_hexes(), EntityKind::hex) + " and " + counted(mesh.n_nodes(), EntityKind::node) +
+         ", there are " + std::to_string(other.n_hexes()) + " and " + std::to_string(other.n_nodes()));
+  for (Index h = 0; h < mesh.n_hexes(); ++h)
+    if (mesh.hexes[h] != other.hexes[h]) fail("the corners of hex " + std::to_string(hex_id(other, h)) + " differ");
+  for (Index n = 0; n < mesh.n_nodes(); ++n)
+    if (!((mesh.points[n] - other.points[n]).norm() <= close))
+      fail("the place of node " + std::to_string(node_id(other, n)) + " differs");
+  bool same = true;
+  const auto compare = [&](const char* what, std::int64_t id, std::int64_t there, bool has_ids) {
+    if (id == there) return;
+    if (has_ids) fail(std::string(what) + " " + std::to_string(id) + " is " + std::to_string(there) + " there");
+    same = false;
+  };
+  for (Index n = 0; n < mesh.n_nodes(); ++n)
+    compare("node", node_id(mesh, n), node_id(other, n), !other.node_ids.empty());
+  for (Index h = 0; h < mesh.n_hexes(); ++h) compare("hex", hex_id(mesh, h), hex_id(other, h), !other.hex_ids.empty());
+  return same;
 }
 
 /// Blocks and sets of one kind that are not, or otherwise, in another mesh.
@@ -380,8 +395,11 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
   }
   const Mesh& there = run.meshed->mesh;
   if (there.n_hexes() > 0) {
-    check_same(in, mesh.mesh, there);
+    if (!check_same(in, mesh.mesh, there))
+      run.note(file.string() + ": nodes and hexes have the ids of the levels; the mesh came without");
     mesh.mesh.fields = there.fields;
+    mesh.mesh.results = there.results;
+    mesh.mesh.file_hexes = there.file_hexes;
     if (std::vector<std::string> lost = lost_groups(there, mesh.mesh); !lost.empty()) {
       constexpr std::size_t most = 5;
       const std::size_t n_more = lost.size() - std::min(lost.size(), most);
@@ -392,7 +410,16 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
   }
   const bool is_alone = there.n_hexes() == 0;
   in.check_unchanged();
+  const auto groups = run.state.groups;
+  const auto fixed_nodes = run.state.fixed_nodes;
   load_meshed(run, std::move(mesh));
+  run.state.periodic = nullptr;
+  if (is_alone) {
+    forget_members(run.state, !run.state.has_cad);
+  } else {  // the same nodes and hexes
+    run.state.groups = groups;
+    run.state.fixed_nodes = fixed_nodes;
+  }
   if (is_alone && in.has("nodes_per_hex")) {
     FileExtras extras;
     for (const auto& [block, n] : in.get<std::array<std::int32_t, 2>>("nodes_per_hex"))

@@ -137,6 +137,15 @@ const Field* level_field(const Mesh& mesh) {
   return found == mesh.fields.end() ? nullptr : &*found;
 }
 
+LevellingPtr with_base(const LevellingPtr& levelling, const std::function<void(MeshedModel& base)>& change) {
+  if (!levelling) return nullptr;
+  auto base = std::make_shared<MeshedModel>(*levelling->forest.base);
+  change(*base);
+  auto result = std::make_shared<Levelling>(*levelling);
+  result->forest.base = std::move(base);
+  return result;
+}
+
 void tell_forced(Index n_forced, Report& report) {
   report.graded_cells += n_forced;
   if (n_forced > 0)

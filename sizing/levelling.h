@@ -2,6 +2,8 @@
 // further without its quality coming down.
 #pragma once
 
+#include <functional>
+
 #include "hextwist/refine/levels/overlay.h"
 #include "hextwist/sizing/loop.h"
 
@@ -23,6 +25,9 @@ inline bool has_levels(const Request& request) {
 LevellingPtr levelling_after(const Request& request, const RefineResult& result, const MeshedModel& refined);
 /// After these nodes (ascending) have moved. before: null or bare, then the mesh as it is now is a base: null.
 LevellingPtr levelling_after_move(const LevellingPtr& before, std::span<const Index> moved, const MeshedModel& meshed);
+
+/// With a base that this has been done to, which changes nothing but what things are called. Null stays null.
+LevellingPtr with_base(const LevellingPtr& levelling, const std::function<void(MeshedModel& base)>& change);
 
 /// Approach::levels and size_by_levels: makes the mesh of the request's levelling (of the input, where it has none)
 /// with other wishes the current one. Tells what was cut for the sake of gradation, and what came off of earlier

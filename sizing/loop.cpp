@@ -17,6 +17,7 @@
 #include "hextwist/mesh/quality/validity.h"
 #include "hextwist/mesh/smooth/smooth.h"
 #include "hextwist/refine/carry.h"
+#include "hextwist/refine/levels/transfer.h"
 #include "hextwist/refine/others.h"
 #include "hextwist/refine/place.h"
 #include "hextwist/sizing/among_parts.h"
@@ -228,6 +229,11 @@ void State::evaluate_fields() {
   evaluate_nodal_fields(input.mesh, mesh, elsewhere, result_.origin, mesh.fields);
 }
 
+void State::share_out_extensive() {
+  if (result_.came_from.kind.empty())
+    share_out(input.mesh, result_.origin, request.finish.extensive, result_.refined.mesh);
+}
+
 void State::smooth_between_passes() {
   if (request.finish.dry_run) return;
   if (!request.finish.smooth) {
@@ -401,6 +407,7 @@ RefineResult finish_passes(State& state) {
     state.request.finish.smooth ? state.smooth_and_close() : state.close();
     state.measure_sizes();
     state.tell_of_moved_nodes();
+    state.share_out_extensive();
   }
   state.evaluate_fields();
   state.stages.begin("verify", 0.9);

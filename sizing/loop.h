@@ -77,6 +77,8 @@ class State {
   std::vector<Vec3> take_straight() { return std::move(straight_); }
   /// Gives nodal fields their values at the places where nodes are in the end.
   void evaluate_fields();
+  /// Gives hexes that passes have made their part of extensive fields; levels have done so.
+  void share_out_extensive();
   /// Smooths the hexes that are new since the input and a few layers around them; without boundary nodes where these
   /// are to stay.
   void smooth_band(bool fix_boundary = false);

@@ -258,7 +258,8 @@ void bind_mesh(py::module_& m) {
 }
 
 py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::object& sizes, bool gradation,
-                         double bias, const std::string& concave, bool smooth, const std::string& by) {
+                         double bias, const std::string& concave, bool smooth, const std::string& by,
+                         const std::vector<std::string>& extensive) {
   if (flags.is_none() == sizes.is_none()) throw py::value_error("give flags or sizes");
   if (concave != "template" && concave != "fill") throw py::value_error("concave is 'template' or 'fill'");
   const std::array<Method, 3> methods = {Method::automatic, Method::single, Method::parallel};
@@ -270,7 +271,8 @@ py::array_t<Index> adapt(PySession& session, const py::object& flags, const py::
                              .bias = bias,
                              .method = *method,
                              .concave = concave == "fill" ? Concave::fill : Concave::templates,
-                             .smooth = smooth};
+                             .smooth = smooth,
+                             .extensive = extensive};
   if (flags.is_none()) {
     const std::vector<double> values = doubles(sizes, "sizes", 0);
     return array_of(session.run([&](Session& s) { return s.adapt(values, options).origin; }));
@@ -407,12 +409,15 @@ void bind_session(py::module_& m) {
       .def(
           "adapt", &adapt, "flags"_a = py::none(), py::kw_only(), "sizes"_a = py::none(), "gradation"_a = true,
           "bias"_a = 1.0, "concave"_a = "template", "smooth"_a = false, "method"_a = "auto",
+          "extensive"_a = std::vector<std::string>(),
           "Cuts the hexes with a flag, (n_hexes,) bools or integers, into 27 each, or all until they have their sizes, "
           "(n_hexes,) positive, in model units, inf: no wish. gradation: by levels, so that shapes do not get worse "
           "from call to call; sizes may then become coarser too. bias: growth of sizes from element to element, 1: not "
           "limited. concave: 'template', or 'fill' as the paper does. smooth: the new hexes and two layers around "
           "them. method, of flags: 'single' (as 'auto') cuts into 27, 'parallel' into 8 where the sheets of the mesh "
-          "allow it. Returns (n_hexes now,) int32: the old hex that each new one lies in; of several the first. Raises "
+          "allow it. extensive: fields of hexes whose sum stays. Returns (n_hexes now,) int32: the old hex that each "
+          "new one lies in, or the first "
+          "of those that its cell was before; adapt_levels() names all. Raises "
           "ValueError unless there are either flags or sizes and for another word for concave or method, TypeError for "
           "flags "
           "that are not integers, Error for another number than one per hex or a size that is not positive, Cancelled; "

@@ -4,12 +4,17 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hextwist {
 namespace {
 
 constexpr const char* blanks = " \t\r\n";
+
+/// OpenCASCADE has integers for them.
+constexpr std::uint64_t most_step_id = std::numeric_limits<std::int32_t>::max();
 
 bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -23,7 +28,7 @@ std::string truncated(CadFormat format) {
 std::string step_defect(std::string_view text) {
   const std::string_view tail = text.substr(text.size() - std::min<std::size_t>(text.size(), 2000));
   if (tail.find("END-ISO-10303-21") == std::string_view::npos) return truncated(CadFormat::step);
-  std::vector<char> defined, used;
+  std::vector<std::uint64_t> defined, used;
   bool statement_starts = true;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -36,13 +41,13 @@ std::string step_defect(std::string_view text) {
       ++i;
       continue;
     } else if (c == '#' && i + 1 < text.size() && is_digit(text[i + 1])) {
-      std::size_t id = 0;
-      const auto end = std::from_chars(text.data() + i + 1, text.data() + text.size(), id).ptr;
+      std::uint64_t id = 0;
+      const auto [end, error] = std::from_chars(text.data() + i + 1, text.data() + text.size(), id);
+      if (error != std::errc() || id > most_step_id)
+        return "the STEP file has an instance number beyond " + std::to_string(most_step_id) +
+               ", the last that can be read: #" + std::string(text.data() + i + 1, end);
       i = static_cast<std::size_t>(end - text.data()) - 1;
-      if (id > text.size()) return "the STEP file has an instance number out of range";
-      auto& list = statement_starts ? defined : used;
-      if (list.size() <= id) list.resize(id + 1);
-      list[id] = 1;
+      (statement_starts ? defined : used).push_back(id);
     }
     if (c == ';') {
       statement_starts = true;
@@ -50,11 +55,10 @@ std::string step_defect(std::string_view text) {
       statement_starts = false;
     }
   }
-  for (std::size_t id = 0; id < used.size(); ++id) {
-    if (used[id] && (id >= defined.size() || !defined[id])) {
+  std::sort(defined.begin(), defined.end());
+  for (const std::uint64_t id : used)
+    if (!std::binary_search(defined.begin(), defined.end(), id))
       return "the STEP file is damaged: #" + std::to_string(id) + " is referred to but not there";
-    }
-  }
   return "";
 }
 

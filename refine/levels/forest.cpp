@@ -239,8 +239,8 @@ LevelStep change(const Forest& from, const Mesh& current, LevelMarks wished, con
     if (step.origin.kind[h] != HexOrigin::coarser) step.origin.at[h] = old_places[step.origin.at[h]];
 
   built.mesh.mesh.fields =
-      transferred_fields({current, built.mesh.mesh, grown->stack, step.old_node, step.origin}, options.extensive);
-  built.mesh.mesh.results = current.results;  // which know the time that the fields are of
+      transferred_fields({current, built.mesh.mesh, step.old_node, step.origin}, options.extensive);
+  carry_results(current, step.origin, options.extensive, built.mesh.mesh);
   for (const auto& pass : grown->stack) {
     step.off_nodes.insert(step.off_nodes.end(), pass->off_nodes.begin(), pass->off_nodes.end());
     step.is_repaired |= pass->is_repaired;

@@ -21,9 +21,9 @@ struct Overlay {
 Overlay overlay_after(const Overlay& before, std::span<const Index> moved, const MeshedModel& meshed);
 
 /// Puts the nodes of the step's mesh where they were in the mesh before. A hex that is new, or keeps some of its moved
-/// nodes and not all, must not be much worse than what the forest makes of it: else they all go back. pinned: nodes of
-/// before (ascending) that are put there in any case. Returns what is left of the overlay; n_dropped: how many nodes
-/// went back or are gone.
+/// nodes and not all, must not be much worse than what the forest makes of it: else they go back, bit by bit. pinned:
+/// nodes of before (ascending) that are put there in any case. Returns what is left of the overlay; n_dropped: how many
+/// nodes went back, if only in part, or are gone.
 Overlay put_on(const Overlay& before, const Mesh& mesh_before, const Association& association_before,
                std::span<const Index> pinned, LevelStep& step, Index& n_dropped);
 

@@ -11,7 +11,6 @@ namespace hextwist {
 struct LevelChange {
   const Mesh& before;
   const Mesh& now;                  ///< in the order of the levels
-  const LevelStack& stack;          ///< of now
   std::span<const Index> old_node;  ///< per node now: the node before, -1
   const LevelOrigin& origin;        ///< per hex now: of before
 };
@@ -24,5 +23,18 @@ struct LevelChange {
 ///  3. hex fields named in `extensive` keep their sum instead: they are shared out by volume downwards (whole numbers
 ///     as whole numbers) and summed up.
 std::vector<Field> transferred_fields(const LevelChange& change, std::span<const std::string> extensive);
+
+/// What the file of `before` has at other times and on sets (Mesh::results, Mesh::file_hexes), for `now`. As long as
+/// each hex lies in one of the file, that says all; where one is made of several, or fields in `extensive` have other
+/// times, all values are carried at once, as transferred_fields() does it, as if `now` had been written and read again.
+void carry_results(const Mesh& before, const LevelOrigin& origin, std::span<const std::string> extensive, Mesh& now);
+
+/// Is carry_results() to make values anew in a mesh of which this one is a part, by levels of `base` (null: not by
+/// levels)? That takes all of it.
+bool results_take_all(const Mesh& mesh, const Mesh* base, std::span<const std::string> extensive);
+
+/// After passes, of which each copies the values of hexes: those of fields in `extensive` are shared out. origin: per
+/// hex now the hex before that it lies in.
+void share_out(const Mesh& before, std::span<const Index> origin, std::span<const std::string> extensive, Mesh& now);
 
 }  // namespace hextwist

@@ -93,6 +93,7 @@ void change_attributes(Execution& run) {
   const std::shared_ptr<const Levelling> levelling = run.state.levelling;
   run.replace(std::move(meshed));
   run.state.levelling = levelling;
+  run.keep_levels();
   run.say(line);
 }
 

@@ -1,7 +1,6 @@
 // coarsen: levels of refinement are taken back.
 
-#include "hextwist/patch/adapt.h"
-#include "hextwist/session/commands/commands.h"
+#include "hextwist/session/commands/request.h"
 #include "hextwist/session/load.h"
 #include "hextwist/session/refining.h"
 #include "hextwist/sizing/levelling.h"
@@ -18,7 +17,9 @@ void do_coarsen(Execution& run) {
   const Target target = target_of(run);
   if (target.depth && target.radius) throw Error("give a depth or a radius, not both");
   if (!run.state.levelling)
-    throw Error("no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+    throw Error(
+        "no hex can become coarser: this mesh is the base, nothing was refined by levels since (levels come of whole "
+        "hexes, 'depth 1' or more, and 'transition regular'; depth 0, sheets and one into eight make a new base)");
   std::vector<std::string> told;
   std::vector<Index> hexes = region_target(*run.meshed, target, told);
   for (const std::string& line : told) run.note(line);
@@ -32,9 +33,7 @@ void do_coarsen(Execution& run) {
   for (const Index h : hexes) changes.by[h] = static_cast<std::int8_t>(-n_levels);
   Request request{.how = std::move(changes), .levelling = std::make_shared<const Levelling>(std::move(levelling))};
   if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
-  for (const Item& item : command.items)
-    if (item.name == "field") request.finish.extensive.push_back(item.text);
-  check_extensive(mesh, request.finish.extensive);
+  request.finish.extensive = extensive_fields(run);
   run.close_stage();
 
   Refining refining = prepare_refining(run, std::move(request));
@@ -46,6 +45,10 @@ void do_coarsen(Execution& run) {
     run.note(
         "nothing became coarser: 27 hexes become one where all of them are named, and where no finer ones around need "
         "them");
+  if (report.hexes_after > report.hexes_before)
+    run.note(
+        "there are more hexes than before: cells that are left whole among finer ones take more hexes than the 27 "
+        "that they were cut into; coarsen what lies around too, or leave them");
   accept_refining(run, std::move(refining));
   run.say(text_of(command.statement) + ": " + std::to_string(report.hexes_before) + " -> " +
           counted(report.hexes_after, EntityKind::hex) + ", smallest shape " + short_number(shape_before) + " -> " +

@@ -215,7 +215,6 @@ void do_import(Execution& run) {
                      "levels have the size that they were written with: say 'scale' afterwards");
     run.stage("read levels");
     if (run.state.periodic) run.note(pairs_go);
-    forget_members(run.state, !run.state.has_cad);
     read_levels(run, file.text);
     return say_mesh(run, file.text);
   }

@@ -2,6 +2,7 @@
 
 #include "hextwist/geom/renumbered_model.h"
 #include "hextwist/session/commands/commands.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 namespace {
@@ -15,7 +16,8 @@ void name_entities(Execution& run, const Item& range, const Item& text) {
   meshed.model = renamed(std::move(meshed.model), names);
   const std::shared_ptr<const Levelling> levelling = run.state.levelling;
   run.replace(std::move(meshed));
-  run.state.levelling = levelling;
+  run.state.levelling = with_base(levelling, [&](MeshedModel& base) { base.model = run.meshed->model; });
+  run.keep_levels();
   const auto n = static_cast<std::int64_t>(positions.size());
   run.say((n == 1 ? std::string(name(range.kind)) + " " + std::to_string(positions.front() + 1) + " is"
                   : counted(n, range.kind) + " are") +

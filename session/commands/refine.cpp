@@ -4,6 +4,7 @@
 
 #include "hextwist/base/sorted.h"
 #include "hextwist/mesh/quality/histogram.h"
+#include "hextwist/patch/adapt.h"
 #include "hextwist/refine/others.h"
 #include "hextwist/session/commands/request.h"
 #include "hextwist/session/load.h"
@@ -131,6 +132,14 @@ void check_nodes(const Execution& run, const Target& target) {
 
 }  // namespace
 
+std::vector<std::string> extensive_fields(const Execution& run) {
+  std::vector<std::string> names;
+  for (const Item& item : run.command.items)
+    if (item.name == "field") names.push_back(item.text);
+  check_extensive(run.meshed->mesh, names);
+  return names;
+}
+
 Request request_of(const Execution& run) {
   const Command& command = run.command;
   Request request{
@@ -139,6 +148,7 @@ Request request_of(const Execution& run) {
           .smooth = command.has("smooth"), .dry_run = command.has("dry_run"), .allow_off_cad = command.has("allow")}};
   if (run.state.fixed_nodes) request.finish.fixed = *run.state.fixed_nodes;
   request.finish.keep_jumps = run.state.keep_jumps;
+  request.finish.extensive = extensive_fields(run);
   if (command.has("sheet")) {
     request.how = sheets_of(run);
     return request;

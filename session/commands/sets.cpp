@@ -8,6 +8,7 @@
 #include "hextwist/mesh/association/meant.h"
 #include "hextwist/session/commands/commands.h"
 #include "hextwist/session/commands/sets.h"
+#include "hextwist/sizing/levelling.h"
 
 namespace hextwist {
 namespace {
@@ -167,6 +168,22 @@ void change_element_type(Execution& run, const Item& type) {
   run.say(what + " is a hex" + std::to_string(n) + " in files");
 }
 
+/// Levels go on where a block or set of their base gets another name.
+void keep_levels_with_name(Execution& run, EntityKind kind, int id, const std::string& name) {
+  bool is_there = false;
+  const LevellingPtr named = with_base(run.state.levelling, [&](MeshedModel& base) {
+    with_groups(base.mesh, kind, [&](auto& groups, auto) {
+      const auto group = std::ranges::find(groups, id, [](const auto& g) { return g.id; });
+      is_there = group != groups.end();
+      if (is_there) group->name = name;
+      return std::string();
+    });
+  });
+  if (!is_there) return;
+  run.state.levelling = named;
+  run.keep_levels();
+}
+
 }  // namespace
 
 void do_sets(Execution& run) {
@@ -196,6 +213,7 @@ void do_sets(Execution& run) {
       group->name = text->text;
       return named + " is called '" + printable(text->text) + "'";
     });
+    keep_levels_with_name(run, kind, id, text->text);
   }
   run.change_sets(std::move(lists));
   run.say(line);

@@ -44,15 +44,37 @@ class MeshField final : public SizeField {
   }
 
   void evaluate(std::span<const Vec3> points, std::span<double> out) const override {
-    parallel_each(points.size(), [&](std::size_t i) { out[i] = value(locator_.locate(points[i])); });
+    if (!jumps()) {
+      parallel_each(points.size(), [&](std::size_t i) { out[i] = value(locator_.locate(points[i])); });
+      return;
+    }
+    // Mostly asked at the centroids of these hexes, one after the other, or of pieces of them.
+    constexpr Index size = 1024;
+    parallel_chunks(static_cast<Index>(points.size()), size, [&](Index, Index begin, Index end) {
+      Index last = begin;
+      for (Index i = begin; i < end; ++i) {
+        if (is_well_inside(last + 1, points[i]))
+          ++last;
+        else if (!is_well_inside(last, points[i]))
+          last = locator_.locate(points[i]).hex;
+        out[i] = last < 0 ? std::numeric_limits<double>::infinity() : field_.values[last];
+      }
+    });
   }
   double least() const override { return least_; }
   bool jumps() const override { return field_.on == Field::On::hex; }
 
  private:
+  /// So that no other hex has the point.
+  bool is_well_inside(Index hex, const Vec3& point) const {
+    constexpr double margin = 1e-3;
+    Vec3 at;
+    return hex >= 0 && hex < mesh_->n_hexes() && find_natural_coordinates(corners_of(*mesh_, hex), point, at) &&
+           (at.array() > margin).all() && (at.array() < 1 - margin).all();
+  }
+  /// Of a nodal field.
   double value(const HexPlace& place) const {
     if (place.hex < 0) return std::numeric_limits<double>::infinity();
-    if (field_.on == Field::On::hex) return field_.values[place.hex];
     double sum = 0;
     for (int c = 0; c < n_hex_corners; ++c) {
       double weight = 1;

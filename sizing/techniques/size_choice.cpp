@@ -31,7 +31,7 @@ constexpr double near_tie = 0.05;
 /// Levels that bring so many hexes so near are taken without looking for anything nearer.
 constexpr double well_met = 0.6;
 
-/// Cuts of single directions go on through thin layers: not where that makes so many times more hexes.
+/// Cuts of single directions go on through thin layers: not where that makes so many times more new hexes.
 constexpr int most_times_more = 8;
 
 /// Nobody should compute on shapes below this where others can be had.
@@ -121,6 +121,11 @@ double worst_shape_before(const State& state) {
   return state.part ? std::min(worst, state.part->worst_shape_outside) : worst;
 }
 
+std::int64_t n_hexes_before(const State& state) {
+  if (state.among) return state.among->all({{std::ranges::count(state.among->own, 1)}}).sum[0];
+  return state.input.mesh.n_hexes() + n_outside(state);
+}
+
 /// No shape is poor, or much worse than what was there. So that what comes out inverted elsewhere need not be repaired.
 bool is_good(const Candidate& candidate, const State& state) {
   return candidate.sound &&
@@ -168,6 +173,12 @@ std::optional<Candidate> attempt(const State& from, const Report& start, Approac
   return candidate;
 }
 
+/// As many hexes as a second try may come to, by those that the first one made.
+std::int64_t most_hexes(const State& from, const Candidate& there) {
+  const std::int64_t before = n_hexes_before(from);
+  return before + most_times_more * std::max<std::int64_t>(there.n_hexes - before, 1);
+}
+
 /// A second try, which is given up where a result that is good is there and this comes out inverted, or much larger, or
 /// where it is too large for memory and limits. What it takes is added to the report of what is there.
 struct SecondTry {
@@ -177,7 +188,7 @@ struct SecondTry {
 SecondTry second_try(const State& from, const Report& start, Approach approach, Candidate& there) {
   SecondTry result;
   const auto begin = std::chrono::steady_clock::now();
-  const std::int64_t most = std::int64_t{most_times_more} * there.n_hexes;
+  const std::int64_t most = most_hexes(from, there);
   const bool may_give_up = is_good(there, from);
   try {
     result.made = attempt(from, start, approach, may_give_up ? std::max<std::int64_t>(most - n_outside(from), 1) : 0);
@@ -276,7 +287,7 @@ Candidate or_by_directions(Candidate taken, const State& state, const Report& st
   SecondTry tried = second_try(state, start, Approach::size_by_directions, taken);
   if (!tried.made) return taken;
   Candidate& directions = *tried.made;
-  if (directions.n_hexes > std::int64_t{most_times_more} * taken.n_hexes) return taken;
+  if (directions.n_hexes > most_hexes(state, taken)) return taken;
   const bool are_nearer =
       part_of_directions(directions, state, *wish) > part_of_directions(taken, state, *wish) + near_tie;
   if (!is_better(directions, taken) && !(are_nearer && is_well_met(directions, state))) return taken;
@@ -304,11 +315,6 @@ Candidate by_threes(const State& state, const Report& start) {
   if (is_same(levels, *nested.made, state)) return levels;
   return better_of(std::move(levels), std::move(*nested.made), "by levels, no piece of a transition is cut again",
                    "transitions are cut again where sizes ask for it (not with 'transition regular')", start);
-}
-
-std::int64_t n_hexes_before(const State& state) {
-  if (state.among) return state.among->all({{std::ranges::count(state.among->own, 1)}}).sum[0];
-  return state.input.mesh.n_hexes() + n_outside(state);
 }
 
 /// Edges at the target are held to the wish one by one, hexes by their volume: these may all have been near it.

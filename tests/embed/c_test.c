@@ -363,7 +363,7 @@ static void hexes_are_adapted(void) {
   CHECK(hextwist_run(session, "undo") == HEXTWIST_OK);
   double* sizes = malloc((size_t)n * sizeof *sizes);
   for (int64_t h = 0; h < n; ++h) sizes[h] = h == 17 ? 1 : INFINITY;
-  const hextwist_adapt_options options = {1, 1, 1, 1.5, HEXTWIST_AUTOMATIC};
+  const hextwist_adapt_options options = {1, 1, 1, 1.5, HEXTWIST_AUTOMATIC, NULL, 0};
   CHECK(hextwist_adapt_sizes(session, sizes, n, &options, NULL) == HEXTWIST_OK);
   hextwist_mesh* sized = hextwist_mesh_of(session);
   CHECK(hextwist_n_hexes(sized) > n);
@@ -402,6 +402,52 @@ static double row(int64_t i, const int64_t* first, const int32_t* columns, const
   double sum = 0;
   for (int64_t k = first[i]; k < first[i + 1]; ++k) sum += values[k] * x[columns[k]];
   return sum;
+}
+
+/* Of field i, on hexes. */
+static double total(const hextwist_mesh* mesh, int64_t i) {
+  double sum = 0;
+  const hextwist_field field = hextwist_field_at(mesh, i);
+  for (int64_t h = 0; h < hextwist_n_hexes(mesh); ++h) sum += field.values[h];
+  return sum;
+}
+
+static void extensive_fields_keep_their_sum(void) {
+  hextwist_session* session = bracket();
+  hextwist_mesh* mesh = hextwist_mesh_of(session);
+  const int64_t n = hextwist_n_hexes(mesh), at = hextwist_n_fields(mesh);
+  hextwist_mesh_free(mesh);
+  double* ones = malloc((size_t)n * sizeof *ones);
+  for (int64_t h = 0; h < n; ++h) ones[h] = 1;
+  const hextwist_field mass = {"mass", 1, 1, ones, 0}, density = {"density", 1, 1, ones, 0};
+  CHECK(hextwist_set_field(session, &mass, n) == HEXTWIST_OK);
+  CHECK(hextwist_set_field(session, &density, n) == HEXTWIST_OK);
+  uint8_t* flags = calloc((size_t)n, 1);
+  int8_t* changes = calloc((size_t)n, 1);
+  flags[17] = 1, changes[17] = 1;
+  const char* const names[] = {"mass", NULL};
+  hextwist_adapt_options options;
+  memset(&options, 0, sizeof options);
+  options.extensive = names;
+  options.n_extensive = 1;
+  for (int by_levels = 0; by_levels < 2; ++by_levels) {
+    CHECK((by_levels ? hextwist_adapt_levels(session, changes, n, &options, NULL, NULL, NULL)
+                     : hextwist_adapt_flags(session, flags, n, &options, NULL)) == HEXTWIST_OK);
+    mesh = hextwist_mesh_of(session);
+    CHECK(hextwist_n_hexes(mesh) > n);
+    CHECK(fabs(total(mesh, at) / (double)n - 1) < 1e-12);
+    CHECK(total(mesh, at + 1) == (double)hextwist_n_hexes(mesh));
+    hextwist_mesh_free(mesh);
+    CHECK(hextwist_run(session, "undo") == HEXTWIST_OK);
+  }
+  options.n_extensive = 2;
+  CHECK(hextwist_adapt_flags(session, flags, n, &options, NULL) == HEXTWIST_FAILED && strstr(hextwist_error(), "1"));
+  options.n_extensive = -1;
+  CHECK(hextwist_adapt_flags(session, flags, n, &options, NULL) == HEXTWIST_FAILED);
+  options.n_extensive = 1, options.extensive = NULL;
+  CHECK(hextwist_adapt_flags(session, flags, n, &options, NULL) == HEXTWIST_FAILED);
+  free(ones), free(flags), free(changes);
+  hextwist_free(session);
 }
 
 static void fields_are_set_and_taken_along(void) {
@@ -550,6 +596,7 @@ int main(int argc, char** argv) {
   ranges_give_ids();
   arrays_go_round();
   hexes_are_adapted();
+  extensive_fields_keep_their_sum();
   fields_are_set_and_taken_along();
   groups_and_surfaces_are_looked_up();
   an_empty_session_has_an_empty_mesh();

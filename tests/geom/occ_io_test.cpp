@@ -223,6 +223,27 @@ TEST(occ_files, files_cut_anywhere_or_with_pieces_missing_are_refused) {
   EXPECT_EQ(refusal(write_text(folder / "hole.brep", text)).substr(0, 26), "the BREP file is damaged: ");
 }
 
+TEST(occ_files, instances_of_a_STEP_file_may_have_any_number_that_fits) {
+  const auto folder = test::output_folder();
+  OccShape::brick(1, 2, 3).write(folder / "brick.step");
+  const std::string text = text_of(folder / "brick.step");
+  const auto shifted = [&](long long by) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      result += text[i];
+      if (text[i] != '#' || !std::isdigit(static_cast<unsigned char>(text[i + 1]))) continue;
+      std::size_t n_digits = 0;
+      result += std::to_string(std::stoll(text.substr(i + 1), &n_digits) + by);
+      i += n_digits;
+    }
+    return write_text(folder / "shifted.step", result);
+  };
+  EXPECT_EQ(read_cad(shifted(100000000), {}).model->count(2), 6);
+  const std::string wrong = refusal(shifted(2147483600));
+  EXPECT_EQ(wrong.substr(0, wrong.find("#")),
+            "the STEP file has an instance number beyond 2147483647, the last that can be read: ");
+}
+
 TEST(occ_files, nothing_is_printed_by_reading_good_or_bad_files) {
   const auto folder = test::output_folder();
   OccShape::brick(1, 2, 3).write(folder / "brick.step");

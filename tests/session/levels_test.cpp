@@ -128,8 +128,10 @@ TEST(SessionLevels, what_is_no_level_makes_a_new_base_and_says_so) {
     EXPECT_EQ(f.session.records().back().notices.back(),
               "levels end here: this mesh is the base of what is refined from now on");
     const Index n = mesh_of(f).n_hexes();
-    EXPECT_EQ(error_of(f, "coarsen hex all"),
-              "no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+    EXPECT_EQ(
+        error_of(f, "coarsen hex all"),
+        "no hex can become coarser: this mesh is the base, nothing was refined by levels since (levels come of whole "
+        "hexes, 'depth 1' or more, and 'transition regular'; depth 0, sheets and one into eight make a new base)");
     f.session.run("refine hex in vertex 1; coarsen hex all");
     EXPECT_EQ(mesh_of(f).n_hexes(), n);
   }
@@ -538,8 +540,10 @@ TEST(SessionLevels, what_cannot_be_is_refused) {
   Fixture f;
   EXPECT_TRUE(error_of(f, "coarsen hex all").starts_with("there is no mesh to coarsen; read one"));
   f.session.run("create brick x 3 interval 3");
-  EXPECT_EQ(error_of(f, "coarsen hex all"),
-            "no hex can become coarser: this mesh is the base, nothing was refined by levels since");
+  EXPECT_EQ(
+      error_of(f, "coarsen hex all"),
+      "no hex can become coarser: this mesh is the base, nothing was refined by levels since (levels come of whole "
+      "hexes, 'depth 1' or more, and 'transition regular'; depth 0, sheets and one into eight make a new base)");
   f.session.run("refine hex 14");
   EXPECT_EQ(error_of(f, "coarsen hex 14 sum \"nothing\""), "hex 14 does not exist; hexes are 1 to 192");
   EXPECT_EQ(error_of(f, "coarsen hex all sum \"nothing\""), "there is no field 'nothing' of hexes");

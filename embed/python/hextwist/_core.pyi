@@ -145,6 +145,7 @@ class Session:
         concave: str = "template",
         smooth: bool = False,
         method: str = "auto",
+        extensive: Sequence[str] = [],
     ) -> NDArray[np.int32]: ...
     def adapt_levels(
         self, changes: ArrayLike, *, smooth: bool = False, extensive: Sequence[str] = []
