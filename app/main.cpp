@@ -110,7 +110,7 @@ int run_server(const Options& options) {
   error = "this program was built without 'serve', which needs cpp-httplib (Debian: libcpp-httplib-dev)";
   static_cast<void>(options);
 #endif
-  std::cerr << "error: " << error << "\n";
+  std::cerr << "error: " + error + "\n";  // at once: others may write there
   return command_failed;
 }
 

@@ -64,7 +64,7 @@ int parsed(CLI::App& app, const Options& options, int argc, char** argv) {
 }
 
 int wrong(const std::string& message) {
-  std::cerr << message << "\nRun with --help for more information.\n";
+  std::cerr << message + "\nRun with --help for more information.\n";
   return wrong_usage;
 }
 

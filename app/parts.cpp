@@ -76,7 +76,7 @@ int run_parts(const Options& options) {
   } catch (const std::exception& problem) {
     error = problem.what();
   }
-  std::cerr << "error: " << error << "\n";
+  std::cerr << "error: " + error + "\n";  // at once: others may write there
   if (const int signal = ending_signal()) return 128 + signal;
   return command_failed;
 }

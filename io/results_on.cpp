@@ -88,8 +88,7 @@ class ResultsOn {
     std::vector<double> all = now_.factors(set.sides, then);
     const std::vector<double> at_corners = factors(then_.factors(was->sides, then), was->sides, set.sides, from);
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (to_.hexes_before(set.sides[i].hex).size() > 1)
-        std::copy_n(&at_corners[4 * i], 4, &all[4 * i]);
+      if (to_.hexes_before(set.sides[i].hex).size() > 1) std::copy_n(&at_corners[4 * i], 4, &all[4 * i]);
     set.factors = std::move(all);
   }
 

@@ -270,8 +270,10 @@ bool PartCommands::add(const Statement& statement) {
     return false;
   }
   const std::string& name = names_.emplace_back(command.spec->name);
-  const bool makes_group = name == "create" && (command.has("group") || command.has("block"));
-  if (!makes_group && std::ranges::find(of_sessions, name) != std::end(of_sessions))
+  const bool is_of_groups = (name == "create" && (command.has("group") || command.has("block"))) ||
+                            (name == "reset" && (command.has("block") || command.has("nodeset") ||
+                                                 command.has("sideset") || command.has("genesis")));
+  if (!is_of_groups && std::ranges::find(of_sessions, name) != std::end(of_sessions))
     throw error_at(statement, statement.tokens.front(),
                    "'" + name + "' is for sessions of hextwist: here the mesh is read first and written in the end");
   if (const std::string moving = of_models(command); !moving.empty())
@@ -361,13 +363,14 @@ bool PartCommands::cuts_levels(std::size_t i, Approach approach) const {
 void PartCommands::check(std::size_t i, bool is_anywhere, const Objections& said, std::span<const std::int64_t> has_id,
                          Approach approach, std::span<const Approach> before) const {
   if (!said.wrong.empty()) throw Error(said.wrong);
+  // Before the ids: parts that come behind the first objection are not asked which they have.
+  if (!said.by_whole.empty()) throw NeedsWhole(said.by_whole);
   for (std::size_t k = 0; k < has_id.size(); ++k)
     if (has_id[k] == 0 && !ids_[i][k].may_be_missing) {
       if (ids_[i][k].is_end) refuse("a span of ids whose end is not there", "there may be ids beyond");
       throw Error("there is no " + std::string(name(commands_[i].find("range")->kind)) + " " +
                   std::to_string(ids_[i][k].id));
     }
-  if (!said.by_whole.empty()) throw NeedsWhole(said.by_whole);
   if (!is_anywhere) throw Error(said.nothing);
   if (!before.empty() && cuts_levels(i, approach) && cuts_levels(i - 1, before.back()))
     refuse("a second level", "it is made from the mesh before the first; 'numsplit 2' or 'transition nested' can be");

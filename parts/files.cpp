@@ -12,6 +12,7 @@
 #include "hextwist/parts/join_on_disk.h"
 #include "hextwist/parts/on_disk.h"
 #include "hextwist/parts/own_part.h"
+#include "hextwist/parts/shared_values.h"
 #include "hextwist/parts/split.h"
 
 namespace hextwist {
@@ -128,13 +129,19 @@ Mesh read_one_part(const SplitName& split, int p, PartHead& first, std::vector<s
   refuse_second_order(read, file);
   refuse_others(read.mesh, file);
   if (use == PartUse::refine) refuse_more(read.mesh, &read.extras, file.string());
+  const auto tell = [&](const std::string& line) {
+    if (std::ranges::find(notices, line) == notices.end()) notices.push_back(line);
+  };
   for (const auto& lines : {read.notices, left_out_of_parts(read.extras)})
-    for (const std::string& line : lines)
-      if (std::ranges::find(notices, line) == notices.end()) notices.push_back(line);
+    for (const std::string& line : lines) tell(line);
+  if (!read.tags.empty()) tell(use == PartUse::refine ? without_owners : joined_without_owners);
   if (read.mesh.results) {
     std::string lost;
     read.mesh.results = results_to_join(read.mesh, lost);
-    if (!lost.empty()) notices.push_back(file.string() + ": parts are joined without " + lost);
+    // Of the whole: parts that lose the same say so once.
+    if (!lost.empty())
+      tell(split.name.string() +
+           (use == PartUse::refine ? ": parts are refined without " : ": parts are joined without ") + lost);
   }
   read.mesh.file_hexes.clear();
   return is_gmsh_part(file) ? without_loose_nodes(std::move(read.mesh)) : std::move(read.mesh);
@@ -150,6 +157,8 @@ MeshFile read_parts(const std::filesystem::path& any_part, const Fence& fence) {
   PartHead head;
   for (int p = 0; p < split.n_parts; ++p)
     pieces.push_back({read_one_part(split, p, head, result.notices, fence), nullptr, {}});
+  for (std::string& line : disagreement_lines(settle_values(pieces), split.name.string()))
+    result.notices.push_back(std::move(line));
   result.mesh = join(pieces, [&](std::size_t p) {
                   return part_name(split.name, split.n_parts, static_cast<int>(p)).string();
                 }).mesh;
@@ -195,6 +204,7 @@ void need_ids(Mesh& mesh) {
 
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence) {
+  check_output_name(name);
   if (by != PartitionBy::scotch && split_name(mesh).n_parts == 0) {
     std::vector<std::string> lines;
     OnDiskOptions options;

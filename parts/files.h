@@ -48,6 +48,7 @@ void need_ids(Mesh& mesh);
 std::vector<std::string> split_file(const std::filesystem::path& mesh, const std::filesystem::path& name, int n_parts,
                                     PartitionBy by, const Fence& fence = {});
 inline constexpr const char* without_owners = "parts are made without the owners that the file names: left out";
+inline constexpr const char* joined_without_owners = "parts are joined without the owners that they name: left out";
 /// "1000 hexes in 8 parts of at most 125, 300 faces between them"
 std::string split_text(std::int64_t n_hexes, int n_parts, std::int64_t largest, std::int64_t n_shared_faces);
 /// Reads parts and writes one file, with a part in memory at a time where that can be done (join_on_disk()).

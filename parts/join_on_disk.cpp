@@ -11,8 +11,10 @@
 #include "hextwist/base/text.h"
 #include "hextwist/io/pieces.h"
 #include "hextwist/mesh/arrays.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/parts/id_set.h"
 #include "hextwist/parts/join.h"
+#include "hextwist/parts/shared_values.h"
 #include "hextwist/parts/source.h"
 
 namespace hextwist {
@@ -53,12 +55,15 @@ class Joining {
         hexes = IdSet::Walk(**++block);
       }
     };
+    const std::ptrdiff_t n_of_reading = std::ssize(notices_);
     PiecewiseFile file(to, whole, notices_);
+    SharedValues shared(sorted_unique(std::move(shared_)));
     std::vector<bool> is_there(static_cast<std::size_t>(nodes_.size()), false);
     for (int p = 0; p < split_.n_parts; ++p) {
       check_interrupt();
       std::vector<std::string> told_before;
-      const Mesh part = read(p, told_before);
+      Mesh part = read(p, told_before);
+      shared.settle(part);
       const std::vector<Index> node = nodes_.places(part.node_ids), hex = places_of_hexes(part.hex_ids);
       if (sizes_[static_cast<std::size_t>(p)] != std::pair(part.n_nodes(), part.n_hexes()) ||
           std::ranges::find(node, -1) != node.end() || std::ranges::find(hex, -1) != hex.end())
@@ -70,6 +75,8 @@ class Joining {
       for (const Index n : node) is_there[n] = true;
     }
     file.commit();
+    const std::vector<std::string> differ = disagreement_lines(shared.differ(), split_.name.string());
+    notices_.insert(notices_.begin() + n_of_reading, differ.begin(), differ.end());
     notices_.push_back(joined_text(hexes_.size(), nodes_.size(), split_.n_parts));
     return std::move(notices_);
   }
@@ -98,7 +105,9 @@ class Joining {
       if (!ids->empty() && (ids->front() < 0 || ids->back() > highest)) return false;
     if (in_two_blocks(part) >= 0) return false;
     const std::vector<int> block = blocks_of(part);
-    for (const std::int64_t id : node_ids) nodes_.add(id);
+    const bool has_nodal = has_nodal_fields(part);
+    for (const std::int64_t id : node_ids)
+      if (!nodes_.add(id) && has_nodal) shared_.push_back(id);
     std::vector<IdSet*> of_block;
     for (const Block& one : part.blocks) of_block.push_back(&in_block_[one.id]);
     IdSet& rest = in_block_[no_block];
@@ -224,6 +233,7 @@ class Joining {
   std::vector<MeshedModel> heads_;
   std::shared_ptr<const FileResults> results_;  // of the whole
   IdSet nodes_, hexes_;
+  LongIds shared_;  // nodes that parts before had, of parts with nodal fields
   std::map<int, IdSet> in_block_;
   std::map<int, std::int64_t> first_;  // places of the hexes of each block
   std::vector<const IdSet*> blocks_in_order_;

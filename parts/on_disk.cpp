@@ -6,6 +6,7 @@
 #include "hextwist/base/interrupt.h"
 #include "hextwist/base/sorted.h"
 #include "hextwist/base/text.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/parts/agree.h"
 #include "hextwist/parts/halo.h"
 #include "hextwist/parts/join.h"
@@ -13,6 +14,7 @@
 #include "hextwist/parts/own_part.h"
 #include "hextwist/parts/own_skin.h"
 #include "hextwist/parts/pack.h"
+#include "hextwist/parts/shared_values.h"
 #include "hextwist/parts/source.h"
 #include "hextwist/patch/patch.h"
 
@@ -85,7 +87,7 @@ class OnDisk {
     std::vector<std::int64_t> block_sizes;
     bool is_by_blocks = true;
     std::int64_t n_nodes = 0, n_hexes = 0;
-    MeshedModel heads;
+    Mesh heads;
     highest_node_ = source_.highest_node();
     for (int p = 0; p < n_parts(); ++p) {
       check_interrupt();
@@ -95,7 +97,7 @@ class OnDisk {
       need_ids(mesh);
       if (!is_split_only()) check_part(mesh, name(p));
       join_results(results_, source_.is_divided() ? source_.results() : mesh.results);
-      check_groups(mesh, p, heads.mesh);
+      check_groups(mesh, p, heads);
       block_sizes.resize(mesh.blocks.size(), 0);
       // Until it is known whether blocks are volumes, they are.
       std::vector<int> volume(mesh.hexes.size(), 1);
@@ -123,8 +125,22 @@ class OnDisk {
       throw Error(source_.whole().string() + ": its parts have " + std::to_string(n_hexes_) + " hexes and " +
                   std::to_string(n_nodes_) + " nodes together, and say " + std::to_string(head.n_hexes) + " and " +
                   std::to_string(head.n_nodes));
+    // Slices of one file say the same.
+    if (!source_.is_divided() && has_nodal_fields(heads)) settle_values_aside();
     if (!is_by_blocks) block_sizes.clear();
     if (!is_split_only()) put_on_own_skin(std::move(open), std::move(walls), block_sizes);
+  }
+
+  /// Of nodes that several parts have.
+  void settle_values_aside() const {
+    SharedValues values(shared_.ids());
+    for (int turn = 0; turn == 0 || (turn == 1 && values.needs_second_turn()); ++turn)
+      for (int p = 0; p < n_parts(); ++p) {
+        MeshedModel part = unpacked(read_all_bytes(aside_.file("own", p)));
+        values.settle(part.mesh);
+        write_bytes(aside_.file("own", p), packed(part));
+      }
+    for (const std::string& line : disagreement_lines(values.differ(), source_.whole().string())) say_(line);
   }
 
   /// Parts have the same groups and fields, as split files do, and blocks that do not overlap.
@@ -552,6 +568,7 @@ class OnDisk {
 void refine_on_disk(const std::filesystem::path& input, const PartCommands& commands,
                     const std::filesystem::path& output, const OnDiskOptions& options,
                     const std::function<void(const std::string&)>& say) {
+  check_output_name(output);
   if (!commands.by_whole().empty()) throw NeedsWhole(commands.by_whole());
   std::optional<PartSource> source;
   if (options.n_parts == 0) source.emplace(input, options.fence);

@@ -43,6 +43,13 @@ class SharedNodes {
     for (auto at = std::ranges::lower_bound(all_, std::pair(id, -1)); at != all_.end() && at->first == id; ++at)
       use(at->second);
   }
+  /// Ascending, each once.
+  std::vector<std::int64_t> ids() const {
+    std::vector<std::int64_t> list;
+    for (const auto& each : all_)
+      if (list.empty() || list.back() != each.first) list.push_back(each.first);
+    return list;
+  }
   bool has(std::int64_t id) const {
     const auto at = std::ranges::lower_bound(all_, std::pair(id, -1));
     return at != all_.end() && at->first == id;

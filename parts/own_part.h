@@ -26,6 +26,10 @@ std::vector<std::int64_t> block_shares(const OwnPart& part, std::span<const std:
 void fill_in_whole(OwnPart& part, std::span<const std::int64_t> counts, std::span<const std::int64_t> shares,
                    std::int64_t highest_id);
 
+/// Throws Error where a name ends as files of another format do, which parts are not written in: they would be Exodus
+/// under that name. Endings that no format has are as good as any.
+void check_output_name(const std::filesystem::path& name);
+
 /// Files that parts are written to, which are there when all are complete: NAME.n.i (Exodus); where NAME ends in .msh,
 /// NAME_i.msh, i from 1, as Gmsh splits meshes; where it ends in .pvtu, NAME_i.vtu and the file NAME that lists them.
 class PartOutput {

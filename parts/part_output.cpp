@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "hextwist/base/text.h"
 #include "hextwist/io/io.h"
+#include "hextwist/io/pieces.h"
 #include "hextwist/io/vtk/escaped.h"
 #include "hextwist/parts/own_part.h"
 
@@ -40,6 +42,22 @@ std::string list_of_pieces(const std::filesystem::path& piece, const std::vector
 }
 
 }  // namespace
+
+void check_output_name(const std::filesystem::path& name) {
+  const std::string ending = lower_extension(name);
+  if (ending.empty() || is_gmsh_part(name) || is_written_in_pieces(name)) return;
+  const auto words = [](const std::string& list) {
+    std::istringstream from(list);
+    return std::vector<std::string>(std::istream_iterator<std::string>(from), {});
+  };
+  const std::vector<std::string> readable = words(readable_extensions());
+  if (std::ranges::find(readable, ending) == readable.end()) return;
+  std::string known;
+  for (const std::string& each : words(writable_extensions()))
+    if (is_written_in_pieces("a" + each)) known += each + " ";
+  throw Error(name.string() + ": parts are not written as " + ending + " files; their names end in " + known +
+              "(Exodus), .msh or .pvtu");
+}
 
 PartOutput::PartOutput(std::filesystem::path name, int n_parts)
     : name_(std::move(name)), n_parts_(n_parts), is_vtk_(lower_case(name_.extension().string()) == ".pvtu") {}

@@ -28,11 +28,12 @@ std::string over_arrays(Ranks& ranks, std::size_t at_start, std::size_t array_by
 void run(Ranks& ranks, const MpiOptions& options) {
   const std::size_t at_start = peak_memory();
   const auto say = [&](const std::string& line) {
-    if (ranks.is_first()) std::cout << line << "\n" << std::flush;
+    if (ranks.is_first()) std::cout << line + "\n" << std::flush;
   };
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  if (!options.output.empty()) check_output_name(options.output);
   std::optional<PartCommands> commands;
   try {
     commands.emplace(options.commands);
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
     run(ranks, options);
     return done;
   } catch (const Error& error) {
-    if (ranks.is_first()) std::cerr << "error: " << error.what() << "\n";
+    // At once: mpirun and other processes write there as well.
+    if (ranks.is_first()) std::cerr << "error: " + std::string(error.what()) + "\n";
     return command_failed;
   }
 }

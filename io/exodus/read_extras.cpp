@@ -58,13 +58,15 @@ class ExtrasReader {
   std::shared_ptr<const FileResults> of_whole(std::vector<std::string>& lost) {
     records();
     properties();
-    if (const std::size_t n = count(EX_INQ_TIME, "time steps"); n > 1) {
+    times();
+    // The fields are those of the last step, so its time and what the whole has then are kept.
+    if (const std::size_t n = out_.times.size(); n > 1) {
       lost.push_back(counted(static_cast<std::int64_t>(n) - 1, "more time step", "more time steps"));
-      for (const std::string& name : variables(EX_GLOBAL)) lost.push_back("global variable '" + name + "'");
-    } else {
-      times();
-      results();
+      out_.times = {out_.times.back()};
+      steps_ = {steps_.back()};
+      out_.step = 0;
     }
+    results();
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, in_.init.num_elem_blk))
       if (int n = 0; ex_get_attr_param(in_.file, EX_ELEM_BLOCK, id, &n) >= 0 && n > 0)
         lost.push_back(counted(n, "attribute") + " of block " + std::to_string(id));

@@ -1,6 +1,8 @@
 #include "hextwist/parts/mpi/input.h"
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 #include "hextwist/base/text.h"
 #include "hextwist/geom/occ/model.h"
@@ -8,12 +10,14 @@
 #include "hextwist/io/io.h"
 #include "hextwist/io/results.h"
 #include "hextwist/mesh/association/meant.h"
+#include "hextwist/mesh/nodal_fields.h"
 #include "hextwist/parts/files.h"
 #include "hextwist/parts/join.h"
 #include "hextwist/parts/mpi/directory.h"
 #include "hextwist/parts/mpi/share_out.h"
 #include "hextwist/parts/own_skin.h"
 #include "hextwist/parts/pack.h"
+#include "hextwist/parts/shared_values.h"
 #include "hextwist/parts/source.h"
 #include "hextwist/session/core.h"
 #include "hextwist/session/session.h"
@@ -21,12 +25,109 @@
 namespace hextwist {
 namespace {
 
+/// What most files say of the whole; of what equally many say, what the first of them does.
+PartHead head_of_most(Ranks& ranks, const std::vector<PartHead>& mine) {
+  std::vector<std::pair<PartHead, int>> all;  // how many say so
+  for (const std::vector<std::byte>& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
+    std::vector<PartHead> heads(bytes.size() / sizeof(PartHead));
+    if (!bytes.empty()) std::memcpy(heads.data(), bytes.data(), bytes.size());
+    for (const PartHead& head : heads) {
+      const auto same = std::ranges::find(all, head, &std::pair<PartHead, int>::first);
+      if (same == all.end())
+        all.emplace_back(head, 1);
+      else
+        ++same->second;
+    }
+  }
+  return all.empty() ? PartHead() : std::ranges::max_element(all, {}, &std::pair<PartHead, int>::second)->first;
+}
+
+/// What the files of this split mesh say of the whole. Throws Error naming one that belongs to another mesh than most.
+PartHead agreed_head(Ranks& ranks, const SplitName& split, int first, int last) {
+  std::vector<PartHead> heads;
+  const auto file = [&](int p) { return part_name(split.name, split.n_parts, p); };
+  // Who reads all of a file says what else is wrong with it.
+  const auto is_there = [&](int p) { return std::filesystem::exists(file(p)); };
+  const auto is_part = [&](const PartHead& head) { return head.n_parts == split.n_parts; };
+  ranks.together([&] {
+    for (int p = first; p < last; ++p)
+      if (is_there(p))
+        if (const PartHead head = read_part_head(file(p)); is_part(head)) heads.push_back(head);
+  });
+  const PartHead most = head_of_most(ranks, heads);
+  ranks.together([&] {
+    if (std::ranges::all_of(heads, [&](const PartHead& head) { return head == most; })) return;
+    for (int p = first; p < last; ++p)
+      if (const PartHead head = is_there(p) ? read_part_head(file(p)) : most; is_part(head) && head != most)
+        throw Error(file(p).string() + ": is part of a mesh of " + std::to_string(head.n_hexes) + " hexes and " +
+                    std::to_string(head.n_nodes) + " nodes, others of one of " + std::to_string(most.n_hexes) +
+                    " and " + std::to_string(most.n_nodes));
+  });
+  return most;
+}
+
+/// Gives nodes of several ranks the values of the lowest rank that has a number there. All have the same fields.
+void settle_values_in_ranks(Ranks& ranks, Mesh& own, Disagreements& differ) {
+  if (!has_nodal_fields(own)) return;
+  std::vector<std::int64_t> skin;
+  ranks.together([&] { skin = skin_nodes(own); });
+  const std::vector<NodeAtOthers> shared = at_others(ranks, own, skin);
+  const auto for_each_value = [&](Index node, const auto& use) {
+    for (Field& field : own.fields) {
+      if (field.on != Field::On::node) continue;
+      const auto n = static_cast<std::size_t>(field.components);
+      for (std::size_t c = 0; c < n; ++c) use(field, field.values[static_cast<std::size_t>(node) * n + c]);
+    }
+  };
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.size()));
+  for (const NodeAtOthers& at : shared)
+    for (const int other : at.parts)
+      for_each_value(at.node, [&](const Field&, double value) { to[other].push_back(value); });
+  const std::vector<std::vector<double>> from = ranks.exchange(to);
+  std::vector<std::size_t> next(from.size(), 0);
+  for (const NodeAtOthers& at : shared)
+    for_each_value(at.node, [&](const Field& field, double& value) {
+      bool differs = false, has_first = false;
+      double kept = 0;
+      const auto take = [&](double said) {
+        if (has_first)
+          differs = settle_value(kept, said) || differs;
+        else
+          kept = said;
+        has_first = true;
+      };
+      bool is_own_taken = false;
+      for (const int other : at.parts) {
+        if (other > ranks.rank() && !std::exchange(is_own_taken, true)) take(value);
+        take(from[other][next[other]++]);
+      }
+      if (!is_own_taken) take(value);
+      value = kept;
+      if (differs) differ[field.name].push_back(node_id(own, at.node));
+    });
+}
+
+/// Of all ranks, in one line for each field.
+void say_disagreements(Ranks& ranks, const Mesh& own, Disagreements mine, const std::string& name, const Say& say) {
+  Disagreements all;
+  for (const Field& field : own.fields) {
+    if (field.on != Field::On::node) continue;
+    for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine[field.name])))) {
+      std::vector<std::int64_t> ids(bytes.size() / sizeof(std::int64_t));
+      if (!bytes.empty()) std::memcpy(ids.data(), bytes.data(), bytes.size());
+      all[field.name].insert(all[field.name].end(), ids.begin(), ids.end());
+    }
+  }
+  for (const std::string& line : disagreement_lines(std::move(all), name)) say(line);
+}
+
 /// The files of a split mesh that fall to this rank.
-MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say) {
+MeshedModel read_own_files(Ranks& ranks, const SplitName& split, Disagreements& differ, const Say& say) {
   MeshedModel own;
   PartHead head;
   std::vector<std::string> notices;
   const auto begin = [&](int rank) { return static_cast<int>(std::int64_t{split.n_parts} * rank / ranks.size()); };
+  const std::int64_t n_hexes = agreed_head(ranks, split, begin(ranks.rank()), begin(ranks.rank() + 1)).n_hexes;
   ranks.together([&] {
     std::vector<MeshedModel> pieces;
     for (int p = begin(ranks.rank()); p < begin(ranks.rank() + 1); ++p) {
@@ -35,6 +136,7 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
     }
     std::shared_ptr<const FileResults> results;
     for (const MeshedModel& piece : pieces) join_results(results, piece.mesh.results);
+    differ = settle_values(pieces);
     if (pieces.size() == 1)
       own = std::move(pieces[0]);
     else if (!pieces.empty())
@@ -44,17 +146,10 @@ MeshedModel read_own_files(Ranks& ranks, const SplitName& split, const Say& say)
     need_ids(own.mesh);
     own.mesh.results = results;
   });
-  const std::int64_t n_nodes = ranks.largest(head.n_nodes), n_hexes = ranks.largest(head.n_hexes);
-  ranks.together([&] {
-    if (head.n_parts > 0 && (head.n_nodes != n_nodes || head.n_hexes != n_hexes))
-      throw Error(part_name(split.name, split.n_parts, begin(ranks.rank())).string() + ": is part of a mesh of " +
-                  std::to_string(head.n_hexes) + " hexes and " + std::to_string(head.n_nodes) +
-                  " nodes, others of one of " + std::to_string(n_hexes) + " and " + std::to_string(n_nodes));
-  });
   if (const std::int64_t n = ranks.sum(own.mesh.n_hexes()); n_hexes > 0 && n != n_hexes)
     throw Error(split.name.string() + ": its parts have " + std::to_string(n) + " hexes together, and say " +
                 std::to_string(n_hexes));
-  for (const std::string& line : notices) say(line);
+  for (const std::string& line : ranks.lines_of_all(notices)) say(line);
   return own;
 }
 
@@ -79,9 +174,10 @@ std::optional<MeshedModel> read_own_slice(Ranks& ranks, const std::filesystem::p
   });
   if (ranks.largest(!file) != 0) return std::nullopt;
   of_file = {file->n_nodes, file->highest_node};
-  for (const std::string& line : slice.file.notices) say(line);
-  for (const std::string& line : left_out_of_parts(slice.file.extras)) say(line);
-  if (!lost.empty()) say(lost);
+  std::vector<std::string> notices = std::move(slice.file.notices);
+  for (std::string& line : left_out_of_parts(slice.file.extras)) notices.push_back(std::move(line));
+  if (!lost.empty()) notices.push_back(std::move(lost));
+  for (const std::string& line : ranks.lines_of_all(notices)) say(line);
   return MeshedModel{std::move(slice.file.mesh), nullptr, {}};
 }
 
@@ -118,6 +214,7 @@ MeshedModel read_by_first(const std::filesystem::path& mesh, const std::filesyst
   MeshFile file;
   if (split_name(mesh).n_parts > 0) file = read_parts(mesh);
   if (!cad.empty()) {
+    for (const std::string& line : file.notices) say(line);  // of parts; the session says those of other files
     const auto take = [&](Session& session) {
       if (file.mesh.hexes.empty())
         session.import_mesh(mesh);
@@ -223,8 +320,11 @@ RankPart read_in_ranks(Ranks& ranks, const std::filesystem::path& mesh, const st
     share_heads(ranks, part.own.mesh);
     rank_of_hex = share_out(ranks, part.own.mesh, by.value_or(PartitionBy::boxes));
   } else if (split.n_parts > 0 && cad.empty()) {
-    part.own = read_own_files(ranks, split, say);
+    Disagreements differ;
+    part.own = read_own_files(ranks, split, differ, say);
     share_heads(ranks, part.own.mesh);
+    settle_values_in_ranks(ranks, part.own.mesh, differ);
+    say_disagreements(ranks, part.own.mesh, std::move(differ), split.name.string(), say);
     if (by == PartitionBy::scotch) {
       say("parts that are split already are shared out again by boxes, not by SCOTCH, which would need them all");
       by = PartitionBy::boxes;
@@ -275,6 +375,9 @@ RankPart take_in_ranks(Ranks& ranks, Mesh own, const std::filesystem::path& cad,
   });
   if (ranks.sum(part.own.mesh.n_hexes()) == 0) throw Error("there are no hexes");
   share_heads(ranks, part.own.mesh);
+  Disagreements differ;
+  settle_values_in_ranks(ranks, part.own.mesh, differ);
+  say_disagreements(ranks, part.own.mesh, std::move(differ), "the mesh", say);
   if (cad.empty()) {
     put_on_own_skin(ranks, part.own);
   } else {

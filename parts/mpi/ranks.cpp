@@ -109,6 +109,21 @@ std::string Ranks::text_of(int rank, const std::string& text) {
   return result;
 }
 
+std::vector<std::string> Ranks::lines_of_all(const std::vector<std::string>& mine) {
+  std::vector<char> text;
+  for (const std::string& line : mine) text.insert(text.end(), line.c_str(), line.c_str() + line.size() + 1);
+  std::vector<std::string> all;
+  for (const std::vector<std::byte>& bytes : everywhere(std::as_bytes(std::span(text)))) {
+    const auto *at = reinterpret_cast<const char*>(bytes.data()), *end = at + bytes.size();
+    while (at != end) {
+      std::string line = at;
+      at += line.size() + 1;
+      if (std::ranges::find(all, line) == all.end()) all.push_back(std::move(line));
+    }
+  }
+  return all;
+}
+
 void Ranks::exchange_bytes(const std::vector<std::span<const std::byte>>& to,
                            const std::function<std::byte*(std::size_t, std::size_t)>& room) {
   const auto n = static_cast<std::size_t>(size_);

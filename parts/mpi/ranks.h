@@ -50,6 +50,8 @@ class Ranks {
   std::vector<double> largest(std::vector<double> values);
   /// The text of one rank, everywhere.
   std::string text_of(int rank, const std::string& text);
+  /// The lines of all ranks, rank after rank and each once; everywhere.
+  std::vector<std::string> lines_of_all(const std::vector<std::string>& mine);
   /// The bytes of each rank, everywhere.
   std::vector<std::vector<std::byte>> everywhere(std::span<const std::byte> mine);
 

@@ -273,7 +273,7 @@ std::vector<std::string> write_in_ranks(Ranks& ranks, InRanks made, const std::f
   PartOutput output(name, ranks.size());
   ranks.together([&] { output.write(part, notices); });
   ranks.together([&] { output.commit(); });
-  return notices;
+  return ranks.lines_of_all(notices);
 }
 
 }  // namespace hextwist

@@ -151,7 +151,7 @@ class Sharing {
 std::vector<int> share_out(Ranks& ranks, const Mesh& part, PartitionBy by, std::span<const std::int64_t> weights) {
   const std::int64_t n_hexes = ranks.sum(part.n_hexes());
   if (n_hexes < ranks.size())
-    throw Error("a mesh of " + std::to_string(n_hexes) + " hexes has no " + std::to_string(ranks.size()) + " parts");
+    throw Error("a mesh of " + counted(n_hexes, "hex", "hexes") + " has no " + std::to_string(ranks.size()) + " parts");
   std::vector<int> rank = Sharing(ranks, part, by, weights).result();
   std::vector<std::int64_t> n(static_cast<std::size_t>(ranks.size()), 0);
   for (const int r : rank) ++n[r];

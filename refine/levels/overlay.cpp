@@ -29,7 +29,7 @@ void put_between(MeshedModel& meshed, Index node, const Vec3& bare, const Parame
   Parameters& at = meshed.association.node_parameters[node];
   at = step == 0 ? bare_at : moved_at;
   const Owner owner = meshed.association.node_owner[node];
-  if (step == 0 || step == n_steps || (owner.dim != 1 && owner.dim != 2)) return;
+  if (step == 0 || step == n_steps || !meshed.model || (owner.dim != 1 && owner.dim != 2)) return;
   const Projection foot = meshed.model->project(owner, place);
   place = foot.point;
   at = foot.parameters;

@@ -85,18 +85,22 @@ std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::ui
     const double most = most_too_long * wished;
     return volume * (1 + rounding) > most * most * most;
   };
+  const auto box_of = [&](Index h) {
+    Box around;
+    for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
+    return around;
+  };
+  const auto volume_of = [](const Box& box) { return (box.max - box.min).prod(); };
   const double least = field_->least();
   const std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) {
     if (!in_zone[h]) return false;
-    Box around;
-    for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
-    const double volume = (around.max - around.min).prod();
+    const Box around = box_of(h);
+    const double volume = volume_of(around);
     if (!is_above(volume, least)) return false;
     const Vec3 centre = centroid(mesh, h);
     const bool may_touch_point = is_point_ && distance_->at_least(centre) <= around.diagonal();
     return may_touch_point || is_above(volume, field_->least_at(centre));
   });
-  const std::vector<double> size = actual_sizes(mesh, asked);
   std::vector<double> wished = wished_sizes(mesh, asked, *field_);
   if (is_point_) {
     // A corner at the target wishes for all of the hex.
@@ -107,9 +111,13 @@ std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::ui
     for (std::size_t i = 0; i < there.size(); ++i)
       if (on_it[i]) wished[i / n_hex_corners] = std::min(wished[i / n_hex_corners], there[i]);
   }
+  // No hex is larger than its box, and exact volumes cost more.
+  const std::vector<Index> left = indices_where(
+      static_cast<Index>(asked.size()), [&](Index i) { return is_above(volume_of(box_of(asked[i])), wished[i]); });
+  const std::vector<double> size = actual_sizes(mesh, items_at(asked, left));
   std::vector<Index> result;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (size[i] > most_too_long * wished[i]) result.push_back(asked[i]);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (size[i] > most_too_long * wished[left[i]]) result.push_back(asked[left[i]]);
   return result;
 }
 

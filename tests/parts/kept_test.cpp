@@ -203,6 +203,56 @@ TEST(Kept, what_slices_keep_is_not_said_to_be_lost) {
   EXPECT_EQ(read_mesh(folder / "p.e.2.1", "exodus").mesh.results->properties.size(), 1u);
 }
 
+TEST(Kept, slices_keep_the_moment_of_their_fields_and_what_the_whole_has_then) {
+  const auto folder = test::output_folder();
+  const Mesh mesh = test::with_extras();
+  write_mesh(folder / "whole.e", mesh, nullptr);
+  const std::string said = refined_on_disk(folder / "whole.e", 2, "refine hex 1", folder / "fine.e");
+  EXPECT_TRUE(has(said, "whole.e: is read in slices without 2 more time steps, ")) << said;
+  EXPECT_FALSE(has(said, "global variable")) << said;
+  for (const char* part : {"fine.e.2.0", "fine.e.2.1"}) {
+    const MeshFile read = read_mesh(folder / part, "exodus");
+    ASSERT_TRUE(read.mesh.results);
+    EXPECT_EQ(read.mesh.results->times, std::vector{2.5});
+    ASSERT_EQ(read.mesh.results->of_all.size(), 1u);
+    EXPECT_EQ(read.mesh.results->of_all[0].name, "energy");
+    EXPECT_EQ(*read.mesh.results->of_all[0].at[0], std::vector{6.25});
+  }
+}
+
+TEST(Kept, joining_parts_of_gmsh_says_that_owners_go) {
+  const auto folder = test::output_folder();
+  write_mesh(folder / "whole.e", test::grid(4, 2, 2), nullptr);
+  refined_on_disk(folder / "whole.e", 2, "refine hex 1", folder / "fine.msh");
+  ASSERT_FALSE(read_mesh(folder / "fine_1.msh").tags.empty());
+  for (const char* to : {"joined.msh", "joined.e"}) {
+    const std::string said = text_of_lines(join_files(folder / "fine_1.msh", folder / to));
+    const std::string told = "parts are joined without the owners that they name: left out";
+    const std::size_t at = said.find(told);
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_FALSE(has(said.substr(at + told.size()), "without the owners")) << "once for all parts";
+  }
+}
+
+TEST(Kept, parts_do_not_get_the_names_of_other_formats) {
+  const auto folder = test::output_folder();
+  write_mesh(folder / "whole.e", test::grid(4, 2, 2), nullptr);
+  for (const std::string name : {"o.vtu", "o.inp", "o.MED", "o.vtk"}) {
+    const std::string refused = (folder / name).string() + ": parts are not written as " +
+                                (name == "o.MED" ? ".med" : name.substr(1)) +
+                                " files; their names end in .e .exo .g .gen (Exodus), .msh or .pvtu";
+    for (const PartitionBy by : {PartitionBy::ids, PartitionBy::random})
+      EXPECT_EQ(test::error_of([&] { split_by(folder / "whole.e", folder / name, by); }), refused);
+    EXPECT_EQ(test::error_of([&] { refined_on_disk(folder / "none.e", 2, "refine hex 1", folder / name); }), refused)
+        << "before anything is read";
+  }
+  // Files of Nemesis have all kinds of names.
+  for (const char* name : {"o.par", "o", "o.exo", "o.GEN"}) {
+    split_by(folder / "whole.e", folder / name, PartitionBy::ids);
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string(name) + ".2.0"))) << name;
+  }
+}
+
 TEST(Kept, a_mesh_of_one_part_is_read_again) {
   const auto folder = test::output_folder();
   const Mesh mesh = test::grid(4, 2, 2);
@@ -330,6 +380,15 @@ TEST(PartCommands, lines_of_other_programs_are_skipped_as_in_a_session) {
   EXPECT_TRUE(some.notices()[0].starts_with("'graphics' is skipped")) << some.notices()[0];
   EXPECT_TRUE(has(refusal_of("unite volume all"), "geometry is not edited here")) << refusal_of("unite volume all");
   EXPECT_EQ(refusal_of("graphics off"), "no refinement was asked for");
+}
+
+TEST(PartCommands, all_blocks_or_sets_are_forgotten_by_the_first_process) {
+  for (const char* text : {"reset nodeset", "reset sideset", "reset block", "reset genesis"})
+    EXPECT_EQ(PartCommands(std::vector<std::string>{text}).by_whole(), "'reset': only refinements are done in parts")
+        << text;
+  for (const char* text : {"reset", "reset mesh"})
+    EXPECT_EQ(refusal_of(text),
+              "'reset' is for sessions of hextwist: here the mesh is read first and written in the end");
 }
 
 TEST(PartCommands, those_that_put_the_mesh_on_another_model_are_refused_by_name) {

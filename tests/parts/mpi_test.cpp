@@ -1,5 +1,8 @@
 // Refinements by several processes, against those by one: the joined parts are the same file, byte for byte.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -10,6 +13,7 @@
 #include "io/io_support.h"
 #include "ranks_support.h"
 #include "split_judge.h"
+#include "support/exodus_extras.h"
 
 namespace hextwist {
 namespace {
@@ -271,8 +275,9 @@ TEST(InRanks, groups_that_the_first_deletes_are_gone) {
       "create brick x 4 y 3 z 2 interval 6 4 3; nodeset 5 add surface 1; nodeset 7 add surface 1 2; "
       "sideset 3 add surface 5; block 4 add hex 1 to 20");
   session.export_mesh(file);
-  for (const char* commands : {"delete nodeset all; delete block all", "delete sideset all",
-                               "nodeset 5 remove node all", "block 9 add hex all; delete block 1"})
+  for (const char* commands :
+       {"delete nodeset all; delete block all", "delete sideset all", "nodeset 5 remove node all",
+        "block 9 add hex all; delete block 1", "reset nodeset", "reset block; refine hex 1"})
     expect_same_file({file.string(), "", commands}, 3, "slabs");
   expect_same_file({file.string(), "", "surface 1 name \"inlet\"; refine surface inlet depth 1; delete block 4"}, 2,
                    "boxes");
@@ -358,6 +363,70 @@ TEST(InRanks, a_fault_of_a_part_is_named_with_its_file) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("error: rank 1: " + (folder / "parts.e.2.1").string() + ": "), std::string::npos)
       << outcome.err;
+}
+TEST(InRanks, what_files_of_any_rank_lose_is_said_once) {
+  const auto folder = test::output_folder();
+  Mesh mesh = test::with_extras();
+  write_mesh(folder / "whole.e", mesh, nullptr);
+  split_file(folder / "whole.e", folder / "parts.e", 2, PartitionBy::slabs);
+  const Outcome outcome = run_ranks(2, "'" + (folder / "parts.e.2.0").string() + "' -c 'refine hex 1'");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  // Only the second has members of it.
+  const std::string lost = "distribution factors of nodeset 3";
+  EXPECT_NE(outcome.out.find((folder / "parts.e").string() + ": parts are refined without "), std::string::npos);
+  EXPECT_NE(outcome.out.find(lost), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find(lost), outcome.out.rfind(lost)) << outcome.out;
+}
+TEST(InRanks, a_part_of_another_mesh_is_named_and_not_those_that_agree) {
+  const auto folder = test::output_folder();
+  write_mesh(folder / "a.e", test::grid(4, 2, 2), nullptr);
+  write_mesh(folder / "b.e", test::grid(5, 2, 2), nullptr);
+  split_file(folder / "b.e", folder / "b.e", 4, PartitionBy::ids);
+  for (const int foreign : {0, 2})
+    for (const int n : {2, 4}) {
+      split_file(folder / "a.e", folder / "a.e", 4, PartitionBy::ids);
+      const auto file = part_name(folder / "a.e", 4, foreign);
+      std::filesystem::copy_file(part_name(folder / "b.e", 4, foreign), file,
+                                 std::filesystem::copy_options::overwrite_existing);
+      const Outcome outcome = run_ranks(n, "'" + (folder / "a.e.4.1").string() + "' -c 'refine hex 1'");
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_NE(outcome.err.find("error: rank " + std::to_string(foreign * n / 4) + ": " + file.string() +
+                                 ": is part of a mesh of 20 hexes and 54 nodes, others of one of 16 and 45\n"),
+                std::string::npos)
+          << outcome.err;
+    }
+  write_mesh(folder / "one.e", test::grid(1, 1, 1), nullptr);
+  const Outcome too_few = run_ranks(2, "'" + (folder / "one.e").string() + "' -c 'refine hex 1'");
+  EXPECT_NE(too_few.err.find("error: a mesh of 1 hex has no 2 parts\n"), std::string::npos) << too_few.err;
+}
+TEST(InRanks, parts_do_not_get_the_names_of_other_formats) {
+  const Outcome outcome = run_ranks(2, "none.e -c 'refine hex 1' -o out.vtu");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("error: out.vtu: parts are not written as .vtu files; "), std::string::npos)
+      << outcome.err;
+}
+/// In messages of a socket, whose ends are those of what was written.
+TEST(InRanks, an_error_is_written_at_once) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(ends[1], STDERR_FILENO);
+    execl(HEXTWIST_MPI_PROGRAM, "hextwist-mpi", "none.e", "-c", "refine hex 1", nullptr);
+    _exit(127);
+  }
+  close(ends[1]);
+  std::vector<std::string> messages;
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 0; (n = recv(ends[0], buffer.data(), buffer.size(), 0)) > 0;)
+    messages.emplace_back(buffer.data(), static_cast<std::size_t>(n));
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  const auto error =
+      std::ranges::find_if(messages, [](const std::string& message) { return message.starts_with("error: "); });
+  ASSERT_NE(error, messages.end());
+  EXPECT_TRUE(error->starts_with("error: rank 0: none.e: ") && error->ends_with("\n")) << *error;
 }
 TEST(InRanks, lines_of_other_programs_are_skipped_and_said_once) {
   const std::string mesh = brick("6 4 4"), note = "'graphics' is skipped";

@@ -109,6 +109,11 @@ TEST(OnDisk, says_what_is_wrong_and_writes_nothing) {
   EXPECT_EQ(said("refine hex 1 97 98"), "there is no hex 97");
   EXPECT_NE(said("refine hex 1; refine hex 96").find("a second level: "), std::string::npos);
   EXPECT_NE(said("refine hex all smooth").find("smooth: "), std::string::npos);
+  // Of nodes that are there, in different parts: the kind of request is what is wrong.
+  EXPECT_NE(said("refine node 1 175 size 0.1 bias 1.5")
+                .find("a size at nodes, edges, faces or hexes: others may be nearer; that is not done part after part"),
+            std::string::npos)
+      << said("refine node 1 175 size 0.1 bias 1.5");
   // What each part would find another way.
   for (const char* target :
        {"hex in sheet 1", "edge with id < 5", "hex in (block with element_count > 60)",

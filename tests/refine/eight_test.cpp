@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
 #include <random>
 
+#include "hextwist/refine/marks.h"
 #include "hextwist/refine/plans/eight_internal.h"
 #include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/enclose.h"
@@ -167,6 +171,54 @@ TEST(eight, a_thin_region_around_a_wide_notch_gets_27) {
   const EightRegion region = only_region(mesh, targets);
   EXPECT_FALSE(region.eight);
   EXPECT_EQ(region.reason, "concave sides would need more than half as many nodes again to be filled");
+}
+
+/// What the plan relies on, hex by hex and edge by edge: a template in every pass, one cut for each edge that is halved
+/// and none for those cut in three, no more than three beside a single region.
+void expect_marks_fit(const Mesh& mesh, const std::vector<Index>& targets, const EightPlan& plan) {
+  const Edges all = edges(mesh);
+  std::vector<int> n_cuts(all.nodes.size(), 0);
+  for (const auto& marked : plan.passes) {
+    for (const Hex& hex : mesh.hexes) EXPECT_TRUE(is_box_marking(corner_mask(hex, marked)));
+    for (std::size_t e = 0; e < n_cuts.size(); ++e) n_cuts[e] += marked[all.nodes[e][0]] != marked[all.nodes[e][1]];
+  }
+  if (plan.regions.size() == 1) {
+    EXPECT_LE(*std::ranges::max_element(n_cuts), 3);
+  }
+  const auto is_in = [](const auto& list, const auto& item) { return std::ranges::binary_search(list, item); };
+  for (const Index h : targets)
+    for (const Index e : all.of_hex[h])
+      EXPECT_EQ(n_cuts[e],
+                is_in(plan.trisected, h) || is_in(plan.alone, h) || is_in(plan.thirds, all.nodes[e]) ? 0 : 1);
+}
+
+TEST(eight, most_sets_of_three_or_four_hexes_around_an_irregular_edge_are_halved) {
+  // Some only by the other of two markings, or with sheets in different passes that would cross beside the region.
+  const Mesh mesh = test::pinwheel(3, 2, 1);
+  std::array<int, 5> n_eight{};
+  for (unsigned set = 0; set < 1U << mesh.hexes.size(); ++set) {
+    const int n = std::popcount(set);
+    if (n != 3 && n != 4) continue;
+    std::vector<Index> targets;
+    for (Index h = 0; h < mesh.n_hexes(); ++h)
+      if (set >> h & 1) targets.push_back(h);
+    SCOPED_TRACE(testing::PrintToString(targets));
+    const EightPlan plan = plan_eight(mesh, targets);
+    expect_marks_fit(mesh, targets, plan);
+    n_eight[n] += plan.trisected.empty();
+  }
+  EXPECT_GE(n_eight[3], 203);  // of 220
+  EXPECT_GE(n_eight[4], 389);  // of 495
+}
+
+TEST(eight, sheets_of_a_staircase_around_an_irregular_edge_are_kept_apart) {
+  // In three passes sheets would cross in hexes beside the steps, which then have no template.
+  const Mesh mesh = test::pinwheel(3, 1, 3);
+  const std::vector<Index> steps = {2, 3 + 1, 6 + 0};
+  const EightPlan plan = plan_eight(mesh, steps);
+  EXPECT_TRUE(plan.regions[0].eight) << plan.regions[0].reason;
+  EXPECT_EQ(plan.regions[0].n_passes, 4);
+  expect_marks_fit(mesh, steps, plan);
 }
 
 }  // namespace

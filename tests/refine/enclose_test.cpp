@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <random>
 
 #include "hextwist/mesh/quality/quality.h"
+#include "hextwist/refine/marks.h"
 #include "hextwist/refine/split.h"
 #include "support/checkers.h"
 #include "support/grids.h"
@@ -51,6 +53,46 @@ TEST(enclose, any_marking_can_be_closed_and_is_conformal_then) {
     ASSERT_TRUE(test::uninverted(fine));
     ASSERT_NEAR(volume(fine), volume(mesh), 1e-9);
   }
+}
+
+/// Corners of a mask that the smallest marking with a template adds to it.
+int n_missing(int mask) {
+  int fewest = 8;
+  for (int m = 0; m < 256; ++m)
+    if ((m & mask) == mask && has_enclosing_template(m))
+      fewest = std::min(fewest, std::popcount(static_cast<unsigned>(m ^ mask)));
+  return fewest;
+}
+
+TEST(enclose, a_hex_alone_gets_its_smallest_template_nearby_unless_that_is_too_far) {
+  const Mesh cube = test::grid(1, 1, 1);
+  for (int mask = 0; mask < 256; ++mask)
+    for (Index limit = 0; limit <= 8; ++limit) {
+      std::vector<std::uint8_t> marked(8);
+      for (int c = 0; c < 8; ++c) marked[c] = mask >> c & 1;
+      const Index n_added = close_enclosure_nearby(cube, marked, limit);
+      const int closed = corner_mask(cube.hexes[0], marked);
+      EXPECT_EQ(n_added, n_missing(mask) <= limit ? n_missing(mask) : 0) << mask;
+      EXPECT_EQ(closed & mask, mask);
+      EXPECT_EQ(std::popcount(static_cast<unsigned>(closed ^ mask)), n_added) << mask;
+      EXPECT_EQ(has_enclosing_template(closed), n_missing(mask) <= limit) << mask;
+    }
+}
+
+TEST(enclose, what_has_templates_everywhere_is_not_taken_apart_because_something_else_has_none) {
+  const int a = 7, b = 7;
+  const Mesh mesh = test::grid(a, b, 1);
+  const auto node = [&](int i, int j, int k) { return i + (a + 1) * (j + (b + 1) * k); };
+  std::vector<std::uint8_t> marked(mesh.points.size(), 0);
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j <= b; ++j)
+      for (int i = 0; i <= a; ++i) marked[node(i, j, k)] = i < 2 || j < 2;  // an L with a ridge, six corners of a hex
+  EXPECT_EQ(enclosable_part(mesh.hexes, marked), marked);
+  const Index corner = node(5, 5, 0);
+  for (const Index n : {corner, node(6, 5, 0), node(5, 6, 0)}) marked[n] = 1;
+  std::vector<std::uint8_t> expected(mesh.points.size(), 0);
+  expected[corner] = 1;
+  EXPECT_EQ(enclosable_part(mesh.hexes, marked), expected);
 }
 
 TEST(enclose, single_nodes_grow_as_the_paper_says) {

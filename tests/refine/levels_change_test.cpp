@@ -1,10 +1,17 @@
 // Forests through many steps: identity, history, origin, fields.
 #include <tbb/global_control.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <random>
+#include <set>
 
+#include "hextwist/base/memory.h"
+#include "hextwist/mesh/loose_topology.h"
 #include "hextwist/mesh/quality/quality.h"
 #include "hextwist/refine/levels/gradation.h"
 #include "hextwist/refine/levels/reorder.h"
@@ -41,6 +48,8 @@ int expect_step_kept(const Mesh& before, const LevelStep& step, bool exact) {
   std::vector<double> gone(before.hexes.size(), 0), come(before.hexes.size(), 0);  // volumes at the first old hex
   for (Index h = 0; h < now.n_hexes(); ++h) {
     const auto old = step.origin.before(h);
+    EXPECT_TRUE(std::ranges::is_sorted(old, std::less_equal{}));
+    EXPECT_EQ(old.size() > 1, step.origin.kind[h] == HexOrigin::coarser);
     come[old[0]] += volume(now, h);
     gone[old[0]] = 0;
     for (const Index other : old) gone[old[0]] += volume(before, other);
@@ -254,12 +263,107 @@ TEST(Levels, marks_at_nodes_alone_are_graded_too) {
   EXPECT_GE(smallest_scaled_jacobian(step.mesh.mesh), 0.405);
 }
 
+/// Places of the marked corners, in cells of the level; on a mesh of unit cubes, whichever way each of them is turned.
+std::set<std::array<long, 3>> marked_places(const Mesh& cubes, const CellMarks& marks, std::size_t level) {
+  const double n = std::pow(3, level);
+  std::set<std::array<long, 3>> places;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const CellPlace cell = place_of(marks.cell[i], level);
+    const Hex& hex = cubes.hexes[cell.root];
+    for (int c = 0; c < 8; ++c) {
+      if (!(marks.corners[i] >> c & 1)) continue;
+      const Vec3 origin = cubes.points[hex[0]];
+      Vec3 place = n * origin;
+      for (int axis = 0; axis < 3; ++axis)
+        place += (cell.at[axis] + (c >> axis & 1)) * (cubes.points[hex[1 << axis]] - origin);
+      places.insert({std::lround(place.x()), std::lround(place.y()), std::lround(place.z())});
+    }
+  }
+  return places;
+}
+
+TEST(Levels, marks_on_a_periodic_boundary_get_their_images_and_no_others) {
+  const std::array<int, 3> size = {2, 3, 2};
+  for (std::size_t level = 0; level < 3; ++level)
+    for (int periodic = 1; periodic < 8; ++periodic) {  // bit: along which axes
+      std::mt19937 random(static_cast<unsigned>(periodic));
+      const Mesh mesh = test::shuffled(test::grid(size[0], size[1], size[2]), random);
+      Mirror mirror;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!(periodic >> axis & 1)) continue;
+        std::vector<NodePair> there, back;
+        for (Index a = 0; a < mesh.n_nodes(); ++a)
+          for (Index b = 0; b < mesh.n_nodes(); ++b)
+            if (mesh.points[b] - mesh.points[a] == size[axis] * Vec3::Unit(axis)) {
+              there.push_back({a, b});
+              back.push_back({b, a});
+            }
+        std::ranges::sort(back);
+        mirror.images.push_back(there);
+        mirror.images.push_back(back);
+      }
+      const auto n = static_cast<long>(std::pow(3, level));
+      CellMarks marks;
+      for (int i = 0; i < 12 * n * n; ++i) {
+        CellPlace place{static_cast<Index>(random() % mesh.hexes.size()), {}};
+        for (Index& at : place.at) at = static_cast<Index>(static_cast<long>(random()) % n);
+        marks.add(number_of(place, static_cast<Index>(n)), static_cast<std::uint8_t>(1U << random() % 8));
+      }
+      normalize(marks);
+      auto expected = marked_places(mesh, marks, level);
+      for (int axis = 0; axis < 3; ++axis) {
+        const long far = size[axis] * n;
+        for (auto place : std::set(expected))
+          if (periodic >> axis & 1 && place[axis] % far == 0) {
+            place[axis] = far - place[axis];
+            expected.insert(place);
+          }
+      }
+      const CellMarks before = marks;
+      mark_images(marks, level, mesh.hexes, node_corners(mesh), mirror);
+      EXPECT_TRUE(united(marks, before) == marks);
+      EXPECT_TRUE(marked_places(mesh, marks, level) == expected) << level << ", axes " << periodic;
+    }
+}
+
+TEST(Levels, surfaces_that_have_faces_between_two_hexes_are_known) {
+  for (const char* name : {"cam", "inclusion"}) {
+    const MeshedModel meshed = test::shipped(name);
+    std::map<Quad, int> n_hexes;
+    const auto corners_of = [&](Side side) {
+      Quad quad = face_nodes(meshed.mesh.hexes[side.hex], side.face);
+      std::ranges::sort(quad);
+      return quad;
+    };
+    for (Index h = 0; h < meshed.mesh.n_hexes(); ++h)
+      for (int f = 0; f < n_hex_faces; ++f) ++n_hexes[corners_of({h, f})];
+    std::set<int> expected;
+    for (std::size_t i = 0; i < meshed.association.surface_faces.size(); ++i)
+      if (n_hexes[corners_of(meshed.association.surface_faces[i])] == 2)
+        expected.insert(meshed.association.face_surface[i]);
+    EXPECT_EQ(inner_surfaces(meshed, node_corners(meshed.mesh)), std::vector<int>(expected.begin(), expected.end()));
+  }
+}
+
 TEST(Levels, too_many_levels_are_refused) {
   EXPECT_EQ(max_level(1), 13);
   EXPECT_EQ(max_level(1000000), 8);
   Grown grown(test::brick(1, 1, 1));
   EXPECT_THROW(wishes(grown.forest, std::vector<std::int8_t>{14}), Error);
   EXPECT_THROW(wishes(grown.forest, std::vector<std::int8_t>{1, 1}), Error);
+}
+
+TEST(Levels, hexes_that_are_asked_for_are_counted_before_any_is_made) {
+  Grown grown(test::brick(2, 1, 1));
+  limit_hexes(500);
+  try {
+    wishes(grown.forest, std::vector<std::int8_t>{2, 1});
+    ADD_FAILURE() << "not refused";
+  } catch (const TooLarge& error) {
+    EXPECT_EQ(std::string(error.what()).find("the refined mesh would have at least 756 hexes"), 0U) << error.what();
+  }
+  limit_hexes(0);
+  EXPECT_NO_THROW(wishes(grown.forest, std::vector<std::int8_t>{2, 1}));
 }
 
 }  // namespace

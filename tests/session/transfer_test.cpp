@@ -54,8 +54,8 @@ TEST(Transfer, all_that_a_file_has_comes_back_through_levels_that_were_read) {
                   file("fine.e") + "' overwrite; export levels '" + file("fine.levels") + "' overwrite");
   }
   Fixture f;
-  f.session.run("import exodus '" + file("fine.e") + "'; group 'some' add hex all; import levels '" + file("fine.levels") +
-                "'");
+  f.session.run("import exodus '" + file("fine.e") + "'; group 'some' add hex all; import levels '" +
+                file("fine.levels") + "'");
   const Mesh fine = f.session.meshed().mesh;
   ASSERT_TRUE(fine.results);
   EXPECT_EQ(fine.results->times.size(), 3u);
@@ -81,8 +81,9 @@ TEST(Transfer, hexes_made_of_several_have_their_average_at_all_times) {
   const auto folder = test::folder();
   const auto file = [&](const char* name) { return (folder / name).string(); };
   Fixture first;
-  first.session.run("create brick x 2 interval 2; export exodus '" + file("cubes.e") + "' overwrite; reset; import exodus '" +
-                    file("cubes.e") + "'; refine hex 1 2; export levels '" + file("cubes.levels") + "' overwrite");
+  first.session.run("create brick x 2 interval 2; export exodus '" + file("cubes.e") +
+                    "' overwrite; reset; import exodus '" + file("cubes.e") + "'; refine hex 1 2; export levels '" +
+                    file("cubes.levels") + "' overwrite");
   Mesh mesh = first.session.meshed().mesh;
   auto results = std::make_shared<FileResults>();
   results->times = {0, 1};
@@ -123,8 +124,7 @@ TEST(Transfer, hexes_made_of_several_have_their_average_at_all_times) {
     // All cells are cubes of one volume.
     EXPECT_NEAR(sum_now, *sum ? all : weighted / quality(Metric::volume, coarse)[0], 1e-9 * all);
     // At the moment of the fields it is what they are.
-    for (Index h = 0; h < 8; ++h)
-      EXPECT_NEAR(coarse.fields.at(0).values[h], 2 * now[h], 1e-9 * std::abs(now[h]));
+    for (Index h = 0; h < 8; ++h) EXPECT_NEAR(coarse.fields.at(0).values[h], 2 * now[h], 1e-9 * std::abs(now[h]));
   }
 }
 
