@@ -77,7 +77,7 @@ RegionMesh region_mesh(Surroundings& all, std::vector<Index> hexes) {
 }
 
 /// Of a marking of a pass and its opposite, true when the opposite touches fewer hexes outside, then fewer nodes of
-/// such hexes, then leaves the lowest node alone.
+/// such hexes. The marking leaves the lowest node alone.
 bool wants_opposite(const Surroundings& all, const SheetPasses& passes, int pass, std::span<const Index> outside) {
   const auto side = [&](Index node) -> int {  // 0 or 1 in the region, else -1
     const Index i = all.local[node];
@@ -93,8 +93,7 @@ bool wants_opposite(const Surroundings& all, const SheetPasses& passes, int pass
       n_nodes[s] += n[s];
     }
   }
-  return std::array{n_hexes[1], n_nodes[1], Index(passes.marks[0] >> pass & 1)} >
-         std::array{n_hexes[0], n_nodes[0], Index(~passes.marks[0] >> pass & 1)};
+  return std::array{n_hexes[1], n_nodes[1]} > std::array{n_hexes[0], n_nodes[0]};
 }
 
 /// The smallest marking with a template that has these marks and leaves fixed corners as they are; -1 when there is

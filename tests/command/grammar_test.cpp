@@ -177,7 +177,7 @@ TEST(Grammar, errors_point_at_the_wrong_word_and_say_what_could_stand_there) {
            {"refine curve 3 depth -1", 22, "depth must be a whole number"},
            {"refine curve 3 bias 0.5", 21, "bias must be a number of at least 1"},
            {"refine curve 3 concave", 23, "expected template or fill"},
-           {"refine curve 3 s", 16, "'s' may be size, smooth, sizing_function or stop_at"},
+           {"refine curve 3 s", 16, "'s' may be size, smooth, sizing_function, sum or stop_at"},
            {"refine curve 3 size 0", 21, "size must be a number above 0"},
            {"refine curve 3 size 1e300", 21, "size must be a number above 0, at most 1e+100"},
            {"refine curve 3 size", 20, "expected a number"},

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <random>
 
 #include "hextwist/mesh/quality/quality.h"
@@ -33,6 +35,31 @@ TEST(enclose_table, every_marking_with_a_template_fills_the_hex_with_positive_he
       EXPECT_EQ(mesh.n_hexes(), expected[n]) << mask;
     }
   EXPECT_EQ(n_templates, 2 * (1 + 8 + 12 + 6 + 12 + 8 + 1));
+}
+
+TEST(enclose_table, layers_of_any_thickness_have_inner_nodes_a_little_nearer_to_the_middle) {
+  const Mesh cube = test::grid(1, 1, 1);
+  for (const double at : {0.01, 0.1, 0.3, 0.45, 0.5, 0.55, 0.7, 0.9, 0.99}) {
+    SCOPED_TRACE(at);
+    const auto table = enclose_table(at), opposite = enclose_table(1 - at);
+    for (int mask = 0; mask < 256; ++mask) {
+      if (!has_enclosing_template(mask)) continue;
+      const Mesh mesh = test::refined(cube, split(cube.hexes, 8, table, std::vector{static_cast<std::uint16_t>(mask)}));
+      EXPECT_TRUE(test::conformal(mesh)) << mask;
+      EXPECT_TRUE(test::uninverted(mesh)) << mask;
+    }
+    // One marked corner, and all but that one: the same seen from the other side.
+    for (const auto& places : {table->positions(1), opposite->positions(254)}) {
+      const double edge = places[table->edge_node(0, 0)].x(), face = places[table->face_node(0, 0)].y();
+      const Vec3 inside = places[table->inside_node(0)];
+      EXPECT_NEAR(edge, at, 1e-12);
+      EXPECT_NEAR(inside.x(), inside.y(), 1e-12);
+      EXPECT_NEAR(inside.x(), inside.z(), 1e-12);
+      EXPECT_EQ(std::abs(inside.x() - 0.5) < std::abs(face - 0.5), at != 0.5);
+      EXPECT_EQ(std::abs(face - 0.5) < std::abs(edge - 0.5), at != 0.5);
+      EXPECT_LE(std::abs(edge - inside.x()), 0.1);
+    }
+  }
 }
 
 TEST(enclose, any_marking_can_be_closed_and_is_conformal_then) {
@@ -77,6 +104,42 @@ TEST(enclose, a_hex_alone_gets_its_smallest_template_nearby_unless_that_is_too_f
       EXPECT_EQ(std::popcount(static_cast<unsigned>(closed ^ mask)), n_added) << mask;
       EXPECT_EQ(has_enclosing_template(closed), n_missing(mask) <= limit) << mask;
     }
+}
+
+/// Of the marked corners of a hex without a template those that go first, by the rule.
+int first_part(const Hex& hex, int mask) {
+  if (has_enclosing_template(mask)) return mask;
+  int lowest = -1;
+  for (int c = 0; c < 8; ++c)
+    if (mask >> c & 1 && (lowest < 0 || hex[c] < hex[lowest])) lowest = c;
+  const auto beside = [&](int c) { return mask & (1 << (c ^ 1) | 1 << (c ^ 2) | 1 << (c ^ 4)); };
+  int piece = 1 << lowest;
+  for (int round = 0; round < 8; ++round)
+    for (int c = 0; c < 8; ++c)
+      if (piece >> c & 1) piece |= beside(c);
+  if (piece != mask) return first_part(hex, piece);
+  std::array<int, 4> by_n_beside{};
+  for (int c = 0; c < 8; ++c)
+    if (mask >> c & 1) by_n_beside[std::popcount(static_cast<unsigned>(beside(c)))] |= 1 << c;
+  const int meeting = *std::find_if(by_n_beside.rbegin(), by_n_beside.rend(), [](int corners) { return corners != 0; });
+  if (meeting != mask && has_enclosing_template(meeting)) return meeting;
+  lowest = -1;
+  for (int c = 0; c < 8; ++c)
+    if (meeting >> c & 1 && (lowest < 0 || hex[c] < hex[lowest])) lowest = c;
+  return 1 << lowest;
+}
+
+TEST(enclose, of_a_hex_alone_the_piece_with_the_lowest_node_goes_first_or_where_most_marked_edges_meet) {
+  std::mt19937 random(3);
+  for (int numbering = 0; numbering < 20; ++numbering) {
+    const Mesh cube = test::shuffled(test::grid(1, 1, 1), random);
+    for (int mask = 0; mask < 256; ++mask) {
+      std::vector<std::uint8_t> marked(8);
+      for (int c = 0; c < 8; ++c) marked[cube.hexes[0][c]] = mask >> c & 1;
+      EXPECT_EQ(corner_mask(cube.hexes[0], enclosable_part(cube.hexes, marked)), first_part(cube.hexes[0], mask))
+          << mask;
+    }
+  }
 }
 
 TEST(enclose, what_has_templates_everywhere_is_not_taken_apart_because_something_else_has_none) {
