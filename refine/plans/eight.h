@@ -20,7 +20,8 @@
 // sheets cut in three runs through. A region is refined one into eight when
 //  - it is at least a half (1 for structured regions);
 //  - marks outside of the region, needed where a hex there has no template, are at most half as many as its nodes;
-//  - no edge outside is cut more than three times (three passes never do that);
+//  - it cuts no edge outside more than three times (three passes never do that; regions near each other, enclosed one
+//    after the other, may come to five together);
 // else all of it is trisected, one into 27. A region with nothing around it, such as a whole mesh, needs no passes: all
 // its edges are halved at once, structured or not.
 #pragma once
