@@ -46,6 +46,15 @@ std::int64_t FileResults::in_file(Of of, int id) const {
   return id;
 }
 
+void place_in_itself(Mesh& mesh, FileResults& results) {
+  auto file = std::make_shared<Mesh>();
+  file->points = mesh.points;
+  file->hexes = mesh.hexes;
+  results.mesh = std::move(file);
+  mesh.file_hexes.resize(mesh.hexes.size());
+  std::iota(mesh.file_hexes.begin(), mesh.file_hexes.end(), 0);
+}
+
 std::string extras_text(const FileResults& extras) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };

@@ -80,6 +80,9 @@ std::string extras_text(const FileResults& extras);
 /// rest as extras_text() does.
 std::shared_ptr<const FileResults> results_of_parts(const FileResults& results, std::string& lost);
 
+/// From now on the results are of this mesh as it is, and its hexes their own in the file.
+void place_in_itself(Mesh& mesh, FileResults& results);
+
 /// Another mesh than the one with these results, `before`.
 struct ResultsTo {
   const Mesh& before;
@@ -91,8 +94,8 @@ struct ResultsTo {
 };
 /// What `before` has of its file, on the hexes, nodes and sets of `now`: as if `now` had been written and read again.
 /// For meshes whose hexes are not each in one of the file. Nodal values are those at the place of the node; a side of a
-/// coarser hex has the average by area of what was there.
-std::shared_ptr<const FileResults> results_on(const ResultsTo& to);
+/// coarser hex has the average by area of what was there. They are to be placed in `now` (place_in_itself()).
+std::shared_ptr<FileResults> results_on(const ResultsTo& to);
 
 /// Values now, of a mesh that has extras and knows the hexes of the file.
 class ExtrasNow {

@@ -33,12 +33,8 @@ class ResultsOn {
   explicit ResultsOn(const ResultsTo& to)
       : to_(to), results_(*to.before.results), then_(to.before, results_), now_(to.now, results_) {}
 
-  std::shared_ptr<const FileResults> made() {
+  std::shared_ptr<FileResults> made() {
     auto result = std::make_shared<FileResults>(results_);
-    auto mesh = std::make_shared<Mesh>();
-    mesh->points = to_.now.points;
-    mesh->hexes = to_.now.hexes;
-    result->mesh = std::move(mesh);
     for (TimedValues& values : result->on_nodes)
       each(values, [&](const std::vector<double>& of_file) { return now_.on_nodes(of_file); });
     for (auto* list : {&result->on_hexes, &result->attributes})
@@ -144,7 +140,7 @@ class ResultsOn {
 
 }  // namespace
 
-std::shared_ptr<const FileResults> results_on(const ResultsTo& to) {
+std::shared_ptr<FileResults> results_on(const ResultsTo& to) {
   return ResultsOn(to).made();
 }
 

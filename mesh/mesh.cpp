@@ -37,6 +37,11 @@ Box box(const Mesh& mesh) {
   for (const Vec3& p : mesh.points) result.add(p);
   return result;
 }
+Box box(const Mesh& mesh, Index hex) {
+  Box result;
+  for (const Index n : mesh.hexes[hex]) result.add(mesh.points[n]);
+  return result;
+}
 
 double volume(const Mesh& mesh, Index hex) {
   // The Jacobian determinant of a trilinear map is at most quadratic in each variable, so two Gauss points per

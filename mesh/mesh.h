@@ -121,6 +121,8 @@ inline std::array<Vec3, 8> corners_of(const Mesh& mesh, Index hex) {
 }
 /// Box of all points.
 Box box(const Mesh& mesh);
+/// Box of the corners of one hex.
+Box box(const Mesh& mesh, Index hex);
 /// Volume of one hex (trilinear map, exact), model units cubed; negative where it is inside out.
 double volume(const Mesh& mesh, Index hex);
 /// Volume of all hexes, summed in a fixed order: the same bits for any number of threads.

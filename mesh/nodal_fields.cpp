@@ -86,9 +86,8 @@ HexPlace step_towards(const Mesh& mesh, const Around& around, const HexPlace& fr
 }
 
 double distance_to_box(const Mesh& mesh, Index hex, const Vec3& p) {
-  Box box;
-  for (const Index n : mesh.hexes[hex]) box.add(mesh.points[n]);
-  return (p - p.cwiseMax(box.min).cwiseMin(box.max)).norm();
+  const Box around = box(mesh, hex);
+  return (p - p.cwiseMax(around.min).cwiseMin(around.max)).norm();
 }
 
 /// A point that no step from its place brings nearer. Pieces of transitions are skew, so it may be inside of the mesh

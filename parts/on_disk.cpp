@@ -134,7 +134,7 @@ class OnDisk {
   /// Of nodes that several parts have.
   void settle_values_aside() const {
     SharedValues values(shared_.ids());
-    for (int turn = 0; turn == 0 || (turn == 1 && values.needs_second_turn()); ++turn)
+    while (values.begins_turn())
       for (int p = 0; p < n_parts(); ++p) {
         MeshedModel part = unpacked(read_all_bytes(aside_.file("own", p)));
         values.settle(part.mesh);

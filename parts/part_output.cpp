@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "hextwist/base/text.h"
@@ -46,14 +45,10 @@ std::string list_of_pieces(const std::filesystem::path& piece, const std::vector
 void check_output_name(const std::filesystem::path& name) {
   const std::string ending = lower_extension(name);
   if (ending.empty() || is_gmsh_part(name) || is_written_in_pieces(name)) return;
-  const auto words = [](const std::string& list) {
-    std::istringstream from(list);
-    return std::vector<std::string>(std::istream_iterator<std::string>(from), {});
-  };
-  const std::vector<std::string> readable = words(readable_extensions());
-  if (std::ranges::find(readable, ending) == readable.end()) return;
+  if ((" " + readable_extensions() + " ").find(" " + ending + " ") == std::string::npos) return;
+  std::istringstream writable(writable_extensions());
   std::string known;
-  for (const std::string& each : words(writable_extensions()))
+  for (std::string each; writable >> each;)
     if (is_written_in_pieces("a" + each)) known += each + " ";
   throw Error(name.string() + ": parts are not written as " + ending + " files; their names end in " + known +
               "(Exodus), .msh or .pvtu");

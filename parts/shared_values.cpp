@@ -74,7 +74,7 @@ Disagreements settle_values(std::span<MeshedModel> parts) {
     if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i])) shared.push_back(all[i]);
   all = {};
   SharedValues values(std::move(shared));
-  for (int turn = 0; turn == 0 || (turn == 1 && values.needs_second_turn()); ++turn)
+  while (values.begins_turn())
     for (MeshedModel& part : parts) values.settle(part.mesh);
   return values.differ();
 }

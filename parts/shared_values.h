@@ -29,8 +29,8 @@ class SharedValues {
   explicit SharedValues(std::vector<std::int64_t> ids) : ids_(std::move(ids)) {}
   /// Gives the part the values that are right, as far as they are known from it and those before. The part has ids.
   void settle(Mesh& part);
-  /// Where a part before had no number: its values are right after a second turn.
-  bool needs_second_turn() const { return has_come_late_; }
+  /// Are all parts to be settled (once more)? Twice where one before had no number: its values are right then.
+  bool begins_turn() { return n_turns_++ == 0 || (n_turns_ == 2 && has_come_late_); }
   const Disagreements& differ() const { return differ_; }
 
  private:
@@ -42,6 +42,7 @@ class SharedValues {
   std::map<std::pair<std::string, int>, Known> known_;  // by field and components
   Disagreements differ_;
   bool has_come_late_ = false;
+  int n_turns_ = 0;
 };
 
 /// All parts at once; they may have no ids yet, which are then those of need_ids().

@@ -410,16 +410,9 @@ void read_levels(Transaction& run, const std::filesystem::path& file) {
   }
   const bool is_alone = there.n_hexes() == 0;
   in.check_unchanged();
-  const auto groups = run.state.groups;
-  const auto fixed_nodes = run.state.fixed_nodes;
   load_meshed(run, std::move(mesh));
   run.state.periodic = nullptr;
-  if (is_alone) {
-    forget_members(run.state, !run.state.has_cad);
-  } else {  // the same nodes and hexes
-    run.state.groups = groups;
-    run.state.fixed_nodes = fixed_nodes;
-  }
+  if (is_alone) forget_members(run.state, !run.state.has_cad);  // else they are the same nodes and hexes
   if (is_alone && in.has("nodes_per_hex")) {
     FileExtras extras;
     for (const auto& [block, n] : in.get<std::array<std::int32_t, 2>>("nodes_per_hex"))

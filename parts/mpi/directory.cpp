@@ -1,7 +1,6 @@
 #include "hextwist/parts/mpi/directory.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -156,13 +155,7 @@ std::vector<SkinFace> skin_of_all(Ranks& ranks, std::vector<SkinFace> open, std:
   for (const auto& list : ranks.exchange(to)) open.insert(open.end(), list.begin(), list.end());
   std::vector<SkinFace> mine = skin_among(std::move(open));
   mine.insert(mine.end(), walls.begin(), walls.end());
-  std::vector<SkinFace> all;
-  for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
-    const std::size_t before = all.size();
-    all.resize(before + bytes.size() / sizeof(SkinFace));
-    if (!bytes.empty()) std::memcpy(&all[before], bytes.data(), bytes.size());
-  }
-  return all;
+  return ranks.joined_everywhere(mine);
 }
 
 }  // namespace hextwist

@@ -1,7 +1,6 @@
 #include "hextwist/parts/mpi/input.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "hextwist/base/text.h"
@@ -28,16 +27,12 @@ namespace {
 /// What most files say of the whole; of what equally many say, what the first of them does.
 PartHead head_of_most(Ranks& ranks, const std::vector<PartHead>& mine) {
   std::vector<std::pair<PartHead, int>> all;  // how many say so
-  for (const std::vector<std::byte>& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
-    std::vector<PartHead> heads(bytes.size() / sizeof(PartHead));
-    if (!bytes.empty()) std::memcpy(heads.data(), bytes.data(), bytes.size());
-    for (const PartHead& head : heads) {
-      const auto same = std::ranges::find(all, head, &std::pair<PartHead, int>::first);
-      if (same == all.end())
-        all.emplace_back(head, 1);
-      else
-        ++same->second;
-    }
+  for (const PartHead& head : ranks.joined_everywhere(mine)) {
+    const auto same = std::ranges::find(all, head, &std::pair<PartHead, int>::first);
+    if (same == all.end())
+      all.emplace_back(head, 1);
+    else
+      ++same->second;
   }
   return all.empty() ? PartHead() : std::ranges::max_element(all, {}, &std::pair<PartHead, int>::second)->first;
 }
@@ -110,14 +105,8 @@ void settle_values_in_ranks(Ranks& ranks, Mesh& own, Disagreements& differ) {
 /// Of all ranks, in one line for each field.
 void say_disagreements(Ranks& ranks, const Mesh& own, Disagreements mine, const std::string& name, const Say& say) {
   Disagreements all;
-  for (const Field& field : own.fields) {
-    if (field.on != Field::On::node) continue;
-    for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine[field.name])))) {
-      std::vector<std::int64_t> ids(bytes.size() / sizeof(std::int64_t));
-      if (!bytes.empty()) std::memcpy(ids.data(), bytes.data(), bytes.size());
-      all[field.name].insert(all[field.name].end(), ids.begin(), ids.end());
-    }
-  }
+  for (const Field& field : own.fields)
+    if (field.on == Field::On::node) all[field.name] = ranks.joined_everywhere(mine[field.name]);
   for (const std::string& line : disagreement_lines(std::move(all), name)) say(line);
 }
 
@@ -275,11 +264,7 @@ void put_on_own_skin(Ranks& ranks, MeshedModel& own) {
     std::vector<std::int64_t> mine;
     for (const Index n : set.nodes)
       if (own.association.node_owner[n].dim < 3) mine.push_back(node_id(own.mesh, n));
-    std::vector<std::int64_t> members;
-    for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
-      const auto* ids = reinterpret_cast<const std::int64_t*>(bytes.data());
-      members.insert(members.end(), ids, ids + bytes.size() / sizeof(std::int64_t));
-    }
+    std::vector<std::int64_t> members = ranks.joined_everywhere(mine);
     std::ranges::sort(members);
     set.meant = members.empty() && std::ranges::all_of(inner, [](std::int64_t f) { return !(f & 1); })
                     ? std::vector<Owner>()

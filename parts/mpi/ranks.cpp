@@ -113,13 +113,11 @@ std::vector<std::string> Ranks::lines_of_all(const std::vector<std::string>& min
   std::vector<char> text;
   for (const std::string& line : mine) text.insert(text.end(), line.c_str(), line.c_str() + line.size() + 1);
   std::vector<std::string> all;
-  for (const std::vector<std::byte>& bytes : everywhere(std::as_bytes(std::span(text)))) {
-    const auto *at = reinterpret_cast<const char*>(bytes.data()), *end = at + bytes.size();
-    while (at != end) {
-      std::string line = at;
-      at += line.size() + 1;
-      if (std::ranges::find(all, line) == all.end()) all.push_back(std::move(line));
-    }
+  const std::vector<char> texts = joined_everywhere(text);
+  for (std::size_t at = 0; at < texts.size();) {
+    std::string line = &texts[at];
+    at += line.size() + 1;
+    if (std::ranges::find(all, line) == all.end()) all.push_back(std::move(line));
   }
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <string>
@@ -52,6 +53,18 @@ class Ranks {
   std::string text_of(int rank, const std::string& text);
   /// The lines of all ranks, rank after rank and each once; everywhere.
   std::vector<std::string> lines_of_all(const std::vector<std::string>& mine);
+  /// The lists of all ranks, one after the other; everywhere.
+  template <class T>
+  std::vector<T> joined_everywhere(const std::vector<T>& mine) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> all;
+    for (const std::vector<std::byte>& bytes : everywhere(std::as_bytes(std::span(mine)))) {
+      const std::size_t before = all.size();
+      all.resize(before + bytes.size() / sizeof(T));
+      if (!bytes.empty()) std::memcpy(&all[before], bytes.data(), bytes.size());
+    }
+    return all;
+  }
   /// The bytes of each rank, everywhere.
   std::vector<std::vector<std::byte>> everywhere(std::span<const std::byte> mine);
 

@@ -1,7 +1,6 @@
 #include "hextwist/parts/mpi/refine.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <optional>
 
@@ -116,14 +115,9 @@ Asked agreed(Ranks& ranks, const PartCommands& commands, std::size_t i, LocalMes
 
 /// The turns of all ranks, in their order.
 std::vector<Turn> all_turns(Ranks& ranks, std::span<const PassRecord> records) {
-  std::vector<Turn> mine, all;
+  std::vector<Turn> mine;
   for (const PassRecord& record : records) mine.push_back(record.turn);
-  for (const auto& bytes : ranks.everywhere(std::as_bytes(std::span(mine)))) {
-    const std::size_t before = all.size();
-    all.resize(before + bytes.size() / sizeof(Turn));
-    if (!bytes.empty()) std::memcpy(&all[before], bytes.data(), bytes.size());
-  }
-  return sorted_unique(std::move(all));
+  return sorted_unique(ranks.joined_everywhere(mine));
 }
 
 void number(Ranks& ranks, const LocalRun& run, GlobalIds& ids) {

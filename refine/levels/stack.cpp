@@ -24,8 +24,6 @@ MeshedModel without_fields(const MeshedModel& base) {
   bare.mesh.node_sets = base.mesh.node_sets;
   bare.mesh.side_sets = base.mesh.side_sets;
   bare.mesh.others = base.mesh.others;
-  bare.mesh.results = base.mesh.results;
-  bare.mesh.file_hexes = base.mesh.file_hexes;
   return bare;
 }
 

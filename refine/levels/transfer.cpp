@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "hextwist/base/parallel.h"
 #include "hextwist/base/sorted.h"
@@ -161,12 +160,14 @@ void carry_results(const Mesh& before, const LevelOrigin& origin, std::span<cons
   const Volumes volume = volumes(before, now, origin, true);
   const std::span<const std::string> shared =
       has_more_of(*now.results, extensive) ? extensive : std::span<const std::string>();
-  now.results = results_on({before, now, [&](Index hex) { return origin.before(hex); },
-                            [&](const std::string& name, std::vector<double> values) {
-                              const Field field{"", Field::On::hex, 1, std::move(values)};
-                              return hex_values(origin, volume, field, is_one_of(shared, name));
-                            }});
-  std::iota(now.file_hexes.begin(), now.file_hexes.end(), 0);
+  const std::shared_ptr<FileResults> results =
+      results_on({before, now, [&](Index hex) { return origin.before(hex); },
+                  [&](const std::string& name, std::vector<double> values) {
+                    const Field field{"", Field::On::hex, 1, std::move(values)};
+                    return hex_values(origin, volume, field, is_one_of(shared, name));
+                  }});
+  place_in_itself(now, *results);
+  now.results = results;
 }
 
 void share_out(const Mesh& before, std::span<const Index> origin, std::span<const std::string> extensive, Mesh& now) {

@@ -1,7 +1,6 @@
 // block ... attribute: values per hex that only Exodus files have.
 
 #include <algorithm>
-#include <numeric>
 
 #include "hextwist/io/results.h"
 #include "hextwist/session/commands/commands.h"
@@ -16,12 +15,7 @@ std::shared_ptr<FileResults> results_of(Mesh& mesh) {
   auto results = mesh.results ? std::make_shared<FileResults>(*mesh.results) : std::make_shared<FileResults>();
   if (results->mesh && mesh.file_hexes.size() == mesh.hexes.size()) return results;
   if (results->has_places()) throw Error("it is no longer known where in their file the hexes lie");
-  auto file = std::make_shared<Mesh>();
-  file->points = mesh.points;
-  file->hexes = mesh.hexes;
-  results->mesh = std::move(file);
-  mesh.file_hexes.resize(mesh.hexes.size());
-  std::iota(mesh.file_hexes.begin(), mesh.file_hexes.end(), 0);
+  place_in_itself(mesh, *results);
   return results;
 }
 
@@ -90,9 +84,7 @@ void change_attributes(Execution& run) {
   std::string line = "block " + std::to_string(id) + ": " + counted(std::ssize(names), "attribute");
   for (const std::string& name : names) line += " '" + printable(name) + "'";
   mesh.results = results;
-  const std::shared_ptr<const Levelling> levelling = run.state.levelling;
   run.replace(std::move(meshed));
-  run.state.levelling = levelling;
   run.keep_levels();
   run.say(line);
 }

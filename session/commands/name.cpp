@@ -14,9 +14,8 @@ void name_entities(Execution& run, const Item& range, const Item& text) {
   for (const Index i : positions) names.emplace_back(Owner{dimension(range.kind), i + 1}, text.text);
   MeshedModel meshed = *run.meshed;
   meshed.model = renamed(std::move(meshed.model), names);
-  const std::shared_ptr<const Levelling> levelling = run.state.levelling;
   run.replace(std::move(meshed));
-  run.state.levelling = with_base(levelling, [&](MeshedModel& base) { base.model = run.meshed->model; });
+  run.state.levelling = with_base(run.state.levelling, [&](MeshedModel& base) { base.model = run.meshed->model; });
   run.keep_levels();
   const auto n = static_cast<std::int64_t>(positions.size());
   run.say((n == 1 ? std::string(name(range.kind)) + " " + std::to_string(positions.front() + 1) + " is"

@@ -109,9 +109,7 @@ Needs needs(const Mesh& mesh, std::span<const std::uint8_t> in_zone, const SizeF
   Needs result{indices_where(mesh.n_hexes(),
                              [&](Index h) {
                                if (!in_zone[h]) return false;
-                               Box around;
-                               for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
-                               return around.diagonal() > std::numbers::sqrt3 * wish.least_at(centroid(mesh, h));
+                               return box(mesh, h).diagonal() > std::numbers::sqrt3 * wish.least_at(centroid(mesh, h));
                              }),
                {}};
   const std::vector<double> wished = wished_sizes(mesh, result.hexes, wish);

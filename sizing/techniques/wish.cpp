@@ -85,16 +85,11 @@ std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::ui
     const double most = most_too_long * wished;
     return volume * (1 + rounding) > most * most * most;
   };
-  const auto box_of = [&](Index h) {
-    Box around;
-    for (const Index n : mesh.hexes[h]) around.add(mesh.points[n]);
-    return around;
-  };
-  const auto volume_of = [](const Box& box) { return (box.max - box.min).prod(); };
+  const auto volume_of = [](const Box& around) { return (around.max - around.min).prod(); };
   const double least = field_->least();
   const std::vector<Index> asked = indices_where(mesh.n_hexes(), [&](Index h) {
     if (!in_zone[h]) return false;
-    const Box around = box_of(h);
+    const Box around = box(mesh, h);
     const double volume = volume_of(around);
     if (!is_above(volume, least)) return false;
     const Vec3 centre = centroid(mesh, h);
@@ -113,7 +108,7 @@ std::vector<Index> SizeWish::too_large(const Mesh& mesh, std::span<const std::ui
   }
   // No hex is larger than its box, and exact volumes cost more.
   const std::vector<Index> left = indices_where(
-      static_cast<Index>(asked.size()), [&](Index i) { return is_above(volume_of(box_of(asked[i])), wished[i]); });
+      static_cast<Index>(asked.size()), [&](Index i) { return is_above(volume_of(box(mesh, asked[i])), wished[i]); });
   const std::vector<double> size = actual_sizes(mesh, items_at(asked, left));
   std::vector<Index> result;
   for (std::size_t i = 0; i < left.size(); ++i)

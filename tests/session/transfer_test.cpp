@@ -96,13 +96,8 @@ TEST(Transfer, hexes_made_of_several_have_their_average_at_all_times) {
   }
   results->on_hexes = {e};
   mesh.fields = {{"e", Field::On::hex, 1, *e.at[1]}};
-  auto places = std::make_shared<Mesh>();
-  places->points = mesh.points;
-  places->hexes = mesh.hexes;
-  results->mesh = places;
+  place_in_itself(mesh, *results);
   mesh.results = results;
-  mesh.file_hexes.resize(mesh.hexes.size());
-  std::iota(mesh.file_hexes.begin(), mesh.file_hexes.end(), 0);
   write_mesh(folder / "fine_cubes.e", mesh, nullptr, {.overwrite = true});
   const std::vector<double> volumes = quality(Metric::volume, mesh);
 
@@ -146,13 +141,8 @@ TEST(Transfer, a_sum_stays_by_every_technique_and_at_all_times) {
   mesh.fields = {{"mass", Field::On::hex, 1, values},
                  {"count", Field::On::hex, 1, std::vector<double>(mesh.hexes.size(), 5), true},
                  {"density", Field::On::hex, 1, std::vector<double>(mesh.hexes.size(), 2)}};
-  auto places = std::make_shared<Mesh>();
-  places->points = mesh.points;
-  places->hexes = mesh.hexes;
-  results->mesh = places;
+  place_in_itself(mesh, *results);
   mesh.results = results;
-  mesh.file_hexes.resize(mesh.hexes.size());
-  std::iota(mesh.file_hexes.begin(), mesh.file_hexes.end(), 0);
   const double first = std::accumulate(mass.at[0]->begin(), mass.at[0]->end(), 0.0);
   for (const char* command :
        {"refine hex 100", "refine hex 100 transition nested", "refine hex 100 numsplit 2", "refine curve 1",

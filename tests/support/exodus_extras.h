@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <memory>
-#include <numeric>
 
 #include "hextwist/io/exodus/exodus_internal.h"
 #include "support/grids.h"
@@ -25,10 +24,6 @@ inline Mesh with_extras() {
   mesh.node_sets = {{0, "end", {}}, {3, "ends", {}}};
   mesh.side_sets = {{4, "hot", {}}};
   auto extras = std::make_shared<FileResults>();
-  auto places = std::make_shared<Mesh>();
-  places->points = mesh.points;
-  places->hexes = mesh.hexes;
-  extras->mesh = places;
   extras->times = {0, 1, 2.5};
   extras->step = 2;
   TimedValues t{"T", {}}, a{"a", {}}, energy{"energy", {}}, flux{"flux", {}}, reaction{"reaction", {}};
@@ -71,9 +66,8 @@ inline Mesh with_extras() {
   extras->coordinate_names = {"r", "s", "t"};
   extras->info = {"first line", "second line"};
   extras->qa = {{"MESHER", "1.2", "01/02/2026", "10:20:30"}};
+  place_in_itself(mesh, *extras);
   mesh.results = extras;
-  mesh.file_hexes.resize(mesh.hexes.size());
-  std::iota(mesh.file_hexes.begin(), mesh.file_hexes.end(), 0);
   return mesh;
 }
 
