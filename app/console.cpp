@@ -109,8 +109,8 @@ void Console::print(std::FILE* to, const std::string& text) {
 }
 
 std::string Console::problem() {
-  std::cout.flush();
   if (write_error_ == 0 && std::fflush(stdout) != 0) write_error_ = errno;
+  std::cout.flush();
   if (write_error_ == 0 && (std::ferror(stdout) || !std::cout)) write_error_ = EIO;
   if (write_error_ == 0) return problem_;
   const std::string text = "standard output can't be written: " + error_text(write_error_);

@@ -117,7 +117,8 @@ int run_server(const Options& options) {
 int main(int argc, char** argv) {
   open_standard_streams();
   Options options;
-  if (const int status = read_options(argc, argv, options); status >= 0) return status;
+  if (const int status = read_options(argc, argv, options); status >= 0)
+    return status == done && !Console().problem().empty() ? command_failed : status;
   catch_interrupts();
   keep_freed_memory();
   limit_memory(available_memory());

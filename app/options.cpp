@@ -4,8 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <sstream>
 #include <string_view>
 
 #include "exit_status.h"
@@ -57,7 +60,9 @@ int parsed(CLI::App& app, const Options& options, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error, std::cout, std::cerr);
+    std::ostringstream said;
+    const int status = app.exit(error, said, std::cerr);
+    std::fputs(said.str().c_str(), stdout);  // whoever flushes it learns why that fails
     return status == 0 ? status : wrong_usage;
   }
   return -1;
@@ -170,7 +175,10 @@ int read_serve(int argc, char** argv, Options& options) {
       ->type_name("ADDRESS");
   app.add_option("--port", options.port, "port to listen on; default: any")->check(CLI::Range(0, 65535));
   app.add_option("--time-limit", options.most_seconds, "seconds that a command may take; 0: no limit; default: 3600")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check([](const std::string& text) {  // NaN is in every range of CLI11
+        const double seconds = std::strtod(text.c_str(), nullptr);
+        return seconds >= 0 && seconds <= 1e9 ? "" : text + " is not a number from 0 to 1e9";
+      });
   app.add_option("--threads", options.threads, "number of threads; 0: all")->check(CLI::Range(0, 1024));
   options.serve = true;
   if (const int status = parsed(app, options, argc - 1, argv + 1); status >= 0) return status;

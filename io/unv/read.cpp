@@ -31,6 +31,8 @@ class UnvReader {
         systems();
       else if (dataset == 18)
         old_systems();
+      else if (dataset == 164)
+        units();
       else
         skip(dataset);
     }
@@ -84,7 +86,18 @@ class UnvReader {
   }
 
   void skip(int dataset) {
-    if (dataset != 151 && dataset != 164) skipped_.push_back(dataset);
+    if (dataset != 151) skipped_.push_back(dataset);
+    while (!ends()) cursor_.line();
+  }
+
+  /// A code and what it means, in words; metres are 1.
+  void units() {
+    if (ends()) return;
+    const int code = small("a code of units");
+    const std::string words(trimmed(cursor_.line().substr(0, 20)));
+    if (code != 1)
+      listing_.note("its units are " + (words.empty() ? "of code " + std::to_string(code) : words) +
+                    " (dataset 164): lengths stay as they are");
     while (!ends()) cursor_.line();
   }
 

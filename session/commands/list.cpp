@@ -42,7 +42,8 @@ class Lister {
 
   std::string line(EntityKind kind, Index i) {
     std::string result = std::string(name(kind)) + " " + std::to_string(id_of(selector_, kind, i));
-    if (const std::string named = name_of(selector_, kind, i); !named.empty()) result += " '" + named + "'";
+    if (const std::string named = name_of(selector_, kind, i); !named.empty())
+      result += " '" + printable(named, 1000) + "'";
     return result + ": " + (is_cad(kind) ? cad(kind, i) : is_mesh(kind) ? mesh_entity(kind, i) : group(kind, i));
   }
 
@@ -75,7 +76,7 @@ class Lister {
       if (dim > 0) row.push_back(ids_text(model().adjacent(owner, dim - 1)));
       if (dim < 3) row.push_back(ids_text(model().adjacent(owner, dim + 1)));
       if (!n.empty()) row.push_back(std::to_string(n[i]));
-      row.push_back(name_of(selector_, kind, i));
+      row.push_back(printable(name_of(selector_, kind, i), 1000));
     }
     return table_lines(rows);
   }
@@ -178,7 +179,7 @@ class Lister {
     std::string result;
     for (const Group& group : selector_.groups)
       if (std::ranges::binary_search(members(selector_, group, kind), i))
-        result += (result.empty() ? ", in group '" : ", '") + group.name + "'";
+        result += (result.empty() ? ", in group '" : ", '") + printable(group.name, 1000) + "'";
     return result;
   }
 
@@ -297,7 +298,7 @@ void list_fields(Execution& run) {
       if (!(x >= low)) low = std::isnan(x) ? low : x;
       if (!(x <= high)) high = std::isnan(x) ? high : x;
     }
-    rows.push_back({"'" + field.name + "'", field.on == Field::On::node ? "nodes" : "hexes",
+    rows.push_back({"'" + printable(field.name, 1000) + "'", field.on == Field::On::node ? "nodes" : "hexes",
                     std::to_string(field.components), short_number(low), short_number(high),
                     field.integer ? "integers" : ""});
   }

@@ -331,6 +331,14 @@ void tell_of_sizes_before(State& state, Candidate& taken) {
         "too long; a size a little larger leaves them as they are");
 }
 
+/// Sizes are by levels unless another way comes nearer. Levels that there were end with a note of their own.
+void tell_of_new_base(const State& state, Candidate& taken) {
+  const Request& request = state.request;
+  if (state.among || !is_regular(request) || request.method != Method::automatic || has_levels(request)) return;
+  if (const LevellingPtr& levels = taken.result.levelling; levels && !levels->forest.is_bare()) return;
+  taken.report.notices.push_back("that is not by levels: this mesh is the base of what is refined from now on");
+}
+
 }  // namespace
 
 void run_nearest_size(State& state) {
@@ -354,6 +362,7 @@ void run_nearest_size(State& state) {
                       start);
   if (cuts_anything) taken = or_by_directions(std::move(taken), state, start);
   if (cuts_anything && taken.met < well_met) tell_of_sizes_before(state, taken);
+  if (cuts_anything) tell_of_new_base(state, taken);
   if (state.among) state.among->taken = taken.number;
   state.report = std::move(taken.report);
   state.adopt(std::move(taken.result), std::move(taken.straight));

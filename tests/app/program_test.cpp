@@ -92,6 +92,8 @@ TEST(Program, view_makes_a_page_or_says_what_is_missing) {
 TEST(Program, serve_refuses_what_it_cannot_do) {
   EXPECT_EQ(run("serve a.msh b.msh").status, 2);
   EXPECT_EQ(run("serve --port 99999").status, 2);
+  for (const char* seconds : {"nan", "-1", "1e10", "inf", "soon"})
+    EXPECT_EQ(run(std::string("serve --time-limit ") + seconds).status, 2) << seconds;
   const Outcome outcome = run("serve --address 203.0.113.7");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(

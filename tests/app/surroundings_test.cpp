@@ -54,6 +54,15 @@ TEST_F(Surroundings, full_standard_output_is_an_error) {
   EXPECT_EQ(shell("$H a.vtu -c list").status, 0) << "the work is done all the same";
 }
 
+TEST_F(Surroundings, full_standard_output_is_an_error_of_help_too) {
+  for (const char* line : {"$H --help > /dev/full", "$H --version > /dev/full", "$H split --help > /dev/full"}) {
+    const Outcome outcome = shell(line);
+    EXPECT_EQ(outcome.status, 1) << line;
+    EXPECT_EQ(outcome.out, "error: standard output can't be written: No space left on device\n") << line;
+  }
+  EXPECT_EQ(shell("$H --no-such-option > /dev/full").status, 2);
+}
+
 TEST_F(Surroundings, full_standard_output_is_an_error_of_meshes_in_parts_too) {
   ASSERT_EQ(shell("$H -c 'create brick x 1 interval 3' -o a.e").status, 0);
   const std::string full = "error: standard output can't be written: No space left on device\n";

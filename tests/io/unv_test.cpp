@@ -110,6 +110,19 @@ TEST(unv_files, old_systems_and_nodes_are_understood) {
   says(system(0, 7, moved), "is defined in another");
 }
 
+TEST(unv_files, units_are_told) {
+  const auto notices = [&](const std::string& row) {
+    const std::string factors = "  1.0D+03  1.0D+00  1.0D+00\n  2.7315D+02\n";
+    const std::string text = "    -1\n   164\n" + row + "\n" + factors + "    -1\n" + unv_nodes() + unv_hex();
+    return read_mesh(test::write_text(test::output_folder() / "a.unv", text)).notices;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(notices("         1  SI: Meter (newton)         2"), Lines{});
+  EXPECT_EQ(notices("         5  mm (milli-newton)          2"),
+            Lines{"its units are mm (milli-newton) (dataset 164): lengths stay as they are"});
+  EXPECT_EQ(notices("         9"), Lines{"its units are of code 9 (dataset 164): lengths stay as they are"});
+}
+
 TEST(unv_files, ids_of_ten_digits_touch) {
   const auto folder = test::output_folder();
   constexpr std::int64_t first = 1234567890;

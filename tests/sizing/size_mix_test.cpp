@@ -72,9 +72,12 @@ TEST(size_mix, both_are_told_when_both_were_tried) {
                            "factor of 1.00 (1.50 the other way), the worst shape is "),
       std::string::npos)
       << notices(halved);
+  const char* const base = "that is not by levels: this mesh is the base of what is refined from now on";
+  EXPECT_NE(notices(halved).find(base), std::string::npos) << notices(halved);
   request.method = Method::parallel;
   const RefineResult parallel = checked(input, request);
   EXPECT_TRUE(parallel.refined.mesh == halved.refined.mesh);
+  EXPECT_EQ(notices(parallel).find(base), std::string::npos) << "as it was asked for";
   request.method = Method::automatic;
   request.how = Sizes{.size = 1.0 / 3};  // a factor of three: nothing to choose
   EXPECT_EQ(notices(checked(input, request)), "");
