@@ -119,6 +119,7 @@ template <class Started>
 int run_to_the_end(Child& child, std::vector<std::string> text, char* const* environment, const Handover& out,
                    const Handover* in, const Started& started) {
   std::vector<char*> words;
+  words.reserve(text.size() + 1);
   for (std::string& word : text) words.push_back(word.data());
   words.push_back(nullptr);
   Pipe alive;
@@ -169,7 +170,7 @@ std::filesystem::path find_readers() {
     folder = std::filesystem::canonical(here.dli_fname, error).parent_path();
   if (error || folder.empty()) folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   for (const char* place : {".", "../libexec/hextwist", "../../libexec/hextwist", "../../../../libexec/hextwist"}) {
-    const std::filesystem::path readers = (folder / place).lexically_normal();
+    std::filesystem::path readers = (folder / place).lexically_normal();
     if (::access((readers / "hextwist_read_cad").c_str(), X_OK) == 0) return readers;
   }
   return {};

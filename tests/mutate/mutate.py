@@ -60,7 +60,7 @@ TESTS = [
     ("test_refine", f"{LATER}:-Slow*"),
     ("test_patch", "-Slow*:real/*:patch.requests*models*:patch.requests*cad*:Fields.linear*"),
     ("test_sizing", "-Slow*:parts/*:meshes/*teaport*:meshes/*swivel*:Lift*:size_mix.a_second*"),
-    ("test_session", "SessionLevels.*:PatchedSession.*:Undo*-SessionLevels.whole*:*front*:SessionLevels.the_combination*"),
+    ("test_session", "SessionLevels.*:Transfer.*:PatchedSession.*:Undo*-SessionLevels.whole*:*front*:SessionLevels.the_combination*"),
 ]
 
 

@@ -158,6 +158,24 @@ TEST(enclose, what_has_templates_everywhere_is_not_taken_apart_because_something
   EXPECT_EQ(enclosable_part(mesh.hexes, marked), expected);
 }
 
+TEST(enclose, a_ridge_goes_with_the_corner_in_which_it_ends) {
+  constexpr int n = 4, top = 6;
+  const Mesh mesh = test::grid(n, n, top + 2);
+  const auto node = [&](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
+  for (int mirror = 0; mirror < 8; ++mirror) {  // so that the ridge is at each corner of hexes
+    const auto mirrored = [&](int i, int j, int k) {
+      return node(mirror & 1 ? n - i : i, mirror & 2 ? n - j : j, mirror & 4 ? top + 2 - k : k);
+    };
+    std::vector<std::uint8_t> marked(mesh.points.size(), 0), ridge(mesh.points.size(), 0);
+    for (int k = 0; k <= top; ++k) {
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) marked[mirrored(i, j, k)] = i < 2 || j < 2;
+      ridge[mirrored(1, 1, k)] = 1;
+    }
+    EXPECT_EQ(enclosable_part(mesh.hexes, marked), ridge) << mirror;
+  }
+}
+
 TEST(enclose, single_nodes_grow_as_the_paper_says) {
   const auto growth = [](Index node) {
     const Mesh mesh = test::grid(3, 3, 3);
