@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -124,6 +126,61 @@ TEST(eight, a_ring_within_a_ring_is_halved_around_when_its_number_of_layers_is_e
     EXPECT_EQ(region.n_passes, 3);
     EXPECT_EQ(region.n_in_three, n % 2);
     EXPECT_EQ(region.n_exact, 4 * (n - n % 2));
+  }
+}
+
+TEST(eight, a_shell_around_a_ring_has_two_ways_around_each_with_a_layer_too_many) {
+  for (const std::array<int, 2>& n : {std::array{7, 5}, {7, 6}, {8, 5}, {8, 6}}) {
+    SCOPED_TRACE(std::to_string(n[0]) + " x " + std::to_string(n[1]));
+    constexpr int n_layers = 3;
+    Mesh mesh;  // around the ring, around its section, outwards
+    const auto node = [&](int i, int j, int k) { return k + (n_layers + 1) * (j % n[1] + n[1] * (i % n[0])); };
+    for (int i = 0; i < n[0]; ++i)
+      for (int j = 0; j < n[1]; ++j)
+        for (int k = 0; k <= n_layers; ++k) {
+          const double a = 2 * std::numbers::pi * i / n[0], b = 2 * std::numbers::pi * j / n[1], r = 2 + k;
+          mesh.points.emplace_back((10 + r * std::cos(b)) * std::cos(a), (10 + r * std::cos(b)) * std::sin(a),
+                                   r * std::sin(b));
+        }
+    std::vector<Index> middle;
+    for (int i = 0; i < n[0]; ++i)
+      for (int j = 0; j < n[1]; ++j)
+        for (int k = 0; k < n_layers; ++k) {
+          if (k == 1) middle.push_back(mesh.n_hexes());
+          Hex& hex = mesh.hexes.emplace_back();
+          for (int c = 0; c < 8; ++c) hex[c] = node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+        }
+    const EightRegion region = only_region(mesh, middle);
+    EXPECT_TRUE(region.eight) << region.reason;
+    EXPECT_EQ(region.n_passes, 3);
+    EXPECT_EQ(region.n_in_three, n[0] % 2 + n[1] % 2);
+    EXPECT_EQ(region.n_exact, (n[0] - n[0] % 2) * (n[1] - n[1] % 2));
+  }
+}
+
+TEST(eight, regions_near_each_other_are_enclosed_one_after_the_other_in_no_more_than_four_rounds) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = test::shuffled(test::grid(12, 12, 12), random);
+    std::vector<Index> order = all_hexes(mesh), targets;
+    std::ranges::shuffle(order, random);
+    std::vector<char> taken(mesh.points.size(), 0);
+    for (const Index h : order) {  // single hexes as near to each other as they can be
+      if (std::ranges::any_of(mesh.hexes[h], [&](Index n) { return taken[n] != 0; })) continue;
+      for (const Index n : mesh.hexes[h]) taken[n] = 1;
+      targets.push_back(h);
+    }
+    std::ranges::sort(targets);
+    const EightPlan plan = plan_eight(mesh, targets);
+    EXPECT_EQ(plan.passes.size(), 4U * 3) << seed;
+    std::size_t n_eight = 0;
+    for (const EightRegion& region : plan.regions) {
+      n_eight += region.eight;
+      EXPECT_EQ(region.reason, region.eight ? "" : "it lies too near to other regions") << seed;
+    }
+    EXPECT_GT(n_eight, 100U) << seed;
+    EXPECT_GT(plan.trisected.size(), 10U) << "a fifth round would have been wanted, " << seed;
+    EXPECT_EQ(n_eight + plan.trisected.size(), targets.size()) << seed;
   }
 }
 

@@ -262,6 +262,32 @@ TEST(Levels, marks_at_nodes_alone_are_graded_too) {
   EXPECT_GE(smallest_scaled_jacobian(step.mesh.mesh), 0.405);
 }
 
+TEST(Levels, a_cell_that_is_cut_at_some_corners_is_given_up_by_its_pieces_alone) {
+  Grown grown(test::brick(4, 4, 4));
+  LevelMarks wished(2);
+  const CellNumber hex = 21, child = first_cell_child(hex);
+  wished[0].add(hex);
+  wished[1].add(child, 0b11);
+  const Forest forest = change(grown.forest, grown.mesh.mesh, wished).forest;
+  const HandedHexes& hexes = forest.grown->hexes;
+  // What is wished for when hexes of that cell, and hexes of others in the same hex of the base, may be coarser.
+  const auto wished_after = [&](int of_cell, int of_others) {
+    std::vector<std::int8_t> changes(static_cast<std::size_t>(hexes.n_hexes()), 0);
+    for (std::size_t i = 0; i < hexes.cell.size(); ++i)
+      if (hexes.root_of_piece(i) == static_cast<Index>(hex)) {
+        const LevelPieces::Leaf leaf = hexes.leaf_of_piece(i);
+        changes[static_cast<std::size_t>(hexes.n_whole()) + i] =
+            static_cast<std::int8_t>(leaf.level == 1 && leaf.cell == child ? of_cell : of_others);
+      }
+    return wishes(forest, changes);
+  };
+  EXPECT_EQ(wished_after(0, -1), wished);
+  LevelMarks whole(1);
+  whole[0].add(hex);
+  EXPECT_EQ(wished_after(-1, 0), whole);
+  EXPECT_EQ(wished_after(-1, -1), whole);  // its pieces are two levels finer than the hex of the base
+}
+
 /// Places of the marked corners, in cells of the level; on a mesh of unit cubes, whichever way each of them is turned.
 std::set<std::array<long, 3>> marked_places(const Mesh& cubes, const CellMarks& marks, std::size_t level) {
   const double n = std::pow(3, level);
