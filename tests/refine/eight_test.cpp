@@ -16,6 +16,7 @@
 #include "hextwist/refine/split.h"
 #include "hextwist/refine/templates/enclose.h"
 #include "support/grids.h"
+#include "support/meshed.h"
 
 namespace hextwist {
 namespace {
@@ -127,6 +128,50 @@ TEST(eight, a_ring_within_a_ring_is_halved_around_when_its_number_of_layers_is_e
     EXPECT_EQ(region.n_in_three, n % 2);
     EXPECT_EQ(region.n_exact, 4 * (n - n % 2));
   }
+}
+
+TEST(eight, of_a_marking_and_its_opposite_the_one_that_touches_less_outside_is_taken) {
+  std::mt19937 random(17);
+  int n_asked = 0, n_nearly_alike = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Mesh rugged = test::grid(5, 5, 5);  // so that what is touched differs by a hex here and there
+    std::erase_if(rugged.hexes, [&](const Hex&) { return random() % 3 == 0; });
+    const Mesh mesh = test::shuffled(rugged, random);
+    std::vector<Index> targets = {static_cast<Index>(random() % mesh.hexes.size())};
+    std::vector<char> is_target(mesh.hexes.size(), 0), in_region(mesh.points.size(), 0);
+    const Faces all = faces(mesh);
+    for (int step = 0; step < 20; ++step) {
+      const Index at = targets[random() % targets.size()];
+      const auto& sides = all.sides[all.of_hex[at][random() % 6]];
+      const Index other = sides[sides[0].hex == at].hex;
+      if (other >= 0 && std::ranges::find(targets, other) == targets.end()) targets.push_back(other);
+    }
+    std::ranges::sort(targets);
+    for (const Index h : targets) {
+      is_target[h] = 1;
+      for (const Index n : mesh.hexes[h]) in_region[n] = 1;
+    }
+    const EightPlan plan = plan_eight(mesh, targets);
+    if (plan.regions.size() != 1 || !plan.regions[0].eight || plan.regions[0].n_added_nodes > 0) continue;
+    for (const std::vector<std::uint8_t>& marked : plan.passes) {
+      std::array<std::pair<int, int>, 2> touched{};  // hexes outside and their nodes, by marking
+      for (Index h = 0; h < mesh.n_hexes(); ++h) {
+        if (is_target[h]) continue;
+        std::array<int, 2> n{};
+        for (const Index node : mesh.hexes[h])
+          if (in_region[node]) ++n[marked[node] != 0];
+        for (int side = 0; side < 2; ++side) {
+          touched[side].first += n[side] > 0;
+          touched[side].second += n[side];
+        }
+      }
+      EXPECT_LE(touched[1], touched[0]) << trial;
+      n_asked += touched[1] != touched[0];
+      n_nearly_alike += touched[1] != touched[0] && touched[1].first + 1 >= touched[0].first;
+    }
+  }
+  EXPECT_GT(n_asked, 100);
+  EXPECT_GT(n_nearly_alike, 10);
 }
 
 TEST(eight, a_shell_around_a_ring_has_two_ways_around_each_with_a_layer_too_many) {

@@ -92,18 +92,21 @@ int n_missing(int mask) {
 }
 
 TEST(enclose, a_hex_alone_gets_its_smallest_template_nearby_unless_that_is_too_far) {
-  const Mesh cube = test::grid(1, 1, 1);
-  for (int mask = 0; mask < 256; ++mask)
-    for (Index limit = 0; limit <= 8; ++limit) {
-      std::vector<std::uint8_t> marked(8);
-      for (int c = 0; c < 8; ++c) marked[c] = mask >> c & 1;
-      const Index n_added = close_enclosure_nearby(cube, marked, limit);
-      const int closed = corner_mask(cube.hexes[0], marked);
-      EXPECT_EQ(n_added, n_missing(mask) <= limit ? n_missing(mask) : 0) << mask;
-      EXPECT_EQ(closed & mask, mask);
-      EXPECT_EQ(std::popcount(static_cast<unsigned>(closed ^ mask)), n_added) << mask;
-      EXPECT_EQ(has_enclosing_template(closed), n_missing(mask) <= limit) << mask;
-    }
+  std::mt19937 random(4);
+  for (int numbering = 0; numbering < 20; ++numbering) {
+    const Mesh cube = test::shuffled(test::grid(1, 1, 1), random);
+    for (int mask = 0; mask < 256; ++mask)
+      for (Index limit = 0; limit <= 8; ++limit) {
+        std::vector<std::uint8_t> marked(8);
+        for (int c = 0; c < 8; ++c) marked[cube.hexes[0][c]] = mask >> c & 1;
+        const Index n_added = close_enclosure_nearby(cube, marked, limit);
+        const int closed = corner_mask(cube.hexes[0], marked);
+        EXPECT_EQ(n_added, n_missing(mask) <= limit ? n_missing(mask) : 0) << mask;
+        EXPECT_EQ(closed & mask, mask);
+        EXPECT_EQ(std::popcount(static_cast<unsigned>(closed ^ mask)), n_added) << mask;
+        EXPECT_EQ(has_enclosing_template(closed), n_missing(mask) <= limit) << mask;
+      }
+  }
 }
 
 /// Of the marked corners of a hex without a template those that go first, by the rule.

@@ -307,6 +307,40 @@ std::set<std::array<long, 3>> marked_places(const Mesh& cubes, const CellMarks& 
   return places;
 }
 
+TEST(Levels, cells_around_a_marked_place_are_cut_and_no_others) {
+  constexpr int n_levels = 3;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = test::shuffled(test::grid(2, 2, 2), random);
+    LevelMarks wished(n_levels);
+    for (unsigned i = 0; i <= seed % 4; ++i) {
+      CellPlace place{static_cast<Index>(random() % mesh.hexes.size()), {}};
+      for (Index& at : place.at) at = static_cast<Index>(random() % 9);
+      wished.back().add(number_of(place, 9), static_cast<std::uint8_t>(1U << random() % 8));
+    }
+    normalize(wished.back());
+    LevelMarks expected = wished;
+    for (std::size_t level = n_levels - 1; level > 0; --level) {
+      const auto marked = marked_places(mesh, expected[level], level);
+      const auto n_cells = mesh.n_hexes() * static_cast<CellNumber>(std::pow(n_cell_children, level - 1));
+      for (CellNumber cell = 0; cell < n_cells; ++cell) {
+        CellMarks whole;
+        whole.add(cell);
+        const auto corners = marked_places(mesh, whole, level - 1);  // ascending: the lowest first, the highest last
+        const auto touches = [&](const std::array<long, 3>& place) {
+          bool inside = true;
+          for (int axis = 0; axis < 3; ++axis)
+            inside =
+                inside && 3 * (*corners.begin())[axis] <= place[axis] && place[axis] <= 3 * (*corners.rbegin())[axis];
+          return inside;
+        };
+        if (std::ranges::any_of(marked, touches)) expected[level - 1].add(cell);
+      }
+    }
+    EXPECT_TRUE(graded(wished, mesh.hexes, node_corners(mesh)) == expected) << seed;
+  }
+}
+
 TEST(Levels, marks_on_a_periodic_boundary_get_their_images_and_no_others) {
   const std::array<int, 3> size = {2, 3, 2};
   for (std::size_t level = 0; level < 3; ++level)
