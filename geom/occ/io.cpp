@@ -2,6 +2,7 @@
 // written at a time, and its chatter is kept from the terminal.
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <IGESBasic_Name.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESControl_Writer.hxx>
@@ -27,6 +28,8 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TransferBRep.hxx>
+#include <TransferBRep_ShapeMapper.hxx>
+#include <Transfer_FinderProcess.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_TransferWriter.hxx>
@@ -135,6 +138,26 @@ void collect_names(const STEPControl_Reader& reader, occ::ShapeNames& names) {
   }
 }
 
+// Names of IGES are properties of entities, or labels of eight letters.
+void collect_names(const IGESControl_Reader& reader, const IGESData_IGESModel& model, occ::ShapeNames& names) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(IGESData_IGESEntity) entity = model.Entity(i);
+    if (entity.IsNull() || !entity->HasName()) continue;
+    std::string name = to_string(entity->NameValue());
+    if (!meaningful(name)) continue;
+    name.erase(name.find_last_not_of(' ') + 1);
+    name.erase(0, name.find_first_not_of(' '));  // labels end at the right
+    TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (shape.IsNull()) continue;
+    if (shape.ShapeType() < TopAbs_SOLID) {
+      if (occ::count_solids(shape) != 1) continue;
+      shape = TopExp_Explorer(shape, TopAbs_SOLID).Current();
+    }
+    names.emplace(shape.TShape().get(), name);
+  }
+}
+
 // OpenCASCADE goes on with entities that it could not read and may crash on them.
 void refuse_unreadable_geometry(const STEPControl_Reader& reader, const std::filesystem::path& file) {
   Interface_CheckIterator checks = reader.WS()->ModelCheckList(true);
@@ -185,6 +208,7 @@ Part read_iges(const std::filesystem::path& file) {
   reader.TransferRoots();
   if (reader.NbShapes() == 0) throw Error(file.string() + ": the IGES file holds no shape");
   part.shape = reader.OneShape();
+  if (!model.IsNull()) collect_names(reader, *model, part.names);
   return part;
 }
 
@@ -340,11 +364,23 @@ bool write_step(const std::filesystem::path& file, const OccModel& model, const 
   return writer.Write(file.c_str()) == IFSelect_RetDone;
 }
 
-bool write_iges(const std::filesystem::path& file, const OccModel& model) {
+bool write_iges(const std::filesystem::path& file, const OccModel& model, const occ::Names& names) {
   IGESControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   IGESControl_Writer writer("MM", 1);
   if (!writer.AddShape(model.shape())) return false;
+  const occ::ShapeMaps maps = occ::entity_maps(model.shape());
+  for (std::size_t dim = 0; dim <= 3; ++dim)
+    for (std::size_t id = 1; id < names[dim].size(); ++id) {
+      if (names[dim][id].empty()) continue;
+      Handle(IGESData_IGESEntity) entity;
+      const auto mapper = TransferBRep::ShapeMapper(writer.TransferProcess(), maps[dim](static_cast<int>(id)));
+      if (!writer.TransferProcess()->FindTypedTransient(mapper, STANDARD_TYPE(IGESData_IGESEntity), entity)) continue;
+      const Handle(IGESBasic_Name) property = new IGESBasic_Name();
+      property->Init(1, new TCollection_HAsciiString(names[dim][id].c_str()));
+      entity->AddProperty(property);
+      writer.Model()->AddEntity(property);
+    }
   writer.ComputeModel();
   return writer.Write(file.c_str());
 }
@@ -363,7 +399,7 @@ void write_cad(const std::filesystem::path& file, const Model& model) {
     const std::lock_guard lock(occ_files());
     const Silence silence;
     if (format == CadFormat::step) return write_step(temporary, *occ_model, names);
-    if (format == CadFormat::iges) return write_iges(temporary, *occ_model);
+    if (format == CadFormat::iges) return write_iges(temporary, *occ_model, names);
     std::ofstream out(temporary);
     BRepTools::Write(occ_model->shape(), out);
     out.close();

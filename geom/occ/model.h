@@ -34,7 +34,8 @@ struct CadImport {
 /// Reads .step/.stp, .brep, .iges/.igs (by extension, case ignored; by content where it is missing).
 /// Entity ids: 1-based per kind in the order of TopExp::MapShapes over the shape as read (after gluing, if asked).
 /// Degenerate edges (sphere poles, cone tips) are curves too: of type "degenerate", length 0, range 0..1, one point.
-/// STEP and IGES lengths become millimetres, as OpenCASCADE and Gmsh have it; BREP has no unit. Names come from STEP.
+/// STEP and IGES lengths become millimetres, as OpenCASCADE and Gmsh have it; BREP has no unit.
+/// Names come from STEP, and from IGES those of volumes and surfaces (properties, or labels of eight letters).
 /// A file without solids whose faces close is sewed into solids, with a notice.
 /// Throws Error naming the file when it is missing, unreadable, truncated, damaged, empty or has no solid, and, behind
 /// a fence, when reading it crashes or exceeds the limits.

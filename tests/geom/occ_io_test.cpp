@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "geom/occ_shapes.h"
+#include "hextwist/geom/renumbered_model.h"
 #include "support/analytic_model.h"
 #include "support/grids.h"
 
@@ -242,6 +243,24 @@ TEST(occ_files, instances_of_a_STEP_file_may_have_any_number_that_fits) {
   const std::string wrong = refusal(shifted(2147483600));
   EXPECT_EQ(wrong.substr(0, wrong.find("#")),
             "the STEP file has an instance number beyond 2147483647, the last that can be read: ");
+}
+
+TEST(occ_files, names_of_volumes_and_surfaces_go_through_IGES) {
+  const auto folder = test::output_folder();
+  const auto brick = OccShape::brick(1, 2, 3).import().model;
+  std::vector<std::pair<Owner, std::string>> names = {{{3, 1}, "body of all"}};
+  for (int id = 1; id <= 6; ++id) names.emplace_back(Owner{2, id}, "side " + std::to_string(id));
+  const auto named = renamed(brick, names);
+  write_cad(folder / "named.iges", *named);
+  const auto read = read_cad(folder / "named.iges").model;
+  EXPECT_EQ(read->name({3, 1}), "body of all");
+  for (int id = 1; id <= 6; ++id) {
+    const std::string name = read->name({2, id});
+    ASSERT_EQ(name.substr(0, 5), "side ");
+    const Box was = named->box({2, std::stoi(name.substr(5))});
+    const Box is = read->box({2, id});
+    EXPECT_LT((was.min - is.min).norm() + (was.max - is.max).norm(), 1e-6) << name;
+  }
 }
 
 TEST(occ_files, nothing_is_printed_by_reading_good_or_bad_files) {
